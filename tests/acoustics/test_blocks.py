@@ -24,19 +24,28 @@ def test_transform_against_numpy(block):
     x = np.random.default_rng(1).standard_normal((2 * block, n))
     angle = np.pi * np.arange(block + 1) / block
     turns = np.concatenate([np.cos(angle), np.sin(angle)])
-    z = np.zeros((block, 2, n))
-    for k in range(block):
-        z[transform.reversed_bits(k, block)] = x[2 * k : 2 * k + 2]
+    z = np.zeros((block + 1, 2, n))
+    for k in range(block // 2):  # the first stage is done with the copy
+        place = 2 * transform.reversed_bits(k, block // 2)
+        first, second = x[2 * k : 2 * k + 2], x[2 * k + block : 2 * k + block + 2]
+        z[place], z[place + 1] = first + second, first - second
     flat = z.ravel()
-    transform.butterflies(flat, n, block, turns, -1.0)
-    spectrum = np.zeros((block + 1) * 2 * n)
-    transform.unfold(flat, n, block, turns, spectrum)
-    found = spectrum.reshape(block + 1, 2, n)
+    in_pieces(transform.combine, flat, n, block, turns)
+    in_pieces(transform.unfold, flat, n, block, turns)
     expected = np.fft.rfft(x, axis=0)
-    assert np.max(np.abs(found[:, 0] + 1j * found[:, 1] - expected)) < 1e-13 * np.abs(expected).max()
-    transform.fold(spectrum, n, block, turns, flat)
-    transform.butterflies(flat, n, block, turns, 1.0)
-    assert np.max(np.abs(flat.reshape(2 * block, n) / block - x)) < 1e-13
+    assert np.max(np.abs(z[:, 0] + 1j * z[:, 1] - expected)) < 1e-13 * np.abs(expected).max()
+    in_pieces(transform.fold, flat, n, block, turns)
+    in_pieces(transform.divide, flat, n, block, turns)
+    for k in range(block // 2):  # of the last stage only what the blocks need: the second half
+        place = 2 * transform.reversed_bits(k, block // 2)
+        found = (z[place] - z[place + 1]) / block
+        assert np.max(np.abs(found - x[block + 2 * k : block + 2 * k + 2])) < 1e-13
+
+
+def in_pieces(kernel, *arguments):
+    """One unit, none, seven, and all others, more than there are."""
+    for begin, end in ((0, 1), (1, 1), (1, 8), (8, 1000)):
+        kernel(*arguments, begin, end)
 
 
 def lengths_of(ps):
@@ -125,9 +134,10 @@ def test_sound_that_no_filter_follows_is_refused_in_words(ringing):
         build("bem", SMALL, Air(), PAPER_POINTS)
 
 
-def test_blocks_beyond_the_kernels_room_are_refused():
-    with pytest.raises(ValueError, match="blocks of 1024 samples are too long: 512 at most"):
-        build("compact", SMALL, Air(), PAPER_POINTS, lengths=(1024,))
+@pytest.mark.parametrize("length", [4, 1024])
+def test_blocks_beyond_the_kernels_room_are_refused(length):
+    with pytest.raises(ValueError, match=f"blocks of {length} samples: 8 to 512 are possible"):
+        build("compact", SMALL, Air(), PAPER_POINTS, lengths=(length,))
 
 
 @pytest.mark.parametrize("lengths", [(), (16,), (16, 128)])
@@ -166,17 +176,22 @@ def test_parts_hold_every_lag_once():
     bank = blocks.Bank(4, 21, taps, (0, 1, 2))
     for lengths in LENGTHS:
         total = np.zeros((2048, 3))
-        direct = blocks.head(bank, lengths)
+        served = blocks.spans([bank], lengths, 3)
+        direct = blocks.head(bank, served)
         total[21 : 21 + len(direct)] += direct
-        for block, low, high in blocks.spans(lengths):
-            for found in blocks.filters([bank], block, low, high):
+        for span in served:
+            assert span.low >= span.block
+            given = blocks.filters([bank], span)
+            jobs = [job for some in blocks.jobs(given, span, 3) for job in some]
+            for found in (one for job in jobs for one in job.filters):
                 column = found.lane - 4
                 lags = np.fft.irfft(found.spectra[:, 0] + 1j * found.spectra[:, 1], axis=1)
-                assert found.output == column and found.first >= 1
-                assert (found.first + found.count - 1) * block < (81 if column == 1 else 521)
+                assert found.output == column and found.first >= 0
+                last = span.low + (found.first + found.count - 1) * span.block
+                assert last < (81 if column == 1 else 521)
                 for part, rows in enumerate(lags):
-                    begin = (found.first + part) * block
-                    total[begin : begin + 2 * block, column] += rows
+                    begin = span.low + (found.first + part) * span.block
+                    total[begin : begin + 2 * span.block, column] += rows
         assert np.max(np.abs(total[21:521] - taps)) < 1e-13
         total[21:521] = 0.0
         assert np.max(np.abs(total)) < 1e-13

@@ -4,6 +4,7 @@
 ``fir``        the decimator, and filters fitted to transfer functions
 ``weighting``  A-weighting, third octaves, levels
 ``blocks``     direct form or convolution by blocks, whichever costs less
+``shares``     what the work on a block costs, and which samples do it
 ``pack``       lays everything flat for the engine
 ``design``     from a scene to the engine's block; how well filters follow
 =============  ==============================================================================

@@ -312,14 +312,14 @@ def build(
     thirds
         Whether third octaves are.
     lengths
-        Block lengths of the convolution (powers of two up to 512, ascending); empty: direct form; default:
-        the cheapest.
+        Block lengths of the convolution (powers of two from 8 to 512, ascending); empty: direct form;
+        default: the cheapest.
 
     Raises
     ------
     ValueError
-        On another radiation model, a microphone inside a body, a block that is too long, or a filter that
-        misses its transfer function by more than -30 dB.
+        On another radiation model, a microphone inside a body, a block length that is not possible, or a
+        filter that misses its transfer function by more than -30 dB.
     """
     radiation = Radiation(model, radiators, air, harmonics, tuple(modes), plane, table)
     return _block(radiation, microphones, details=details, thirds=thirds, lengths=lengths)

@@ -8,7 +8,22 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.filters.blocks import Bank, Wire, choose, filters, head, segments, spans, wired
+from fmu_bearing.acoustics.filters import shares
+from fmu_bearing.acoustics.filters.blocks import (
+    LONGEST,
+    SHORTEST,
+    Bank,
+    Job,
+    Span,
+    Wire,
+    choose,
+    filters,
+    head,
+    jobs,
+    segments,
+    spans,
+    wired,
+)
 from fmu_bearing.acoustics.filters.fir import decimator_stages, outer_taps
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_gains
 from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
@@ -109,14 +124,15 @@ def pack(
     Raises
     ------
     ValueError
-        When a block is longer than 512 samples.
+        When a block is shorter than 8 or longer than 512 samples.
     """
     channels = radiation.channels
     banks, order = wired(wires, channels)
     if lengths is None:
         lengths = choose(banks, len(sources))
-    if max(lengths, default=0) >= SD.MAX_FREQUENCIES:
-        raise ValueError(f"blocks of {max(lengths)} samples are too long: 512 at most")
+    for length in lengths:
+        if not SHORTEST <= length <= LONGEST:
+            raise ValueError(f"blocks of {length} samples: {SHORTEST} to {LONGEST} are possible")
     block = _Block()
     found = block.head
     found[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
@@ -155,11 +171,12 @@ def pack(
         found[SD.H_AT_BOUNDS] = block.put(_bounds(groups, lines, channels))
         _place_lines(block, lines)
         return block.flat()
-    deepest = _put_banks(block, banks, lengths)
-    rows, slots = _put_spans(block, banks, lengths)
+    served = spans(banks, lengths, len(sources))
+    deepest = _put_banks(block, banks, served)
+    rows, slots = _put_spans(block, banks, served)
     found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
     _place_state(block, rows, slots)
-    _place_work(block, rows)
+    _place_work(block)
     return block.flat()
 
 
@@ -212,12 +229,12 @@ def _put_groups(block: _Block, groups: Sequence[Members], lines: Lines | None) -
     block.head[SD.H_AT_ORDER] = block.put(order)
 
 
-def _put_banks(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> int:
+def _put_banks(block: _Block, banks: Sequence[Bank], served: Sequence[Span]) -> int:
     """Put the direct parts of all banks; return how much history they need."""
     rows = []
     deepest = 1
     for bank in banks:
-        direct = head(bank, lengths)
+        direct = head(bank, served)
         if len(direct):
             deepest = max(deepest, bank.delay + len(direct))
         place = block.put(direct)
@@ -229,26 +246,44 @@ def _put_banks(block: _Block, banks: Sequence[Bank], lengths: Sequence[int]) -> 
 
 
 def _put_spans(
-    block: _Block, banks: Sequence[Bank], lengths: Sequence[int]
+    block: _Block, banks: Sequence[Bank], served: Sequence[Span]
 ) -> tuple[list[list[int]], list[list[int]]]:
-    """Put the filters of every block length; return each span's row, begun, and its lanes' slots."""
+    """Put the jobs of every span; return each span's row, begun, and its lanes' slots."""
     found = []
     slots = []
-    for span in spans(lengths):
-        served = filters(banks, *span)
-        runs = segments(one.lane for one in served)
+    outputs = int(block.head[SD.H_OUTPUTS])
+    for span in served:
+        given = filters(banks, span)
+        runs = segments(one.lane for one in given)
         lanes = [lane for first, count in runs for lane in range(first, first + count)]
+        length = span.block
+        now, then = jobs(given, span, outputs)
         rows = [
-            [lanes.index(one.lane), one.output, one.first, one.count, block.put(one.spectra)]
-            for one in served
+            [SD.sums_place(job.output, length), job.adds, len(job.filters)]
+            + [block.put(_filter_rows(block, job, lanes))]
+            for job in (*now, *then)
         ]
-        slots.append([max(one.first + one.count - 1 for one in served if one.lane == lane) for lane in lanes])
-        turns = np.pi * np.arange(span[0] + 1) / span[0]
+        early = shares.early(length, len(lanes), outputs, [job.parts for job in now])
+        late = shares.late(length, [job.parts for job in then])
+        units = shares.first_units(early, late, length, span.wait)
+        turns = np.pi * np.arange(length + 1) / length
         found.append(
-            [span[0], len(lanes), len(runs), block.put(runs), len(rows), block.put(rows)]
+            [length, span.wait, length.bit_length() - 1, len(lanes), len(runs), block.put(runs)]
+            + [len(rows), block.put(rows), len(early), block.put(units)]
             + [block.put([np.cos(turns), np.sin(turns)])]
         )
+        slots.append(
+            [max(1, *(one.first + one.count - 1 for one in given if one.lane == lane)) for lane in lanes]
+        )
     return found, slots
+
+
+def _filter_rows(block: _Block, job: Job, lanes: Sequence[int]) -> list[list[int]]:
+    """Put the spectra of a job's filters; return these, of a span that transforms ``lanes``."""
+    return [
+        [lanes.index(one.lane), max(one.first - 1, 0), one.count, block.put(one.spectra)]
+        for one in job.filters
+    ]
 
 
 def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[int]]) -> None:
@@ -273,7 +308,10 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
     for row, counts in zip(rows, slots, strict=True):
         length = row[SD.SPAN_BLOCK]
         lanes = [[count, room(count * 2 * (length + 1))] for count in counts]
-        complete.append([*row, block.put(lanes), room(length * found[SD.H_OUTPUTS])])
+        outputs = int(found[SD.H_OUTPUTS])
+        transform = room(2 * (length + 1) * max(len(lanes), outputs))
+        sums = room(SD.sums_place(outputs - 1, length) + SD.MAX_FREQUENCIES + length + 1)
+        complete.append([*row, block.put(lanes), transform, sums, room(length * outputs)])
     found[SD.H_AT_SPANS] = block.put(complete)
     found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])
     found[SD.H_S_METERS] = room(SD.METERS * mics)
@@ -338,24 +376,21 @@ def _place_lines(block: _Block, lines: Lines) -> None:
     found[SD.H_WORK] = end
 
 
-def _place_work(block: _Block, served: Sequence[list[int]]) -> None:
+def _place_work(block: _Block) -> None:
     """Give every part of the work space its place; the decimated row is first, then the channels."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
     # of the balls' harmonics: sums and multiples
     rows = SD.FAMILIES * SD.FAMILY_ROWS + found[SD.H_BALL_LANES]
     scratch = [2 * int(found[SD.H_HARMONICS] * rows), SD.BAND_LANES]
-    for row in served:
-        length, lanes = row[SD.SPAN_BLOCK], row[SD.SPAN_LANES]
-        scratch.append((4 * length + 2) * max(lanes, outputs))
     end = int(found[SD.H_RAW]) + channels
     for place, size in (
         (SD.H_W_OUTPUTS, outputs),
-        (SD.H_W_LANES, max(SD.MAX_CHANNELS, 2 * SD.MAX_FREQUENCIES)),
+        (SD.H_W_LANES, SD.MAX_CHANNELS),
         (SD.H_W_WEIGHTED, int(found[SD.H_LANES])),
         (SD.H_W_SOURCES, int(found[SD.H_SOURCES]) * mics),
         (SD.H_W_METERS, SD.METERS * mics),
-        (SD.H_W_TRANSFORM, max(scratch)),
+        (SD.H_W_SCRATCH, max(scratch)),
     ):
         found[place] = end
         end += size

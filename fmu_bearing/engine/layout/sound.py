@@ -14,8 +14,9 @@
   sample first; then runs, ``RUN_SIZE`` numbers each: neighbouring lanes that add to one output;
 * spans of lags that the convolution by blocks serves with one block length, ``SPAN_SIZE`` numbers each, with
   their tables of cosines and sines, their segments (``SEGMENT_SIZE`` numbers: the lanes they transform), what
-  they keep of each lane (``PAST_SIZE`` numbers) and their filters, ``FILTER_SIZE`` numbers each, in the order
-  of their outputs, with the spectra of their parts: part, real then imaginary, frequency;
+  they keep of each lane (``PAST_SIZE`` numbers), the shares of a block's samples in its work, their jobs
+  (``JOB_SIZE`` numbers: products that add to one output) and the filters of these, ``FILTER_SIZE`` numbers
+  each, with the spectra of their parts: part, real then imaginary, frequency;
 * sources, ``SOURCE_SIZE`` numbers each, and the source of each output;
 * groups of microphones, ``GROUP_SIZE`` numbers each, with weights: one row of microphones per output;
 * for each microphone of the scene its lane: microphones of a group lie side by side.
@@ -116,7 +117,7 @@ H_W_LANES = _head()  # of one bank
 H_W_WEIGHTED = _head()
 H_W_SOURCES = _head()
 H_W_METERS = _head()
-H_W_TRANSFORM = _head()
+H_W_SCRATCH = _head()
 # sizes
 H_STATE = _head()  # of ss
 H_WORK = _head()  # of ws
@@ -143,7 +144,7 @@ A_SECTIONS = 3  # of A-weighting
 BAND_SECTIONS = 4  # of a third octave
 
 MAX_CHANNELS = 256  # side by side in one bank
-MAX_FREQUENCIES = 520  # of one block, 512 samples long: real and imaginary sums lie this far apart
+MAX_FREQUENCIES = 520  # of one block, 512 samples long; real and imaginary sums lie this far apart
 
 _bank = Places()
 BANK_LANE = _bank()  # first lane
@@ -162,13 +163,19 @@ RUN_SIZE = _run.next
 
 _span = Places()
 SPAN_BLOCK = _span()  # samples: block length
+SPAN_WAIT = _span()  # samples from the end of a block of inputs until the outputs it serves begin
+SPAN_STAGES = _span()  # number of the transform's stages: the block length is 2 to this power
 SPAN_LANES = _span()  # number of lanes transformed
 SPAN_SEGMENTS = _span()  # number of segments
 SPAN_AT_SEGMENTS = _span()
-SPAN_FILTERS = _span()  # number of filters
-SPAN_AT_FILTERS = _span()
+SPAN_JOBS = _span()  # number of jobs: one of the first parts of each output, then the others
+SPAN_AT_JOBS = _span()
+SPAN_EARLY = _span()  # number of early units: transforms and first parts
+SPAN_AT_SHARES = _span()  # per sample of a block the first unit of its work, then the number of units
 SPAN_AT_TURNS = _span()  # cosines, then sines
 SPAN_AT_PAST = _span()  # spectra of past inputs: PAST_SIZE numbers per lane
+SPAN_S_TRANSFORM = _span()  # in ss: the transform under way
+SPAN_S_SUMS = _span()  # in ss: spectra of the next outputs, see `sums_place`
 SPAN_S_FUTURE = _span()  # in ss: the next block of outputs
 SPAN_SIZE = _span.next
 
@@ -178,14 +185,20 @@ SEGMENT_COUNT = _segment()  # number of lanes
 SEGMENT_SIZE = _segment.next
 
 _past = Places()
-PAST_SLOTS = _past()  # blocks of inputs: as many as the lane's longest filter has parts behind its first lag
+PAST_SLOTS = _past()  # blocks of inputs: as many as the lane's longest filter still needs
 PAST_S_SPECTRA = _past()  # in ss: slot, real then imaginary, frequency
 PAST_SIZE = _past.next
 
+_job = Places()
+JOB_SUMS = _job()  # place of its output among the span's sums
+JOB_ADDS = _job()  # switch: to the sums of the jobs before; off: these begin
+JOB_FILTERS = _job()  # number of filters
+JOB_AT_FILTERS = _job()
+JOB_SIZE = _job.next
+
 _filter = Places()
 FILTER_LANE = _filter()  # of the span
-FILTER_OUTPUT = _filter()
-FILTER_FIRST = _filter()  # first part
+FILTER_BACK = _filter()  # blocks from the newest one back to that of its first part
 FILTER_COUNT = _filter()  # number of parts
 FILTER_AT = _filter()  # spectra of the parts
 FILTER_SIZE = _filter.next
@@ -384,6 +397,12 @@ M_ENERGY = _Z.MIC_OUTPUTS.index("spl_energy_sum")  # Pa2: energy sum over the co
 M_KIND = _Z.MIC_OUTPUTS.index("spl_radial")  # Pa2: source types but the kind "balls", which is a component
 METERS = _Z.PER_MIC
 PLAIN = M_FAST  # meters that every scene has
+
+
+def sums_place(output: int, block: int) -> int:
+    """Place of an output's real sums in those of a span: as many as there is room for, then the imaginary."""
+    side = MAX_FREQUENCIES // (block + 1)
+    return output // side * 2 * MAX_FREQUENCIES + output % side * (block + 1)
 
 
 def state_size(ps) -> int:

@@ -47,9 +47,9 @@ def form(ps, ws, x, turns, out):
         for c in range(len(out)):
             out[c] = x[c]
     elif chosen == CONTACTS:
-        _form_contacts(ps, x, turns, ws[int(ps[SD.H_W_TRANSFORM]) :], out)
+        _form_contacts(ps, x, turns, ws[int(ps[SD.H_W_SCRATCH]) :], out)
     else:
-        _form_accelerations(ps, x, turns, ws[int(ps[SD.H_W_TRANSFORM]) :], out)
+        _form_accelerations(ps, x, turns, ws[int(ps[SD.H_W_SCRATCH]) :], out)
 
 
 @kernel

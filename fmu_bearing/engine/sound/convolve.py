@@ -4,17 +4,20 @@ The direct form takes one sum per tap. The blocks are uniformly partitioned over
 (Stockham 1966; partitions: Kulp 1988): every B samples the last 2 B of all channels with long filters are
 transformed once, multiplied by the spectra of all filters' parts, and the sums transformed back into the
 next B samples of every output. Spectra lie one behind the other, so that each product is one vector loop
-over frequencies and every filter has as many parts as its own length asks for. A part of lags p B ..
-(p + 1) B - 1 needs p >= 1, so that its input is complete when its output begins: shorter lags go by the
-direct form (Gardner 1995), and nothing comes later than without blocks. Up to
-two block lengths share one filter, the longer for the later lags.
+over frequencies and every filter has as many parts as its own length asks for. Up to two block lengths share
+one filter, the longer for the later lags.
 
-The work of a block falls on its first sample: one sample in B costs up to about B times the mean.
+The work on a block of inputs is spread over the B samples that follow, in units of which every fourth sample
+does its share (`acoustics.filters.shares`). First come the early units: the transforms and the products of
+every filter's first part. The outputs need these `SPAN_WAIT` samples after the block's end, so a span serves
+the lags from B + `SPAN_WAIT` on; shorter lags go by the direct form (Gardner 1995) or by the shorter blocks,
+and nothing comes later than without blocks. Then come the late units: the products of all other parts, for
+the block of outputs after the next. Without a wait the early units fall on one sample.
 """
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, SD
-from fmu_bearing.engine.sound.transform import butterflies, fold, reversed_bits, unfold
+from fmu_bearing.engine.sound.transform import combine, divide, fold, reversed_bits, unfold
 
 
 @kernel
@@ -33,12 +36,16 @@ def convolve(ps, ss, ws, place, count):
         at = int(ps[SD.H_AT_SPANS]) + SD.SPAN_SIZE * span
         block = int(ps[at + SD.SPAN_BLOCK])
         step = count % block
-        if step == 0 and count > 0:
-            _renew(ps, ss, ws, at, place, count // block - 1)
-        future = int(ps[at + SD.SPAN_S_FUTURE]) + step * n_out
-        row = ss[future : future + n_out]
+        share = int(ps[at + SD.SPAN_AT_SHARES]) + step
+        if count >= block and ps[share] < ps[share + 1]:
+            _work(ps, ss, at, place - step, count // block - 1, int(ps[share]), int(ps[share + 1]))
+        row = step - int(ps[at + SD.SPAN_WAIT])
+        if row < 0:
+            row += block
+        future = int(ps[at + SD.SPAN_S_FUTURE]) + row * n_out
+        y = ss[future : future + n_out]
         for i in range(n_out):
-            out[i] += row[i]
+            out[i] += y[i]
 
 
 @kernel
@@ -101,103 +108,210 @@ def _direct(ps, ss, ws, at, place, out):
 
 
 @kernel
-def _renew(ps, ss, ws, at, place, newest):
-    """Transform the block of inputs that has just become complete, number ``newest``; fill the next outputs.
+def _work(ps, ss, at, place, newest, begin, end):
+    """Do the units ``begin`` .. ``end`` - 1 on block ``newest``, whose inputs end before row ``place``."""
+    early = int(ps[at + SD.SPAN_EARLY])
+    if begin < early:
+        _transform(ps, ss, at, place, newest, begin, min(end, early))
+    jobs = int(ps[SD.H_OUTPUTS]) - early  # late ones come behind those of every output
+    for unit in range(max(begin, early), end):
+        _add_filters(ps, ss, at, jobs + unit, newest)
 
-    ``place`` is the history's row of the sample after that block.
+
+@kernel
+def _transform(ps, ss, at, place, newest, begin, end):
+    """Do early units: the transform, the products of first parts, and the transform back.
+
+    Each of their kinds is counted from its own first one on.
     """
     n = int(ps[at + SD.SPAN_LANES])
     n_out = int(ps[SD.H_OUTPUTS])
     block = int(ps[at + SD.SPAN_BLOCK])
+    half = block // 2
+    stages = half * (int(ps[at + SD.SPAN_STAGES]) - 1)
     table = int(ps[at + SD.SPAN_AT_TURNS])
     turns = ps[table : table + 2 * (block + 1)]
-    work = int(ps[SD.H_W_TRANSFORM])
-    past = int(ps[at + SD.SPAN_AT_PAST])
-    rows = block + 1
-    z = ws[work : work + 2 * block * n]
-    x = ws[work + 2 * block * n : work + 2 * (block + rows) * n]
-    _gather(ps, ss, at, place, z)
-    butterflies(z, n, block, turns, -1.0)
-    unfold(z, n, block, turns, x)
-    for lane in range(n):
-        slot = newest % int(ps[past + SD.PAST_SLOTS])
-        first = int(ps[past + SD.PAST_S_SPECTRA]) + 2 * rows * slot
-        spectrum = ss[first : first + 2 * rows]
-        for k in range(rows):
-            spectrum[k] = x[2 * n * k + lane]
-            spectrum[rows + k] = x[2 * n * k + n + lane]
-        past += SD.PAST_SIZE
-    total = ws[work : work + 2 * rows * n_out]
-    _multiply(ps, ss, ws, at, newest, total)
-    z = ws[work + len(total) : work + len(total) + 2 * block * n_out]
-    fold(total, n_out, block, turns, z)
-    butterflies(z, n_out, block, turns, 1.0)
-    future = int(ps[at + SD.SPAN_S_FUTURE])
-    scale = 1.0 / block
-    half = block // 2
-    after = z[half * 2 * n_out :]  # the second half of the circle is free of wrapped samples
-    rows_out = ss[future : future + block * n_out]
-    for i in range(len(rows_out)):
-        rows_out[i] = scale * after[i]
+    work = int(ps[at + SD.SPAN_S_TRANSFORM])
+    z = ss[work : work + 2 * (block + 1) * max(n, n_out)]
+    lanes = (n + FOUR - 1) // FOUR
+    outputs = (n_out + FOUR - 1) // FOUR
+    if begin < half:
+        _gather(ps, ss, at, place, z, begin, min(end, half))
+    first = half
+    if begin < first + stages and end > first:
+        combine(z, n, block, turns, begin - first, end - first)
+    first += stages
+    if begin <= first + half and end > first:
+        unfold(z, n, block, turns, begin - first, end - first)
+    first += half + 1
+    if begin < first + lanes and end > first:
+        _keep(ps, ss, at, newest, z, begin - first, end - first)
+    first += lanes
+    if begin < first + outputs and end > first:
+        _finish(ps, ss, at, newest, z, begin - first, end - first)
+    first += outputs
+    if begin <= first + half and end > first:
+        fold(z, n_out, block, turns, begin - first, end - first)
+    first += half + 1
+    if begin < first + stages and end > first:
+        divide(z, n_out, block, turns, begin - first, end - first)
+    first += stages
+    if end > first:
+        _put(ps, ss, at, z, begin - first, end - first)
 
 
 @kernel
-def _gather(ps, ss, at, place, z):
-    """Copy the span's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order."""
+def _gather(ps, ss, at, place, z, begin, end):
+    """Copy the span's lanes of the last two blocks before row ``place`` to ``z``, in bit-reversed order.
+
+    The transform's first stage is done with it: the two rows that it combines are one block apart. Units:
+    samples two by two.
+    """
     n = int(ps[at + SD.SPAN_LANES])
     block = int(ps[at + SD.SPAN_BLOCK])
-    segments = int(ps[at + SD.SPAN_AT_SEGMENTS])
+    half = block // 2
+    wide = 2 * n
+    first = int(ps[at + SD.SPAN_AT_SEGMENTS])
     channels = int(ps[SD.H_S_CHANNELS])
     width = int(ps[SD.H_CHANNELS])
     rows = int(ps[SD.H_ROWS])
-    row = place - 2 * block
-    if row < 0:
-        row += rows
-    for k in range(block):
-        to = reversed_bits(k, block) * 2 * n
-        for _ in range(2):
-            for segment in range(int(ps[at + SD.SPAN_SEGMENTS])):
-                run = segments + SD.SEGMENT_SIZE * segment
-                lane = channels + row * width + int(ps[run + SD.SEGMENT_LANE])
-                count = int(ps[run + SD.SEGMENT_COUNT])
-                x = ss[lane : lane + count]
-                y = z[to : to + count]
-                for c in range(count):
-                    y[c] = x[c]
-                to += count
-            row = row + 1 if row < rows - 1 else 0
+    for k in range(begin, end):
+        to = 2 * reversed_bits(k, half) * wide
+        for part in range(2):
+            p = channels + (place - 2 * block + 2 * k + part + 2 * rows) % rows * width
+            q = channels + (place - block + 2 * k + part + 2 * rows) % rows * width
+            run = first
+            for _ in range(int(ps[at + SD.SPAN_SEGMENTS])):
+                lane = int(ps[run + SD.SEGMENT_LANE])
+                m = int(ps[run + SD.SEGMENT_COUNT])
+                run += SD.SEGMENT_SIZE
+                a = ss[p + lane : p + lane + m]
+                b = ss[q + lane : q + lane + m]
+                x = z[to : to + m]
+                y = z[to + wide : to + wide + m]
+                for c in range(m):
+                    x[c] = a[c] + b[c]
+                for c in range(m):
+                    y[c] = a[c] - b[c]
+                to += m
 
 
 @kernel
-def _multiply(ps, ss, ws, at, newest, total):
-    """Write the outputs' spectra ``total``: the sums over all filters of the span at ``ps[at]``.
+def _keep(ps, ss, at, newest, z, begin, end):
+    """Copy the spectra in ``z`` to what is kept of block ``newest``; units: lanes four by four."""
+    n = int(ps[at + SD.SPAN_LANES])
+    rows = int(ps[at + SD.SPAN_BLOCK]) + 1
+    last = FOUR - 1
+    for lane in range(FOUR * max(begin, 0), min(FOUR * end, n), FOUR):
+        if lane + FOUR > n:
+            for left in range(lane, n):
+                p0 = _slot(ps, at, left, newest, rows)
+                for k in range(rows):
+                    ss[p0 + k] = z[2 * n * k + left]
+                    ss[p0 + rows + k] = z[2 * n * k + n + left]
+            return
+        p0 = _slot(ps, at, lane, newest, rows)
+        p1 = _slot(ps, at, lane + 1, newest, rows)
+        p2 = _slot(ps, at, lane + 2, newest, rows)
+        p3 = _slot(ps, at, lane + last, newest, rows)
+        for k in range(rows):
+            x = z[2 * n * k + lane :]
+            ss[p0 + k] = x[0]
+            ss[p1 + k] = x[1]
+            ss[p2 + k] = x[2]
+            ss[p3 + k] = x[last]
+            ss[p0 + rows + k] = x[n]
+            ss[p1 + rows + k] = x[n + 1]
+            ss[p2 + rows + k] = x[n + 2]
+            ss[p3 + rows + k] = x[n + last]
 
-    ``newest`` is the number of the block that has just been transformed. Slots not yet filled are silent.
+
+@kernel
+def _slot(ps, at, lane, newest, rows):
+    """Place of the spectrum of block ``newest`` of a lane."""
+    past = int(ps[at + SD.SPAN_AT_PAST]) + SD.PAST_SIZE * lane
+    return int(ps[past + SD.PAST_S_SPECTRA]) + 2 * rows * (newest % int(ps[past + SD.PAST_SLOTS]))
+
+
+@kernel
+def _put(ps, ss, at, z, begin, end):
+    """Write the next outputs: the last stage of the transform back, for what has not wrapped round.
+
+    Units: samples two by two. The rows of ``z`` are bit-reversed.
     """
+    wide = 2 * int(ps[SD.H_OUTPUTS])
     block = int(ps[at + SD.SPAN_BLOCK])
-    n_out = int(ps[SD.H_OUTPUTS])
-    n_filters = int(ps[at + SD.SPAN_FILTERS])
-    rows = block + 1
-    row = int(ps[at + SD.SPAN_AT_FILTERS])
-    y = ws[int(ps[SD.H_W_LANES]) : int(ps[SD.H_W_LANES]) + 2 * SD.MAX_FREQUENCIES]
-    left = n_filters
-    for output in range(n_out):
+    half = block // 2
+    scale = 1.0 / block
+    future = int(ps[at + SD.SPAN_S_FUTURE])
+    for k in range(max(begin, 0), end):
+        p = 2 * reversed_bits(k, half) * wide
+        q = p + wide
+        a = z[p:q]
+        b = z[q : q + wide]
+        y = ss[future + wide * k : future + wide * (k + 1)]
+        for i in range(wide):
+            y[i] = scale * (a[i] - b[i])
+
+
+@kernel
+def _finish(ps, ss, at, newest, z, begin, end):
+    """Spectra of outputs, written to ``z``: what is prepared, and the first parts with block ``newest``.
+
+    Units: outputs four by four.
+    """
+    n = int(ps[SD.H_OUTPUTS])
+    rows = int(ps[at + SD.SPAN_BLOCK]) + 1
+    gap = SD.MAX_FREQUENCIES
+    last = FOUR - 1
+    for output in range(FOUR * max(begin, 0), min(FOUR * end, n), FOUR):
+        if output + FOUR > n:
+            for left in range(output, n):
+                y0 = _add_filters(ps, ss, at, left, newest)
+                for k in range(rows):
+                    z[2 * n * k + left] = y0[k]
+                    z[2 * n * k + n + left] = y0[gap + k]
+            return
+        y0 = _add_filters(ps, ss, at, output, newest)
+        y1 = _add_filters(ps, ss, at, output + 1, newest)
+        y2 = _add_filters(ps, ss, at, output + 2, newest)
+        y3 = _add_filters(ps, ss, at, output + last, newest)
+        for k in range(rows):
+            x = z[2 * n * k + output :]
+            x[0] = y0[k]
+            x[1] = y1[k]
+            x[2] = y2[k]
+            x[last] = y3[k]
+            x[n] = y0[gap + k]
+            x[n + 1] = y1[gap + k]
+            x[n + 2] = y2[gap + k]
+            x[n + last] = y3[gap + k]
+
+
+@kernel
+def _add_filters(ps, ss, at, job, newest):
+    """Add parts with blocks up to ``newest`` to the sums of an output, and return these.
+
+    Slots not yet filled are silent.
+    """
+    row = int(ps[at + SD.SPAN_AT_JOBS]) + SD.JOB_SIZE * job
+    rows = int(ps[at + SD.SPAN_BLOCK]) + 1
+    sums = int(ps[at + SD.SPAN_S_SUMS]) + int(ps[row + SD.JOB_SUMS])
+    y = ss[sums : sums + SD.MAX_FREQUENCIES + rows]
+    if ps[row + SD.JOB_ADDS] == 0.0:
         for k in range(rows):
             y[k] = 0.0
             y[SD.MAX_FREQUENCIES + k] = 0.0
-        while left > 0 and int(ps[row + SD.FILTER_OUTPUT]) == output:
-            past = int(ps[at + SD.SPAN_AT_PAST]) + SD.PAST_SIZE * int(ps[row + SD.FILTER_LANE])
-            slots = int(ps[past + SD.PAST_SLOTS])
-            spectra = int(ps[past + SD.PAST_S_SPECTRA])
-            slot = newest % slots + 1 - int(ps[row + SD.FILTER_FIRST])
-            if slot < 0:
-                slot += slots
-            _add_parts(ps, ss, y, row, spectra, slot, slots, rows)
-            row += SD.FILTER_SIZE
-            left -= 1
-        for k in range(rows):
-            total[2 * n_out * k + output] = y[k]
-            total[2 * n_out * k + n_out + output] = y[SD.MAX_FREQUENCIES + k]
+    one = int(ps[row + SD.JOB_AT_FILTERS])
+    for _ in range(int(ps[row + SD.JOB_FILTERS])):
+        past = int(ps[at + SD.SPAN_AT_PAST]) + SD.PAST_SIZE * int(ps[one + SD.FILTER_LANE])
+        slots = int(ps[past + SD.PAST_SLOTS])
+        slot = newest % slots - int(ps[one + SD.FILTER_BACK])
+        if slot < 0:
+            slot += slots
+        _add_parts(ps, ss, y, one, int(ps[past + SD.PAST_S_SPECTRA]), slot, slots, rows)
+        one += SD.FILTER_SIZE
+    return y
 
 
 @kernel

@@ -11,7 +11,7 @@ _STATES = SD.SECTION_STATES * _L
 @kernel
 def update(ps, ss, ws, pressures, fraction):
     """Move all bands by one sample of the pressures at ``ws[pressures]``; means by ``fraction``."""
-    scratch = int(ps[SD.H_W_TRANSFORM])
+    scratch = int(ps[SD.H_W_SCRATCH])
     x = ws[scratch : scratch + _L]
     for mic in range(int(ps[SD.H_MICS])):
         at = int(ps[SD.H_S_BANDS]) + SD.BAND_SIZE * mic

@@ -5,14 +5,18 @@ import pathlib
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import SD, P
+from fmu_bearing.arrays import Arrays
+from fmu_bearing.engine.layout import SD, SP, P, S, U
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
+from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.read import with_fidelity
 from tests.spindle.test_sound import pair as set_of_two, sound
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 SCENES = ("7003C-bare", "7003C-impact", "7003C-spindle", "7009C-full-ceramic", "7009C-steel")
+PLACES = [(-60.0, 0.0, 80.0), (60.0, 105.0, 0.0)]  # mm: microphones of a set
 STEP = 1e-3
 RPM = np.pi / 30
 
@@ -65,11 +69,11 @@ def test_levels_of_lines_are_those_of_samples(bare):
     found = levels(runs, names, 0.5)[:, 300:].mean(1)
     totals = {name: found[0, k] for k, name in enumerate(names) if name.endswith(".spl")}
     floor = np.array([totals[name.split(".")[0] + ".spl"] - 45.0 for name in names])
-    heard = found[0] > floor
-    assert heard.sum() > 60
-    assert (found[1][~heard] < floor[~heard] + 1.0).all()
+    loud = found[0] > floor
+    assert loud.sum() > 60  # of 15 levels and 29 third octaves at each of four microphones
+    assert (found[1][~loud] < floor[~loud] + 1.0).all()
     off = np.abs(found[1] - found[0])
-    for k in np.flatnonzero(heard):
+    for k in np.flatnonzero(loud):
         bound = 0.5 if "balls" in names[k] or "octave" in names[k] else 0.1
         assert off[k] < bound, (names[k], found[:, k])
 
@@ -90,9 +94,9 @@ def test_other_sources_and_conditions(bare, model, rpm, load):
 
 
 def test_pressures_of_lines_are_those_of_samples(bare):
-    """Sample by sample, with the other fidelities' latency: 1 % of the rms.
+    """Sample by sample, with the other fidelities' latency: 0.3 to 0.9 % of the rms, measured.
 
-    Filters follow transfer functions within -30 dB at any one frequency, most within -50.
+    Filters follow their transfer functions within -50 dB (0.3 %), and samples lack some of the balls' sound.
     """
     runs = pair(bare)
     names = total(runs[0], "pressure")
@@ -108,21 +112,29 @@ def test_pressures_of_lines_are_those_of_samples(bare):
     assert off.max() < 0.015, off
 
 
-def test_states_restored_within_a_run_up_give_equal_bits(bare):
-    run = Instance(prepare(bare, fidelity="response"))
-    run.initialise()
-    for k in range(40):
-        run.set("shaft_speed", (20_000 + 40 * k) * RPM)
-        run.step(STEP)
-    kept = run.s.copy()
-    ends = []
-    for _ in range(2):
-        run.s[:] = kept
+@pytest.mark.parametrize("bearings", [1, 2])
+def test_states_restored_within_a_run_up_give_equal_bits(bare, bearings):
+    """The work space holds nothing that a later step needs: it is spoilt before every one."""
+    given = bare if bearings == 1 else set_of_two(sound("compact", *PLACES), flaws=True)
+    scene = with_fidelity(given, model="response")
+    run = Arrays.of(scene, *sound_blocks(scene))
+    run.init()
+
+    def speed_up(begin, spoil=False):
         for k in range(40):
-            run.set("shaft_speed", (21_600 + 40 * k) * RPM)
+            run.u[U.SPEED if bearings == 1 else SP.U_SPEED] = (begin + 40 * k) * RPM
+            if spoil:
+                run.w[:] = np.nan
             run.step(STEP)
-        ends.append(run.s.tobytes())
-    assert ends[0] == ends[1]
+
+    speed_up(20_000)
+    kept = run.s.copy()
+    speed_up(21_600)
+    wanted = run.s.copy()
+    assert wanted[S.SOUND + SD.SS_SPEED] > 1.05 * kept[S.SOUND + SD.SS_SPEED]  # pressures were renewed
+    run.s[:] = kept
+    speed_up(21_600, spoil=True)
+    np.testing.assert_array_equal(run.s, wanted)
 
 
 def test_metering_begins_where_the_scene_says(bare):
@@ -175,12 +187,14 @@ def test_run_ups_of_the_examples(name):
 @pytest.mark.heavy
 def test_a_set_and_its_bearings_alone():
     """A DB pair on its shaft: total, and each bearing alone."""
-    places = [(-60.0, 0.0, 80.0), (60.0, 105.0, 0.0)]
-    runs = pair(set_of_two(sound("compact", *places), flaws=True))
+    runs = pair(set_of_two(sound("compact", *PLACES), flaws=True))
     names = [name for name in runs[0].by_name if name.startswith("mic[") and "pressure" not in name]
     found = levels(runs, names, 0.8)[:, 400:].mean(1)
-    heard = found[0] > found[0].max() - 60.0
+    loud = found[0] > found[0].max() - 60.0
     off = np.abs(found[1] - found[0])
     sums = np.array([name.split(".")[1] in ("spl", "spl_a", "leq", "spl_fast", "spl_slow") for name in names])
-    assert off[heard & sums].max() < 0.1
-    assert off[heard].max() < 0.5, [(names[k], found[:, k]) for k in np.flatnonzero(heard & (off > 0.5))]
+    alone = np.array(["spl_bearing" in name for name in names])
+    assert (loud & alone).sum() == 4  # two bearings at two microphones
+    assert off[loud & (sums | alone)].max() < 0.1
+    # the balls' own, which samples have too quiet
+    assert off[loud].max() < 0.5, [(names[k], found[:, k]) for k in np.flatnonzero(loud & (off > 0.5))]

@@ -11,6 +11,7 @@ import typer
 from fmu_bearing.cli.base import FOUND, Catalogues, Json, Refusal, SceneFile, app, print_json, refusals, tell
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import Entry, entries, entry_text, too_many_balls
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
 from fmu_bearing.scene.nsk import PREFIX, sizes
@@ -217,7 +218,8 @@ def show_catalogue(
         known = entries(kind)
         if name is not None and name not in known and not (kind == KINDS[0] and name in sizes()):
             raise Refusal(
-                f"there is no '{name}' among the {kind}: `fmu-bearing scene catalogue {kind}` lists them"
+                f"there is no '{name}' among the {kind}: {suggestion(name, known)}"
+                f"`fmu-bearing scene catalogue {kind}` lists them"
             )
     if name is not None:
         _show_entry(name, known.get(name), as_json)

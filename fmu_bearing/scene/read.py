@@ -1,7 +1,6 @@
 """From TOML, tables or another scene to a scene, or to a ``SceneError`` with one line per problem."""
 
 import copy
-import difflib
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene.base import Conflict, SceneError
+from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
     KEY as CATALOGUES,
     Entry,
@@ -373,12 +373,9 @@ def _fill(
         return
     wanted = given.pop(key)
     if not isinstance(wanted, str) or wanted not in known:
-        folded = {name.lower(): name for name in known}
-        near = difflib.get_close_matches(str(wanted).lower(), folded, n=1, cutoff=0.5)
-        hint = f"did you mean '{folded[near[0]]}'? " if near else ""
         where = ".".join(path) + ("" if is_material(path) else f".{key}")
         reason = too_many_balls(wanted) if path == ("bearing",) else ""
-        reason = reason or f"is not in the catalogue; {hint}known: {_named(known)}"
+        reason = reason or f"is not in the catalogue; {suggestion(str(wanted), known)}known: {_named(known)}"
         lines.append(f"{where} = {shown(wanted)} {reason}")
         unresolved.append(path)
         return

@@ -53,6 +53,7 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
     ("arguments", "reason"),
     [
         (("--bearing", "7003D"), "did you mean '7003C'"),
+        (("--bearing", "7010C"), "did you mean 'NSK-7010C'? known: "),
         (("--bore", 40), "needs --bore, --outside-diameter and --width"),
         (("--bearing", "7003C", *DIMENSIONS), "not both"),
         (("--bore", 70, "--outside", 68, "--width", 15), "the outside diameter must exceed the bore"),
@@ -208,6 +209,14 @@ def own(tmp_path):
     scene.parent.mkdir()
     scene.write_text(new_scene("my", "NSK-7003C", sound=False).replace("NSK-7003C", "OWN"))
     return file, scene
+
+
+def test_catalogue_suggests_the_nearest(run):
+    refused = run("scene", "catalogue", "bearings", "7010C")
+    assert refused.exit_code == 2 and refused.stderr == (
+        "error: there is no '7010C' among the bearings: did you mean 'NSK-7010C'? "
+        "`fmu-bearing scene catalogue bearings` lists them\n"
+    )
 
 
 def test_commands_take_catalogues_of_ones_own(run, own, tmp_path):

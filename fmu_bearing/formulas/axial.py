@@ -96,3 +96,25 @@ def axial_stiffness(bearing: Axial, load: float) -> float:
     step = 1e-4 * x  # the load is smooth there: the error of the difference is about 1e-8
     rise = axial_load(bearing, x + step) - axial_load(bearing, x - step)
     return 1e-3 * rise / (2.0 * step) if load > 0.0 else 0.0
+
+
+def flush_load(bearing: Axial, pair: float, more: int, fewer: int) -> float:
+    """Return the axial load (N) of each bearing on the side with more, where the faces of a set are flush.
+
+    Equal bearings, ground for a pair: each has the offset of its faces that ``pair`` (N) closes. Flush faces
+    displace bearings of one side equally and both sides by two offsets in all; their loads are in balance.
+
+    Parameters
+    ----------
+    bearing : Axial
+    pair : float
+        Load of each bearing of a pair (N).
+    more, fewer : int
+        Bearings that carry one way and the other way.
+    """
+    offset = axial_displacement(bearing, pair)
+
+    def excess(x: float) -> float:
+        return more * axial_load(bearing, x) - fewer * axial_load(bearing, 2.0 * offset - x)
+
+    return axial_load(bearing, float(brentq(excess, 0.0, 2.0 * offset, xtol=1e-15, rtol=1e-12)))

@@ -10,7 +10,7 @@ from tomlkit.container import Container
 from tomlkit.items import AoT, Table
 
 from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, entries, named_files
-from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload
+from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, TABLES, carried, preload, preload_table
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.scene import Tables
@@ -85,11 +85,13 @@ def _table(entry: Entry, name: str) -> Table:
 
 def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str, str]]:
     """Return the origin of a preload that a class or an offset gives, in words."""
-    mounting = document.get("mounting", {})
-    if CLASS not in mounting and OFFSET not in mounting:
-        return {}
-    found = preload(mounting, scene.bearing, scene.materials)
-    return {} if found is None else {f"mounting.{FORCE}": ("file", found.words)}
+    known: dict[str, tuple[str, str]] = {}
+    for path in TABLES:
+        table = preload_table(document, path)
+        if table is not None and (CLASS in table or OFFSET in table):
+            found = preload(table, scene.bearing, scene.materials, carried(document), path)
+            known |= {} if found is None else {".".join((*path, FORCE)): ("file", found.words)}
+    return known
 
 
 def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
@@ -129,7 +131,7 @@ def _references(document: Mapping[str, Any]) -> Iterator[tuple[str, str, str, st
 
 def _remarks(table: Container | Table, path: str, above: str = "") -> Iterator[tuple[str, str]]:
     """Yield the dotted key and the remark of every value; a table's remark holds for all in it."""
-    if isinstance(table, Table):
+    if isinstance(table, Table) and not table.is_super_table():  # which shares the remark of its first one
         above = _words(table) or above
     for key, item in table.items():
         dotted = f"{path}.{key}".lstrip(".")

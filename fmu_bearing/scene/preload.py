@@ -1,7 +1,12 @@
-"""The preload of a scene in newtons, where its file gives a class or an offset of the ring faces."""
+"""The preload of a scene in newtons, where its file gives a class or an offset of the ring faces.
+
+Both say how the loose bearings are ground: by how much the faces of the rings are offset, which the preload
+closes. The bearings of a set are ground for a pair, and with flush faces the loads follow from the offsets.
+"""
 
 import tomllib
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import ValidationError
@@ -20,6 +25,8 @@ if TYPE_CHECKING:
 
 #: Keys of a scene's file that determine ``preload_N``.
 CLASS, OFFSET, FORCE = "preload_class", "preload_offset_um", "preload_N"
+#: Tables that have them: of one bearing, of a set.
+TABLES = (("mounting",), ("spindle", "preload"))
 _NEAR = 1.0  # deg: how far off the printed angle a measured one may be
 _MOST = 200.0  # um: more than any ball of a scene takes
 
@@ -79,31 +86,63 @@ def classes(bearing: Bearing) -> Classes | None:
     return Classes("GMN", {name: float(f"{share * rating:.3g}") for name, share in shares})
 
 
-def preload_key(mounting: Mapping[str, Any]) -> str | None:
+def preload_table(data: Any, path: tuple[str, ...]) -> Any:
+    """Return one of the `TABLES` of a scene's tables; None: there is none."""
+    for key in path:
+        data = data.get(key) if isinstance(data, Mapping) else None
+    return data if isinstance(data, Mapping) else None
+
+
+def carried(data: Any) -> list[Any]:
+    """Return which way each bearing of a set carries, of a scene's tables; none of one bearing."""
+    spindle = data.get("spindle")
+    several = spindle.get("bearing") if isinstance(spindle, Mapping) else None
+    members = several if isinstance(several, list | tuple) else ()
+    return [one.get("carries") for one in members if isinstance(one, Mapping)]
+
+
+def preload_key(table: Mapping[str, Any], path: tuple[str, ...] = TABLES[0]) -> str | None:
     """Return the key that gives the preload in place of newtons; None: there is none.
+
+    ``table``: as the file has it; ``path``: where it is, for messages.
 
     Raises
     ------
     PreloadError
-        Where more than one key gives it.
+        Where more than one key gives it, or springs do.
     """
-    given = [key for key in (FORCE, CLASS, OFFSET) if mounting.get(key) is not None]
+    where = ".".join(path)
+    given = [key for key in (FORCE, CLASS, OFFSET) if table.get(key) is not None]
     if len(given) > 1:
         raise PreloadError(
-            f"mounting.{given[1]} = {shown(mounting[given[1]])} cannot be given with {given[0]}: "
+            f"{where}.{given[1]} = {shown(table[given[1]])} cannot be given with {given[0]}: "
             f"the preload is given by one of {FORCE}, {CLASS} and {OFFSET}; keep one"
         )
-    return given[0] if given and given[0] != FORCE else None
+    if not given or given[0] == FORCE:
+        return None
+    if table.get("kind") == "spring":
+        raise PreloadError(
+            f"{where}.{given[0]} = {shown(table[given[0]])} is an offset of ring faces, which springs do not "
+            'hold: leave it out and give force_N, or give kind = "spacer"'
+        )
+    return given[0]
 
 
-def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any) -> Preload | None:
+def preload(
+    table: Mapping[str, Any], bearing: Any, materials: Any, signs: Sequence[Any] = (),
+    path: tuple[str, ...] = TABLES[0],
+) -> Preload | None:  # fmt: skip
     """Return the preload that a class or an offset gives.
 
     Parameters
     ----------
-    mounting : mapping
+    table : mapping
         As the file has it, with one of the keys.
     bearing, materials : Bearing and Materials, or their tables
+    signs : sequence
+        Of a set, ``carries`` of each bearing: the preload is the load of each bearing on the side with more.
+    path : tuple of str
+        Where the table is, for messages.
 
     Returns
     -------
@@ -115,30 +154,41 @@ def preload(mounting: Mapping[str, Any], bearing: Any, materials: Any) -> Preloa
     PreloadError
         For a class or an offset that is refused.
     """
-    key = preload_key(mounting)
+    key, where = preload_key(table, path), ".".join(path)
+    sides = sorted(Counter(map(str, signs)).values(), reverse=True)
+    uneven = len(sides) == 2 and sides[0] > sides[1]
     try:
         rings = Bearing.model_validate(bearing)
-        elastic = Materials.model_validate(materials) if key == OFFSET else None
+        elastic = Materials.model_validate(materials) if key == OFFSET or uneven else None
     except ValidationError:
         return None
-    if elastic is None:
-        return _of_class(mounting[CLASS], rings)
-    return _of_offset(mounting[OFFSET], rings, elastic)
+    if key == CLASS:
+        found = _of_class(table[CLASS], rings, f"{where}.{CLASS}")
+    else:
+        assert elastic is not None
+        found = _of_offset(table[OFFSET], rings, elastic, f"{where}.{OFFSET}")
+    if not uneven:
+        return found
+    assert elastic is not None
+    from fmu_bearing.formulas.axial import flush_load  # with SciPy, which few scenes need
+
+    more, fewer = sides
+    load = flush_load(_axial(rings, elastic), found.force, more, fewer)
+    words = f"faces flush: {more} bearings of {load:.4g} N against {fewer} of {load * more / fewer:.4g} N"
+    return Preload(load, f"{found.words}; {words}")
 
 
-def _of_class(wanted: Any, bearing: Bearing) -> Preload:
+def _of_class(wanted: Any, bearing: Bearing, key: str) -> Preload:
     found = classes(bearing)
     known = CLASS_NAMES if found is None else tuple(found.loads)
     if wanted not in known:
         more = "; extra light is a class of NSK's sizes" if wanted == "extra light" else ""
-        raise PreloadError(
-            f"mounting.{CLASS} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}"
-        )
+        raise PreloadError(f"{key} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}")
     angle = bearing.contact_angle_deg
     if found is None:
         low, high = ANGLES
         raise PreloadError(
-            f"mounting.{CLASS} = '{wanted}' is known for contact angles of {low:g} to {high:g} deg, not for "
+            f"{key} = '{wanted}' is known for contact angles of {low:g} to {high:g} deg, not for "
             f"{angle:g}: give {FORCE}"
         )
     force = found.loads[wanted]
@@ -149,17 +199,17 @@ def _of_class(wanted: Any, bearing: Bearing) -> Preload:
     return Preload(force, f"{wanted} class of GMN: {share:.3g} of C = {rating:.0f} N, {force:g} N")
 
 
-def _of_offset(offset: Any, bearing: Bearing, materials: Materials) -> Preload:
+def _of_offset(offset: Any, bearing: Bearing, materials: Materials, key: str) -> Preload:
     number = isinstance(offset, int | float) and not isinstance(offset, bool)
     if not number or not 0.0 <= offset <= _MOST:
-        raise PreloadError(f"mounting.{OFFSET} = {shown(offset)} is refused; allowed: 0 to {_MOST:g} um")
-    from fmu_bearing.formulas.axial import axial_load  # with SciPy, which few scenes need
+        raise PreloadError(f"{key} = {shown(offset)} is refused; allowed: 0 to {_MOST:g} um")
+    from fmu_bearing.formulas.axial import axial_load
 
     force = axial_load(_axial(bearing, materials), 1e-3 * offset)
     most = limits(Mounting.model_fields[FORCE])[1]
     if force > most:
         raise PreloadError(
-            f"mounting.{OFFSET} = {shown(offset)} gives a preload of {force:.4g} N; allowed: up to {most:g} N"
+            f"{key} = {shown(offset)} gives a preload of {force:.4g} N; allowed: up to {most:g} N"
         )
     return Preload(force, f"offset of {offset:g} um: {force:.4g} N")
 

@@ -13,6 +13,7 @@ from pydantic.fields import FieldInfo
 from fmu_bearing import renamed
 from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Tables
+from fmu_bearing.scene.spindle import OR_CLASS
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import limits, table_of
 
@@ -23,7 +24,7 @@ _SOURCES = {
     "imperfections": 'grade = "P4"',
 }
 #: What may be in the place of a key.
-_INSTEAD = {("mounting", "preload_N"): 'or preload_class = "light", or preload_offset_um = 10.0'}
+_INSTEAD = {("mounting", "preload_N"): OR_CLASS}
 #: Keys that are in no source.
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
@@ -212,7 +213,7 @@ def _unknown(path: Location) -> str:
         known.append("catalogue")
     elif table == ("imperfections",):
         known.append("grade")
-    elif table == ("mounting",):
+    elif table in (("mounting",), ("spindle", "preload")):
         known += ["preload_class", "preload_offset_um"]
     elif table == ():
         known.append("catalogues")

@@ -24,7 +24,17 @@ from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.member import SceneBearing, bearings_of
 from fmu_bearing.scene.nsk import PREFIX
-from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, PreloadError, preload, preload_key
+from fmu_bearing.scene.preload import (
+    CLASS,
+    FORCE,
+    OFFSET,
+    TABLES,
+    PreloadError,
+    carried,
+    preload,
+    preload_key,
+    preload_table,
+)
 from fmu_bearing.scene.problems import (
     Location,
     described,
@@ -41,8 +51,8 @@ from fmu_bearing.scene.values import plain, put
 __all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
 
 
-#: Values that take the place of the preload in newtons.
-_PRELOADS = (f"mounting.{CLASS}", f"mounting.{OFFSET}")
+#: Values that take the place of the preload in newtons, and which that is.
+_PRELOADS = {".".join((*path, key)): ".".join((*path, FORCE)) for path in TABLES for key in (CLASS, OFFSET)}
 
 
 class Scene(Tables):
@@ -122,7 +132,8 @@ class Scene(Tables):
             ``"sound.microphone[1].y_mm"``. Whole tables can be given, None takes an optional value or table
             out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) replaces all
             that the entry holds, ``"imperfections.grade"`` for the grade's values; keys given beside it win.
-            ``"mounting.preload_class"`` or ``"mounting.preload_offset_um"`` gives another ``preload_N``.
+            ``"mounting.preload_class"`` or ``"mounting.preload_offset_um"`` gives another ``preload_N``, as
+            do these keys of ``spindle.preload``.
 
         Raises
         ------
@@ -279,7 +290,7 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
             continue
         if last == "catalogue" and (tables in (["bearing"], ["lubricant"]) or tables[:1] == ["materials"]):
             part.clear()
-        elif name is not None and key in _PRELOADS and f"mounting.{FORCE}" not in given:
+        elif name is not None and key in _PRELOADS and _PRELOADS[key] not in given:
             part.pop(FORCE, None)
         elif key == "imperfections.grade" and isinstance(name, str):
             for value in catalogue("grades").get(name, {}):
@@ -335,28 +346,29 @@ def _resolve(
     if spindle is not None and isinstance(flaws, dict):
         flaws.setdefault("unbalance_um", 0.0)  # a grade's is that of one rotor; a set has it on its shaft
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
-    _give_preload(data, lines, unresolved)
+    _give_preload(data, lines)
 
 
-def _give_preload(data: dict[str, Any], lines: list[str], unresolved: list[Location]) -> None:
+def _give_preload(data: dict[str, Any], lines: list[str]) -> None:
     """Put newtons in place of a class or an offset."""
-    mounting = data.get("mounting")
-    if not isinstance(mounting, dict):
-        return
-    found = None
-    try:
-        key = preload_key(mounting)
-        if key is not None:
-            found = preload(mounting, data.get("bearing"), data.get("materials"))
-    except PreloadError as problem:
-        key = CLASS
-        lines.append(str(problem))
-    mounting.pop(CLASS, None)
-    mounting.pop(OFFSET, None)
-    if found is not None:
-        mounting[FORCE] = found.force
-    elif key is not None:  # what is wrong is reported already
-        unresolved.append(("mounting", FORCE))
+    for path in TABLES:
+        table = preload_table(data, path)
+        if not isinstance(table, dict):
+            continue
+        found = None
+        try:
+            key = preload_key(table, path)
+            if key is not None:
+                found = preload(table, data.get("bearing"), data.get("materials"), carried(data), path)
+        except PreloadError as problem:
+            key = CLASS
+            lines.append(str(problem))
+        table.pop(CLASS, None)
+        table.pop(OFFSET, None)
+        if found is not None:
+            table[FORCE] = found.force
+        elif key is not None and table.get("kind") != "spring":
+            table[FORCE] = 0.0  # of a scene that is refused: what is wrong is reported already
 
 
 def _fill(

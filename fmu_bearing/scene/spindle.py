@@ -12,6 +12,8 @@ from fmu_bearing.scene.mounting import Flexure
 from fmu_bearing.scene.shaft import LONG, Shaft
 
 _MOST = 16  # bearings of a set
+#: What may be in the place of a preload in newtons.
+OR_CLASS = 'or preload_class = "light", or preload_offset_um = 10.0'
 
 #: Sets by their directions, from the nose on, and what makers call them.
 ARRANGEMENTS = {
@@ -35,6 +37,10 @@ ARRANGEMENTS = {
     "-+++": "QFT (X)",
     "++++": "QT",
     "----": "QT",
+}
+#: Directions by makers' name; the first where a set has two, which carries +x ahead or with more bearings.
+DIRECTIONS = {
+    words.split()[0]: signs for signs, words in reversed(ARRANGEMENTS.items()) if words.split()[0].isupper()
 }
 
 
@@ -121,7 +127,10 @@ class Preload(Part):
         if self.kind == "spring":
             own, others = "force_N", ["preload_N"]
         if getattr(self, own) is None:
-            yield Conflict(own, f'is missing, for example {own} = 300.0; kind = "{self.kind}" needs it')
+            instead = f"; {OR_CLASS}" if own == "preload_N" else ""
+            yield Conflict(
+                own, f'is missing, for example {own} = 300.0; kind = "{self.kind}" needs it{instead}'
+            )
         for key in others:
             if getattr(self, key) is not None:
                 yield Conflict(key, f'is not read with kind = "{self.kind}": leave it out')

@@ -1,5 +1,6 @@
 """``fmu-bearing scene``: write a scene, check it, show its values, show the catalogue."""
 
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import asdict
@@ -26,13 +27,19 @@ app.add_typer(scene_app, name="scene")
 
 KINDS = ("bearings", "materials", "lubricants", "grades")
 #: What of the assumed values `new` prints: those that decide most, and what radiates.
-_SAID = ("mounting.preload_N", "operation.speed_rpm", "sound.radiator")
+_SAID = (
+    "mounting.preload_N", "spindle.preload.preload_N", "spindle.load.force_x_N", "spindle.shaft.sections_mm",
+    "operation.speed_rpm", "sound.radiator",
+)  # fmt: skip
 _OPTIONAL = "Needed for a bearing that is not in the catalogue."
 
 
 @scene_app.command()
 def new(
-    path: Annotated[Path, typer.Argument(metavar="FILE", help="Scene file to write (.toml).")],
+    path: Annotated[
+        Path | None,
+        typer.Argument(metavar="[FILE]", help="Scene file to write; default: named after the bearing."),
+    ] = None,
     bearing: Annotated[str | None, typer.Option(help="A bearing of the catalogue.")] = None,
     bore: Annotated[float | None, typer.Option(help=f"Bore, mm. {_OPTIONAL}")] = None,
     outside_diameter: Annotated[
@@ -55,6 +62,17 @@ def new(
     preload_offset: Annotated[
         float | None, typer.Option(help="Offset of the ring faces instead of N, um.")
     ] = None,
+    arrangement: Annotated[
+        str | None,
+        typer.Option(metavar="DB|DF|DT|TBT|QBC|...", help="A set of these bearings on one shaft."),
+    ] = None,
+    distance: Annotated[
+        float | None, typer.Option(help="mm between neighbouring ball planes of a set; default: the width.")
+    ] = None,
+    spring: Annotated[
+        float | None,
+        typer.Option(help="N of springs on the bearings of a set that carry as its last one, instead of N."),
+    ] = None,
     grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
@@ -63,6 +81,10 @@ def new(
 ) -> None:
     """Write a scene from the catalogue, or from boundary dimensions with the rest estimated.
 
+    One bearing on its mounting, or with --arrangement a set on one shaft whose sections are assumed. A
+    preload class is the offset of the loose rings' faces; the loads of a set follow from it. Bearings that
+    all carry one way (DT) get the axial force that loads each so, assumed.
+
     Speed and preload that are not given follow makers' rules, so that all verdicts are good and no ring
     whirls by itself. Where no speed and preload within the rules do that, or where given ones do not, the
     cautions of `scene check` say what is not good.
@@ -70,13 +92,13 @@ def new(
     from fmu_bearing.design.fresh import new_scene
 
     with refusals():
-        if path.exists() and not force:
-            raise Refusal(f"{path} is there already: name another file, or give --force")
         dimensions = (bore, outside_diameter, width)
         if bearing is not None and any(value is not None for value in dimensions):
             raise Refusal("give --bearing or dimensions, not both")
-        if sum(value is not None for value in (preload, preload_class, preload_offset)) > 1:
-            raise Refusal("give one of --preload, --preload-class and --preload-offset")
+        if sum(value is not None for value in (preload, preload_class, preload_offset, spring)) > 1:
+            raise Refusal("give one of --preload, --preload-class, --preload-offset and --spring")
+        if arrangement is None and (distance is not None or spring is not None):
+            raise Refusal("--distance and --spring are of a set: give its --arrangement, as DB")
         if bearing is not None:
             chosen: str | Dimensions = bearing
         elif bore is not None and outside_diameter is not None and width is not None:
@@ -88,19 +110,29 @@ def new(
                 "which bearing? give --bearing NAME (`fmu-bearing scene catalogue` lists them), or --bore, "
                 "--outside-diameter and --width"
             )
+        path = path or _named(bearing or designation or "bearing", arrangement)
+        if path.exists() and not force:
+            raise Refusal(f"{path} is there already: name another file, or give --force")
         text = new_scene(
             path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
             designation=designation, preload_N=preload, preload_class=preload_class,
-            preload_offset_um=preload_offset, folder=path.parent,
+            preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
+            distance_mm=distance, spring_N=spring,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [one for one in origins(path) if one.assumed]
     typer.echo(f"written: {path}; {len(found)} values are assumed: `fmu-bearing scene show {path} --assumed`")
     for one in found:
-        if one.key in _SAID:
+        if one.key in _SAID and one.origin == "file":
             typer.echo(f"assumed: {one.key} = {_shown(one)}: {one.remark}")
     for line in _findings(path)[1]:
         tell(f"caution: {line}")
+
+
+def _named(bearing: str, arrangement: str | None) -> Path:
+    """Return the name of a new scene's file, in letters that names of scenes may have."""
+    name = bearing if arrangement is None else f"{bearing}-{arrangement}"
+    return Path(re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.") + ".toml")
 
 
 @scene_app.command()

@@ -7,7 +7,7 @@ from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.modal.equations.remarks import UNSTEADY
-from fmu_bearing.scene import Scene, read_scene_text, template
+from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.operation import Operation
@@ -20,9 +20,10 @@ _SPEED_NUMBER = 0.75e6  # mm r/min, where no maker gives a limit
 _PRELOAD_SHARE = 1.2  # of the least preload, which scatters by 9 %
 _RAISED, _LOWERED = 1.1, 0.9  # a step of the preload, of the speed
 _SLOWEST = 0.6  # of the speed by the rule: the search for one without cautions ends there
+_SPRING = "spring_N"
 _WHIRL = "whirl"
 #: Cautions that more preload cures.
-_CURED = {"gyroscopic": "gyroscopic slip", _WHIRL: "a whirl of the ring by itself"}
+_CURED = {"gyroscopic": "gyroscopic slip", _WHIRL: "a whirl by itself"}
 
 
 def new_scene(
@@ -39,6 +40,7 @@ def new_scene(
     would keep all verdicts good. The preload is the light class or 1.2 times the least one against skidding,
     whichever is larger, and more where the balls would slip by their gyroscopic moment or a mode of the rings
     would grow by itself. At a speed that is given the preload stays below what makers would caution of.
+    Sets follow the same rules: the class is that of a pair, of which the load of each bearing follows.
 
     Parameters
     ----------
@@ -49,7 +51,8 @@ def new_scene(
     speed_rpm, preload_N : float, optional
     **given
         As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
-        ``preload_class``, ``preload_offset_um``, ``folder``.
+        ``preload_class``, ``preload_offset_um``, ``folder``; for a set ``arrangement``, ``distance_mm``,
+        ``spring_N``.
 
     Raises
     ------
@@ -61,18 +64,25 @@ def new_scene(
     Examples
     --------
     >>> from fmu_bearing import new_scene
+    >>> from fmu_bearing.scene import read_scene_text
     >>> text = new_scene("my", "NSK-7010C", sound=False)
     >>> for line in text.splitlines():
     ...     if line.startswith(("preload_N", "speed_rpm")):
     ...         print(line)
     preload_N = 242.0 # assumed: light class of NSK: 150 N, raised from 150 N against gyroscopic slip
     speed_rpm = 13500.0 # assumed: half of NSK's limiting speed with oil
+    >>> pair = new_scene("pair", "NSK-7010C", arrangement="DB", preload_class="medium", speed_rpm=18e3)
+    >>> read_scene_text(pair).spindle.arrangement, read_scene_text(pair).spindle.preload.preload_N
+    ('DB (O)', 390.0)
     """
 
     def text(speed: float, force: float, **rules: Any) -> str:
         return template.new_scene(name, bearing, speed_rpm=speed, preload_N=force, **given, **rules)
 
-    preloaded = preload_N is not None or any(given.get(key) is not None for key in (CLASS, OFFSET))
+    others = [key for key in (CLASS, OFFSET, _SPRING) if given.get(key) is not None]
+    if preload_N is not None and others:
+        raise SceneError(f"preload_N = {preload_N:g} cannot be given with {others[0]}: give one of both")
+    preloaded = preload_N is not None or bool(others)
     if speed_rpm is not None and preloaded:
         return text(speed_rpm, preload_N or 0.0)
     # speed and force of the draft are replaced below
@@ -114,7 +124,9 @@ def _speed(scene: Scene, bearing: str | Dimensions) -> tuple[float, str]:
 def _preload(scene: Scene) -> tuple[float, str, bool]:
     """Return the assumed preload (N) at the scene's speed, its rule, and whether it cures all it can."""
     try:
-        light = preload({CLASS: "light"}, scene.bearing, scene.materials)
+        several = () if scene.spindle is None else scene.spindle.bearing
+        signs = [one.carries for one in several]
+        light = preload({CLASS: "light"}, scene.bearing, scene.materials, signs)
     except PreloadError:  # no classes at this angle
         light = None
     force, rule = (0.0, "") if light is None else light
@@ -138,7 +150,7 @@ def _preload(scene: Scene) -> tuple[float, str, bool]:
 def _raised(rule: str, first: float, force: float, cured: set[str]) -> str:
     if force == first:
         return rule
-    return f"{rule}, raised from {first:g} N against {' and '.join(_CURED[key] for key in sorted(cured))}"
+    return f"{rule}, raised from {first:.4g} N against {' and '.join(_CURED[key] for key in sorted(cured))}"
 
 
 def _wrong(scene: Scene) -> set[str]:
@@ -149,7 +161,13 @@ def _wrong(scene: Scene) -> set[str]:
 
 
 def _at(scene: Scene, speed: float | None = None, force: float | None = None) -> Scene:
+    """Return a scene at another speed (r/min), and under another preload (N) of each bearing."""
     given = {"operation.speed_rpm": speed, "mounting.preload_N": force}
+    if force is not None and scene.spindle is not None:
+        del given["mounting.preload_N"]
+        one_way = scene.spindle.preload is None
+        key = "spindle.load.force_x_N" if one_way else "spindle.preload.preload_N"
+        given[key] = force * len(scene.spindle.bearing) if one_way else force
     return scene.replace({key: value for key, value in given.items() if value is not None})
 
 

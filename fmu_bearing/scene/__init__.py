@@ -8,6 +8,7 @@
 ``entries``       entries by name: the package's, NSK's, those of users' files
 ``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene
+``set_template``  its tables of a set of bearings on one shaft
 ``base``          base class of all tables: frozen, strict, reports all conflicts at once; `SceneError`
 ``bearing``       geometry of rings, balls and cage
 ``material``      elastic and thermal constants; catalogue names

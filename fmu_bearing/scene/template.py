@@ -1,16 +1,19 @@
 """The text of a new scene file: few keys, each with its unit, and a remark wherever a value is assumed."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
-from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET
+from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload, preload_key
 from fmu_bearing.scene.read import read_scene_text
+from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.set_template import set_parts, set_shape
 
 #: Materials of rings, balls and cage, by kind of bearing.
 MATERIALS = {
@@ -40,6 +43,9 @@ class Dimensions:
     angle: float = 15.0
 
 
+_UNKNOWN = Dimensions(10.0, 30.0, 9.0)  # any size, for a name that is refused
+
+
 def new_scene(
     name: str,
     bearing: str | Dimensions,
@@ -54,6 +60,9 @@ def new_scene(
     preload_class: str | None = None,
     preload_offset_um: float | None = None,
     folder: Path | None = None,
+    arrangement: str | None = None,
+    distance_mm: float | None = None,
+    spring_N: float | None = None,
     speed_rule: str = "",
     preload_rule: str = "",
 ) -> str:
@@ -80,6 +89,15 @@ def new_scene(
         Class of a maker's pairs, in place of ``preload_N``.
     preload_offset_um : float, optional
         Offset of the ring faces, in place of ``preload_N``.
+    arrangement : str, optional
+        Makers' name of a set of these bearings on one shaft, as ``DB`` or ``TBT``; default: one bearing on
+        its mounting. Where all carry one way, as in ``DT``, the preload is written as the axial force that
+        loads each bearing so.
+    distance_mm : float, optional
+        Of a set, between neighbouring ball planes; default: the width of the bearing.
+    spring_N : float, optional
+        Of a set, the force of springs on each bearing that carries as the last one does, in place of
+        ``preload_N``.
     folder : Path, optional
         Where the scene will be written, for the path of the user's file that has the bearing; default: the
         current folder.
@@ -93,23 +111,44 @@ def new_scene(
     """
     if kind not in MATERIALS:
         raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
+    if sum(value is not None for value in (preload_class, preload_offset_um, spring_N)) > 1:
+        raise SceneError("give one of preload_class, preload_offset_um and spring_N: each is the preload")
+    if arrangement is None and (distance_mm is not None or spring_N is not None):
+        raise SceneError("a distance of ball planes and springs are of a set: give its arrangement, as 'DB'")
     materials = zip(_BODIES, MATERIALS[kind], strict=True)
-    outside, pitch = _size(bearing)
+    size, pitch = _size(bearing)
+    tables = _bearing(bearing, designation or (bearing if isinstance(bearing, str) else name))
+    line = _preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule)
+    places = [0.0]
+    if arrangement is None:
+        mounted = [_MOUNTING.format(
+            preload=line,
+            tilt=float(f"{_FAR_STIFFNESS * (1e-3 * pitch) ** 2:.3g}"),
+            far=f"{_FAR_STIFFNESS:g}",
+        )]  # fmt: skip
+    else:
+        apart = None if size is _UNKNOWN else distance_mm
+        shape = set_shape(arrangement, size.bore, size.width, apart, spring_N)
+        places = shape.places
+        if shape.one_way:
+            alone = new_scene(
+                name, bearing, kind=kind, preload_N=preload_N, preload_class=preload_class,
+                preload_offset_um=preload_offset_um, folder=folder, sound=False,
+            )  # fmt: skip
+            given = {CLASS: preload_class, OFFSET: preload_offset_um}
+            line = _axial_force(len(places), read_scene_text(alone, name, folder), given, preload_rule)
+        mounted = list(set_parts(shape, line))
     parts = [
         f"# Made by `fmu-bearing scene new`. Values marked assumed are not from you: replace what you know.\n"
         f'name = "{name}"{_catalogues(bearing, folder or Path())}',
-        *_bearing(bearing, designation or (bearing if isinstance(bearing, str) else name)),
+        *tables,
         "[materials]\n" + "\n".join(f'{body} = "{material}"' for body, material in materials),
         f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
-        _MOUNTING.format(
-            preload=_preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule),
-            tilt=float(f"{_FAR_STIFFNESS * (1e-3 * pitch) ** 2:.3g}"),
-            far=f"{_FAR_STIFFNESS:g}",
-        ),
+        *mounted,
         f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1\n'
         "highest_frequency_kHz = 20.0 # assumed: the audible range",
         _OPERATION.format(speed=f"{float(speed_rpm)}{_remark(speed_rule)}"),
-        *([_sound(outside)] if sound else []),
+        *([_sound(size.outside, places)] if sound else []),
     ]
     text = "\n\n".join(parts) + "\n"
     read_scene_text(text, name, folder)
@@ -134,14 +173,23 @@ def _preload(force: float, by_class: str | None, offset: float | None) -> str:
     return f"{FORCE} = {float(force)}" if offset is None else f"{OFFSET} = {float(offset)}"
 
 
-def _size(bearing: str | Dimensions) -> tuple[float, float]:
-    """Return outside and pitch diameter (mm), or any numbers for an unknown name, which is refused later."""
+def _axial_force(count: int, alone: Tables, given: Mapping[str, Any], rule: str) -> str:
+    """Return the line of the axial force that loads bearings that all carry one way as one ``alone`` is."""
+    each = alone.mounted.preload_N
+    found = preload(given, alone.bearing, alone.materials) if preload_key(given) else None
+    why = rule or (f"{each:g} N each, as given" if found is None else found.words)
+    return f"force_x_N = {count * each} # assumed: {count} bearings, {why}"
+
+
+def _size(bearing: str | Dimensions) -> tuple[Dimensions, float]:
+    """Return dimensions and pitch diameter (mm); of an unknown name, which is refused later, any."""
     if isinstance(bearing, Dimensions):
-        return bearing.outside, 0.5 * (bearing.bore + bearing.outside)
+        return bearing, 0.5 * (bearing.bore + bearing.outside)
     entry = entries("bearings").get(bearing)
     if entry is None:
-        return 30.0, 20.0
-    return float(entry.values["outside_diameter_mm"]), float(entry.values["pitch_diameter_mm"])
+        return _UNKNOWN, 20.0
+    keys = ("bore_mm", "outside_diameter_mm", "width_mm")
+    return Dimensions(*(float(entry.values[key]) for key in keys)), float(entry.values["pitch_diameter_mm"])
 
 
 def _remark(rule: str) -> str:
@@ -195,12 +243,20 @@ inner_ring_temperature_degC = 40.0 # assumed
 outer_ring_temperature_degC = 40.0 # assumed"""
 
 
-def _sound(outside: float) -> str:
-    """Return a table of sound with four microphones at three outside diameters; ahead is -X."""
+def _sound(outside: float, places: Sequence[float]) -> str:
+    """Return a table of sound with four microphones at three outside diameters; ahead is -X.
+
+    ``places``: of the ball planes along the axis (mm).
+    """
     r = float(round(3.0 * outside, -1) or 10.0)
-    places = (("right", 0.0, r, 0.0), ("top", 0.0, 0.0, r), ("front", -r, 0.0, 0.0), ("back", r, 0.0, 0.0))
+    first, last = places[0], places[-1]
+    middle = round(0.5 * (first + last), 4)
+    spots = (
+        ("right", middle, r, 0.0), ("top", middle, 0.0, r), ("front", first - r, 0.0, 0.0),
+        ("back", last + r, 0.0, 0.0),
+    )  # fmt: skip
     microphones = "\n\n".join(
         f'[[sound.microphone]]\nname = "{name}"\nx_mm = {x}\ny_mm = {y}\nz_mm = {z}'
-        for name, x, y, z in places
+        for name, x, y, z in spots
     )
     return f'[sound]\nradiator = "bare" # assumed: no housing\n\n{microphones}'

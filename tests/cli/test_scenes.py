@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from fmu_bearing import operating_point
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.entries import entries, entry_text
 from fmu_bearing.scene.template import MATERIALS, new_scene
+from tests.marks import heavy_but
 
 KNOWN = ("--bearing", "7003C")
 DIMENSIONS = ("--bore", 40, "--outside-diameter", 68, "--width", 15)
@@ -61,6 +63,9 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
         ((*KNOWN, "--kind", "glass"), "choose from steel, hybrid, full-ceramic"),
         ((*KNOWN, "--speed", 2e5), "speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min"),
         ((*KNOWN, "--grade", "P1"), "imperfections.grade"),
+        ((*KNOWN, "--distance", 50), "--distance and --spring are of a set: give its --arrangement, as DB"),
+        ((*KNOWN, "--arrangement", "db"), "there is no arrangement 'db': choose from DB, DF, DT, TBT"),
+        ((*KNOWN, "--arrangement", "DB", "--distance", 5), "allowed: 10 (the width of a bearing) to 1000 mm"),
         ((*KNOWN, "--lubricant", "honey"), "spindle-oil"),
     ],
 )
@@ -69,6 +74,35 @@ def test_new_refuses_in_a_line(run, tmp_path, arguments, reason):
     assert refused.exit_code == 2 and reason in refused.stderr
     assert refused.stderr.startswith("error: ") and refused.stderr.count("\n") == 1
     assert not (tmp_path / "my.toml").exists()
+
+
+@pytest.mark.parametrize("arrangement", heavy_but(["DB", "DF", "DT", "QBC", "TBT"], "DB", "DT"))
+def test_a_set_from_one_line_is_ready(run, tmp_path, monkeypatch, arrangement):
+    """From an empty folder: written, checked, its figures those of the library, run, built."""
+    monkeypatch.chdir(tmp_path)
+    asked = ("--bearing", "NSK-7010C", "--arrangement", arrangement, "--preload-class", "medium")
+    made = run("scene", "new", *asked, "--speed", 18_000, "--no-sound")
+    path = tmp_path / f"NSK-7010C-{arrangement}.toml"
+    assert made.exit_code == 0 and f"written: {path.name}; " in made.stdout, made.output
+    assert "assumed: spindle.shaft.sections_mm = [[16.0, 60.0, 0.0], " in made.stdout
+    assert ("assumed: spindle.load.force_x_N = 780 N: 2 bearings, medium" in made.stdout) == (
+        arrangement == "DT"
+    )
+    checked = run("scene", "check", path.name)
+    assert checked.exit_code == 0 and "with an equilibrium at its operating point" in checked.stdout
+    shown = run("info", path.name, "--json").data
+    found = operating_point(read_scene(path))
+    preloads = shown["statics"]["preloads_N"]
+    assert preloads.keys() == found.statics.preloads.keys()
+    for state, loads in found.statics.preloads.items():
+        assert preloads[state] == pytest.approx(loads)
+    assert shown["life_h"] == pytest.approx(found.life) and found.life > 20_000.0
+    arguments = ("-t", 2e-4, "--step", 1e-4, "-v", "friction_torque", "-o", "r.csv")
+    assert run("simulate", path.name, *arguments).exit_code == 0
+    torque = np.genfromtxt("r.csv", delimiter=",", names=True)["friction_torque"]
+    assert len(torque) == 3 and np.all(torque > 0.0)
+    assert run("build", path.name, "--output", "set.fmu").exit_code == 0
+    assert (tmp_path / "set.fmu").stat().st_size > 100_000
 
 
 def test_new_replaces_nothing_unasked(run, tmp_path):
@@ -189,7 +223,7 @@ def test_a_makers_size_says_what_of_it_is_print(run, tmp_path):
     [
         (
             (*KNOWN, "--preload", 100, "--preload-class", "light"),
-            "give one of --preload, --preload-class and",
+            "give one of --preload, --preload-class, --preload-offset and --spring",
         ),
         ((*KNOWN, "--preload-class", "enormous"), "allowed: light, medium, heavy"),
         ((*KNOWN, "--preload-offset", -1), "allowed: 0 to 200 um"),

@@ -60,6 +60,24 @@ def sound_and_good(bearing, kind):
     assert self_excited(found) is None
 
 
+@pytest.mark.parametrize(
+    ("arrangement", "least"), heavy_but([("DB", 1), ("DF", 1), ("DT", 1), ("TBT", 0), ("QBC", 1)], 0)
+)
+@pytest.mark.parametrize("bearing", ["NSK-7004C"])
+def test_a_fresh_set_is_good(bearing, arrangement, least):
+    """No verdict on a bearing or the set is worse than good, and each has what its balls need at least."""
+    scene = read_scene_text(new_scene("fresh", bearing, arrangement=arrangement, sound=False))
+    point = operating_point(scene)
+    assert not [
+        (one.label, one.bearing) for one in verdicts(point) if one.judgement not in ("good", "not judged")
+    ]
+    light = sizes()[bearing].preload["light"].force
+    for one in point.bearings:
+        assert one.axial >= one.least_preload
+    loads = point.statics.preloads.get("cold") or [scene.spindle.load.force_x_N / 2] * 2
+    assert min(loads) >= light * (1.0 if least else 0.68) * (1.0 - 1e-6)
+
+
 def test_rules_stand_in_the_marks(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(new_scene("my", "NSK-7010C"), "utf-8")
@@ -91,6 +109,8 @@ def test_what_is_given_stays_and_is_not_marked(tmp_path):
     # at a given speed the preload follows it: makers' light class suffices at a low one
     slow = read_scene_text(new_scene("my", "NSK-7010C", speed_rpm=6000.0))
     assert slow.operation.speed_rpm == 6000.0 and slow.mounting.preload_N == 150.0
+    with pytest.raises(SceneError, match="preload_N = 77 cannot be given with preload_class: give one of"):
+        new_scene("my", "NSK-7010C", preload_N=77.0, preload_class="heavy")
     heavy = read_scene_text(new_scene("my", "NSK-7010C", preload_class="heavy"))
     assert heavy.mounting.preload_N == sizes()["NSK-7010C"].preload["heavy"].force
     assert heavy.operation.speed_rpm == 13_500.0

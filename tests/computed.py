@@ -13,6 +13,7 @@ import warnings
 import numpy as np
 
 from fmu_bearing import (
+    new_scene,
     operating_point,
     read_scene,
     simulate,
@@ -27,7 +28,7 @@ from fmu_bearing.engine.layout import SD, P
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.model import land_clearance, pack, prepare
-from fmu_bearing.scene import imperfections
+from fmu_bearing.scene import imperfections, nsk, read_scene_text
 from tests.conftest import EXAMPLES, ROOT
 from tests.spindle.test_flexible import first_frequency, spindle as study
 from tests.tables import missing, rounded
@@ -80,6 +81,7 @@ def spindle():
     yield f"a ring is displaced by more than {start._FAR:g} of the pitch radius"
     yield from _lives(scene, found)
     yield from _preloads(scene)
+    yield from _classes()
     for name, flexible in (("rigid", False), ("flexible", True)):
         one = study(flexible=flexible)
         nose = 1e-6 * statics(one, force=(0.0, 0.0, 0.0)).nose_stiffness
@@ -112,6 +114,32 @@ def _preloads(scene):
         f"{1e3 * warm[-1].neutral_spacing:.1f} mm"
     )
     yield f"The bearings of the example are {1e3 * warm[-1].spacing:.0f} mm apart"
+
+
+def _classes():
+    """What the classes of a pair from one line give, and the loads of a triplet."""
+    given = {"speed_rpm": 18e3, "sound": False}
+    lost = {}
+    for name in nsk.CLASSES:
+        point = operating_point(made("DB", preload_class=name, **given))
+        found = point.statics
+        loads = [found.preloads[state][0] for state in ("cold", "warm", "running")]
+        lost[name] = loads[0] - loads[1]
+        bad = {one.key: one for one in verdicts(point) if one.judgement not in ("good", "not judged")}
+        (key,) = bad
+        words = f"gyroscopic friction {bad[key].text}"
+        if key == "speed":
+            words = f"n d_m {bad[key].text} of {bad[key].limit}"
+        cells = (f"{abs(load):.0f}" for load in (*loads, 1e-6 * found.nose_stiffness))
+        yield f"| {name} | {' | '.join(cells)} | {100 * round(point.life / 100):,} | {words} |"
+    yield f"takes {lost['medium']:.0f} N from the medium class and {lost['heavy']:.0f} N from the heavy one"
+    low, _, high = statics(made("TBT", preload_class="medium", **given)).preloads["cold"]
+    yield f"the medium class (390 N) against one carry {low:.0f} and {high:.0f} N"
+
+
+def made(arrangement, **given):
+    """A new scene of 7010C on one shaft."""
+    return read_scene_text(new_scene("set", "NSK-7010C", arrangement=arrangement, **given))
 
 
 def motor_spindle():

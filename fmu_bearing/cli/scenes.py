@@ -71,7 +71,7 @@ def new(
     ] = None,
     spring: Annotated[
         float | None,
-        typer.Option(help="N of springs on the bearings of a set that carry as its last one, instead of N."),
+        typer.Option(help="N of springs on each bearing of a set that carries as the last one; no spacers."),
     ] = None,
     grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",

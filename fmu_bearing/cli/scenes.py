@@ -117,7 +117,7 @@ def new(
             path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
             designation=designation, preload_N=preload, preload_class=preload_class,
             preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
-            distance_mm=distance, spring_N=spring,
+            distance_mm=distance, spring_N=spring, tell=tell,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [one for one in origins(path) if one.assumed]

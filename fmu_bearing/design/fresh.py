@@ -7,6 +7,7 @@ from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import sizes
@@ -32,6 +33,7 @@ def new_scene(
     *,
     speed_rpm: float | None = None,
     preload_N: float | None = None,
+    tell: Tell = silent,
     **given: Any,
 ) -> str:
     """Return the text of a new scene file; what is not given is assumed, marked, with its rule.
@@ -49,6 +51,8 @@ def new_scene(
     bearing : str or Dimensions
         A bearing of the catalogue, or dimensions from which the rest is estimated.
     speed_rpm, preload_N : float, optional
+    tell : callable
+        Takes a line where the preload of a set is searched for, which may take a minute.
     **given
         As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
         ``preload_class``, ``preload_offset_um``, ``folder``; for a set ``arrangement``, ``distance_mm``,
@@ -93,6 +97,8 @@ def new_scene(
         speed, speed_rule = _speed(draft, bearing)
     if preloaded:
         return text(speed, preload_N or 0.0, speed_rule=speed_rule)
+    if draft.spindle is not None:
+        tell("looking for a preload with good verdicts, up to a minute; a given one takes none ...")
     force, preload_rule, good = _preload(_at(draft, speed))
     slower = speed
     while speed_rpm is None and not good and slower > _SLOWEST * speed:

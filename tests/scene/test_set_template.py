@@ -3,6 +3,7 @@
 import pytest
 
 from fmu_bearing.scene import SceneError, read_scene_text
+from fmu_bearing.scene.entries import entries, entry_text, using
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.spindle import DIRECTIONS
 from fmu_bearing.scene.template import Dimensions, new_scene
@@ -97,6 +98,13 @@ def test_own_dimensions_and_own_catalogues_make_sets(tmp_path):
     own = read_scene_text(made("TBT", Dimensions(40.0, 68.0, 15.0), preload_class="light"))
     assert own.spindle.bearing[1].position_mm - own.spindle.bearing[0].position_mm == 15.0
     assert own.spindle.shaft.sections_mm[1][1] == 40.0
+    entry = entry_text(entries("bearings")["NSK-7010C"], "NSK-7010C").replace("NSK-7010C", "OWN")
+    (tmp_path / "own.toml").write_text(entry.replace("width_mm = 16.0", "width_mm = 20.0"), "utf-8")
+    with using([tmp_path / "own.toml"]):
+        text = made("DT", "OWN", preload_N=50.0, folder=tmp_path)
+    assert 'catalogues = ["own.toml"]' in text
+    found = read_scene_text(text, folder=tmp_path).spindle
+    assert [one.position_mm for one in found.bearing] == [30.0, 50.0] and found.load.force_x_N == 100.0
 
 
 @pytest.mark.parametrize(

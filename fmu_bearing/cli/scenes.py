@@ -38,7 +38,7 @@ _OPTIONAL = "Needed for a bearing that is not in the catalogue."
 def new(
     path: Annotated[
         Path | None,
-        typer.Argument(metavar="[FILE]", help="Scene file to write; default: named after the bearing."),
+        typer.Argument(metavar="FILE", help="Scene file to write; default: named after the bearing."),
     ] = None,
     bearing: Annotated[str | None, typer.Option(help="A bearing of the catalogue.")] = None,
     bore: Annotated[float | None, typer.Option(help=f"Bore, mm. {_OPTIONAL}")] = None,

@@ -8,6 +8,8 @@ Data flow in one direction::
 ``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, printed line by line
 ``files``           reading files that users name, writing those that other processes may read, the cache
+``file_words``      why a file cannot be read, and what it holds where another kind is due
+``likeness``        the name that a misspelt one was meant to be
 ``threads``         linear algebra on one thread
 ``extras``          optional packages, imported where they are used
 ``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules

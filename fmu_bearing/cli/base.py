@@ -24,10 +24,17 @@ from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
 
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
+#: What Typer raises for words that are no command, option or value; it names only the kind for values.
+_Usage: Any = typer.BadParameter.__base__
 
 
 class Commands(TyperGroup):
     """The commands. An option under its old name is refused with the new name."""
+
+    def make_context(self, *arguments: Any, **more: Any) -> Any:
+        """Read the words before the command; what cannot be read is refused in one line."""
+        with _one_line():
+            return super().make_context(*arguments, **more)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Refuse old options before any command parses them."""
@@ -38,12 +45,28 @@ class Commands(TyperGroup):
         return super().parse_args(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run a command. Ctrl-C ends it with one line; what a command keeps by itself is kept."""
+        """Run a command, its warnings one line each. Ctrl-C ends it; what it keeps by itself is kept."""
         try:
-            return super().invoke(ctx)
+            with quiet_warnings(), _one_line():
+                return super().invoke(ctx)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)
             raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def _one_line() -> Iterator[None]:
+    """Refuse options and arguments in one line, as all else is refused."""
+    try:
+        yield
+    except _Usage as error:
+        if type(error).__name__ == "NoArgsIsHelpError":
+            raise
+        path = error.ctx.command_path if error.ctx else "fmu-bearing"
+        message = " ".join(error.format_message().split()).rstrip(".")
+        more = "" if message.endswith("?") else f"; `{path} --help` lists what there is"
+        typer.echo(f"error: {message[0].lower()}{message[1:]}{more}", err=True)
+        raise typer.Exit(REFUSED) from None
 
 
 app = typer.Typer(
@@ -110,9 +133,17 @@ def refusals() -> Iterator[None]:
     except Exception as error:
         if not isinstance(error, _refused()):
             raise
-        message = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
+        message = "; ".join(line.strip() for line in _words(error).splitlines() if line.strip())
         typer.echo(f"error: {message}", err=True)
         raise typer.Exit(REFUSED) from None
+
+
+def _words(error: Exception) -> str:
+    """Return the message of a refusal; those of the operating system name the file first."""
+    from fmu_bearing.file_words import why
+
+    name = getattr(error, "filename", None)
+    return f"{name}: {why(error)}" if name is not None else why(error)
 
 
 @contextmanager
@@ -127,7 +158,7 @@ def quiet_warnings() -> Iterator[None]:
 def _caution(message: Warning | str, category: type[Warning], *place: Any) -> None:
     """Print a warning of ours; Python's own developers' warnings stay silent."""
     if issubclass(category, UserWarning):
-        tell(f"caution: {message}")
+        tell(f"caution: {' '.join(str(message).split())}")
 
 
 def _refused() -> tuple[type[Exception], ...]:

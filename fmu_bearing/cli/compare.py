@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Catalogues, Json, app, print_json, quiet_warnings, refusals, tell
+from fmu_bearing.cli.base import Catalogues, Json, app, print_json, refusals, tell
 from fmu_bearing.files import check_folder
 
 _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
@@ -41,7 +41,7 @@ def compare(
     from fmu_bearing.results.table import show
     from fmu_bearing.scene import read_scene
 
-    with refusals(), quiet_warnings():
+    with refusals():
         if plot is not None:
             check_picture(plot)
         for source in (a, b):  # an unknown microphone is reported before the runs

@@ -12,7 +12,6 @@ from fmu_bearing.cli.base import (
     SceneFile,
     app,
     print_json,
-    quiet_warnings,
     refusals,
     tell,
 )
@@ -78,7 +77,7 @@ def identify(
     from fmu_bearing.identification import SEEDS, STARTS, Interrupted, identify as search
     from fmu_bearing.identification.files import output_paths
 
-    with refusals(), quiet_warnings():
+    with refusals():
         path, folder = output_paths(output)
         code = 0
         try:

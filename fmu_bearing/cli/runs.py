@@ -14,7 +14,6 @@ from fmu_bearing.cli.base import (
     Refusal,
     app,
     print_json,
-    quiet_warnings,
     refusals,
     shaft_speed,
 )
@@ -65,7 +64,7 @@ def simulate(
     from fmu_bearing.results import result as results
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
-    with refusals(), quiet_warnings():
+    with refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
         check_file(results.check_target(output))  # refused before the run
         turning = shaft_speed(speed)
@@ -110,8 +109,8 @@ def plot(
     from fmu_bearing.scene import read_scene
 
     with refusals():
-        picture = output or result.with_suffix(".png")
         run = Run.load(result)
+        picture = output or result.with_suffix(".png")
         if scene is not None:
             run.scene = read_scene(scene)
         draw(run, picture, split(variables))

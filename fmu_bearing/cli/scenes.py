@@ -146,6 +146,9 @@ def check(
     Last come what such a scene cannot have, and why.
     """
     with refusals():
+        for file in paths:
+            if not file.is_file():  # nothing to check: a refusal, no finding
+                read_scene(file)
         found = {str(path): _findings(path) for path in paths}
     rows = {path: () if scene is None else exclusions_of(scene) for path, (scene, _) in found.items()}
     if as_json:

@@ -14,7 +14,6 @@ from fmu_bearing.cli.base import (
     app,
     print_json,
     progress,
-    quiet_warnings,
     refusals,
     shaft_speed,
     tell,
@@ -69,7 +68,7 @@ def sound(
     from fmu_bearing.scene.exclusions import require
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
-    with refusals(), quiet_warnings():
+    with refusals():
         check_folder(output)  # refused before the run
         turning = shaft_speed(speed)
         if source.suffix == ".npz":

@@ -13,7 +13,6 @@ from fmu_bearing.cli.base import (
     Json,
     app,
     print_json,
-    quiet_warnings,
     refusals,
     tell,
 )
@@ -82,7 +81,7 @@ def sweep(
     from fmu_bearing.extras import need
     from fmu_bearing.sweeps.cluster import checked
 
-    with refusals(), quiet_warnings():
+    with refusals():
         need("xarray", "a sweep")
         need("h5netcdf", "netCDF")
         if scheduler is not None:  # refused before a file is written

@@ -1,11 +1,11 @@
 """Names of variables: patterns with a star for any text, and suggestions for misspelt names."""
 
-import difflib
 import fnmatch
 import re
 from collections.abc import Iterable, Sequence
 
 from fmu_bearing import renamed
+from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.problems import described
 
 __all__ = ["UnknownName", "chosen_names", "known"]
@@ -23,11 +23,11 @@ def known(name: str, names: Sequence[str], what: str) -> str:
     if name in names:
         return name
     now = renamed.VARIABLES.get(name)
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    near = nearest(name, names)
     if now in names:
         hint = f"it is now '{now}'"
     else:
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {_some(names)}"
+        hint = f"did you mean '{near}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
 
 

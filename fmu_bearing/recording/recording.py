@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
+from fmu_bearing.file_words import RECORDING, absent, instead, why
 from fmu_bearing.files import read_arrays
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
@@ -84,8 +85,9 @@ class Recording(ChannelHistory):
         names = table.dtype.names or ()
         pressures = [name for name in names if _PRESSURE.fullmatch(name)]
         if "time" not in names or not pressures:
+            where = "" if isinstance(result, np.ndarray) else f"{os.fspath(result)}: "
             raise ValueError(
-                "the result must hold time and mic[1].pressure; ask for them as outputs of the run"
+                f"{where}the result must hold time and mic[1].pressure; ask for them as outputs of the run"
             )
         time = np.asarray(table["time"], dtype=float)
         gaps = np.diff(time)
@@ -293,12 +295,13 @@ class Recording(ChannelHistory):
         except SceneError:
             raise
         except FileNotFoundError:
-            raise ValueError(f"{path}: there is no such file") from None
+            raise ValueError(f"{path}: {absent(path)}") from None
         except OSError as problem:
-            raise ValueError(f"{path}: cannot be read: {problem}") from None
+            raise ValueError(f"{path}: cannot be read: {why(problem)}") from None
         except (ValueError, KeyError, TypeError):
+            mistaken = instead(path, RECORDING)
             raise ValueError(
-                f"{path}: is not a recording that this version has written, or damaged"
+                f"{path}: {mistaken or 'is not a recording that this version has written, or damaged'}"
             ) from None
 
 

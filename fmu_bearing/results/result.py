@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
+from fmu_bearing.file_words import RESULT, absent, instead, why
 from fmu_bearing.files import plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.results.levels import present, shown
@@ -234,7 +235,8 @@ class Run(Series):
             with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
                 data.load()
         except (OSError, ValueError) as problem:
-            raise ResultError(f"{path}: is not a netCDF file: {problem}") from None
+            words = f"is not a netCDF file: {why(problem)}"
+            raise ResultError(f"{path}: {instead(path, RESULT) or words}") from None
         if "time" not in data.coords or any(data[name].dims != ("time",) for name in data.data_vars):
             raise ResultError(f"{path}: holds no variables over time; sweeps are read by xarray")
         columns = {"time": data["time"].values} | {str(n): data[n].values for n in data.data_vars}
@@ -307,10 +309,12 @@ def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
     except ResultError:
         raise
     except (OSError, UnicodeDecodeError, ValueError, IndexError, TypeError) as problem:
-        raise ResultError(f"{path}: is not a table of numbers with a line of names: {problem}") from None
+        words = f"is not a table of numbers with a line of names: {why(problem)}"
+        raise ResultError(f"{path}: {instead(path, RESULT) or words}") from None
     names = table.dtype.names or ()
-    if not names or names[0] != "time":
-        raise ResultError(f"{path}: the first column must be 'time' (s), not '{names[0] if names else ''}'")
+    if names[:1] != ("time",):
+        words = f"the first column must be 'time' (s), not '{names[0] if names else ''}'"
+        raise ResultError(f"{path}: {instead(path, RESULT) or words}")
     for name in names:
         if table[name].ndim != 1 or not np.isfinite(table[name]).all():
             raise ResultError(f"{path}: column '{name}' must hold one finite number per line")
@@ -325,9 +329,9 @@ def _plain(path: str | os.PathLike[str]) -> pathlib.Path:
     try:
         return plain_file(path)
     except FileNotFoundError:
-        raise ResultError(f"{path}: there is no such file") from None
+        raise ResultError(f"{path}: {absent(path)}") from None
     except OSError as problem:
-        raise ResultError(f"{path}: cannot be read: {problem}") from None
+        raise ResultError(f"{path}: cannot be read: {why(problem)}") from None
 
 
 def written(write: Any, suffix: str) -> bytes:

@@ -15,6 +15,7 @@ import numpy as np
 
 from fmu_bearing import __version__
 from fmu_bearing.engine.sources import source_hash
+from fmu_bearing.file_words import TABLE, absent, instead, why
 from fmu_bearing.files import read_text
 
 _WIDEST = 10_000  # characters: no table is wider
@@ -140,9 +141,12 @@ def read_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Cell]]]:
     try:
         text = read_text(path)
     except FileNotFoundError:
-        raise ValueError(f"{path}: there is no such file") from None
+        raise ValueError(f"{path}: {absent(path)}") from None
     except (OSError, UnicodeDecodeError) as problem:
-        raise ValueError(f"{path}: cannot be read as text in UTF-8: {problem}") from None
+        words = f"cannot be read as text in UTF-8: {why(problem)}"
+        raise ValueError(f"{path}: {instead(path, TABLE) or words}") from None
+    if mistaken := instead(path, TABLE):
+        raise ValueError(f"{path}: {mistaken}")
     # remarks become empty, so that lines keep their numbers and quotes in remarks open no cell
     lines = ["" if line.lstrip().startswith("#") else line for line in io.StringIO(text)]
     first = next((line for line in lines if line.strip()), "")

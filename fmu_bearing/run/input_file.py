@@ -121,7 +121,8 @@ def _column(path: pathlib.Path, title: str, inputs: Mapping[str, Bounded], first
             )
         return Column(title, name, suffix)
     try:
-        known(title, list(inputs), "input")
+        units = [one + ending for one in inputs for ending in SUFFIXES.get(inputs[one].unit, ())]
+        known(title, [*inputs, *units], "input")
     except ValueError as problem:
         raise ResultError(f"{path}: column '{title}': {problem}") from None
     raise AssertionError(title)

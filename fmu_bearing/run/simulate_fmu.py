@@ -12,6 +12,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
+from fmu_bearing.file_words import FMU, absent, instead, why
 from fmu_bearing.files import plain_file
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, ResultError
 from fmu_bearing.results.series import columns_of, structured
@@ -121,9 +122,9 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
     try:
         description = fmpy.read_model_description(str(plain_file(path)))
     except FileNotFoundError:
-        raise ResultError(f"{path}: there is no such FMU") from None
+        raise ResultError(f"{path}: {absent(path, 'FMU')}") from None
     except Exception as problem:
-        raise ResultError(f"{path}: is not a valid FMU: {problem}") from None
+        raise ResultError(f"{path}: {instead(path, FMU) or f'is not a valid FMU: {why(problem)}'}") from None
     if description.coSimulation is None:
         raise ResultError(f"{path}: is not a co-simulation FMU")
     return FmuPlayer(path, description)

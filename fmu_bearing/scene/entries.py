@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import tomlkit
 from pydantic import ValidationError
 
+from fmu_bearing.file_words import CATALOGUE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.base import Part, SceneError
@@ -90,9 +91,13 @@ def _of_file(path: Path) -> dict[str, Entry]:
     try:
         text = read_text(path, _LONGEST)
     except FileNotFoundError:
-        raise SceneError(f"{path}: there is no such catalogue file") from None
+        raise SceneError(f"{path}: {absent(path, 'catalogue file')}") from None
     except (OSError, ValueError) as problem:
-        raise SceneError(f"{path}: cannot be read as a catalogue: {problem}") from None
+        raise SceneError(
+            f"{path}: {instead(path, CATALOGUE) or f'cannot be read as a catalogue: {why(problem)}'}"
+        ) from None
+    if mistaken := instead(path, CATALOGUE):
+        raise SceneError(f"{path}: {mistaken}")
     try:
         tables = parse(text)
     except ValueError as problem:

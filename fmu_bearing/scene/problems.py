@@ -1,21 +1,24 @@
 """Error messages about a scene: one line per problem, with the keys and values of the file."""
 
-import difflib
 import itertools
 import types
 import typing
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from fmu_bearing import renamed
+from fmu_bearing.likeness import nearest
+from fmu_bearing.scene import base
 from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.spindle import OR_CLASS
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import limits, table_of
+
+Location = tuple[Any, ...]
 
 #: Sources from which a table can take its values.
 _SOURCES = {
@@ -33,9 +36,25 @@ _TEXTS = {
 }
 _TEXT = 60  # longest value worth repeating
 _MOST = 20  # problems listed one by one
-_ALIKE = 0.5  # below this likeness a suggestion is a guess: the known keys are listed instead
-
-Location = tuple[Any, ...]
+#: Keys that are replaced by values before tables are checked.
+_RESOLVED: dict[Location, tuple[str, ...]] = {
+    (): ("catalogues",),
+    ("bearing",): ("catalogue",),
+    ("lubricant",): ("catalogue",),
+    ("imperfections",): ("grade",),
+    ("mounting",): ("preload_class", "preload_offset_um"),
+    ("spindle", "preload"): ("preload_class", "preload_offset_um"),
+}
+_HOMES = 3  # tables that are named where a key could belong
+#: What a set has in place of keys of a single bearing's mounting, and the reverse.
+_COUNTERPARTS = {
+    ("mounting", "preload_N"): ("spindle", "preload", "preload_N"),
+    ("mounting", "radial_load_y_N"): ("spindle", "load", "force_y_N"),
+    ("mounting", "radial_load_z_N"): ("spindle", "load", "force_z_N"),
+    ("mounting", "pedestal_stiffness_N_m"): ("spindle", "housing", "pedestal_stiffness_N_m"),
+    ("mounting", "rotor"): ("spindle", "shaft"),
+}
+_FORCE_X = ("spindle", "load", "force_x_N")  # a single bearing's axial force is its preload
 
 
 def explain(failure: ValidationError, data: dict[str, Any], skip: Iterable[Location] = ()) -> Iterator[str]:
@@ -68,12 +87,33 @@ def _lines(errors: Iterable[Any], data: dict[str, Any]) -> Iterator[str]:
         elif error["type"] == "missing":
             yield missing(path)
         elif error["type"] == "extra_forbidden":
-            yield _unknown(path)
+            yield _unknown(path, data)
         else:
             yield (
                 f"{dotted(path)} = {shown(error['input'])} is refused; allowed: {allowed(path)}"
-                f"{_instead(path, error['input'])}"
+                f"{_quotes(error, path)}{_instead(path, error['input'])}"
             )
+
+
+def _quotes(error: Any, path: Location) -> str:
+    """Say that a number or truth value is in quotes, or that text lacks them."""
+    value, kind = error["input"], error["type"]
+    if isinstance(value, str) and kind in ("float_type", "int_type", "bool_type"):
+        if value in ("true", "false") if kind == "bool_type" else _is_number(value):
+            key = f"{path[-1]} = " if isinstance(path[-1], str) else ""  # none of a member of an array
+            return f"; it is text, as it is in quotes: write {key}{value}"
+        return "; it is text, no truth value" if kind == "bool_type" else "; it is text, no number"
+    if kind in ("string_type", "literal_error") and isinstance(value, int | float):
+        return "; it is a number, and text in quotes is due"
+    return ""
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _instead(path: Location, value: Any) -> str:
@@ -205,33 +245,92 @@ def missing(path: Location) -> str:
     return f"{dotted(path)} is missing, for example {key} = {value} ({field.description}){hint}"
 
 
-def _unknown(path: Location) -> str:
+def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     key, table = str(path[-1]), path[:-1]
     model = _model_at(table)
     known = list(model.model_fields) if model is not None else []
-    if table in (("bearing",), ("lubricant",)) or table[:1] == ("materials",):
-        known.append("catalogue")
-    elif table == ("imperfections",):
-        known.append("grade")
-    elif table in (("mounting",), ("spindle", "preload")):
-        known += ["preload_class", "preload_offset_um"]
-    elif table == ():
-        known.append("catalogues")
-    near = difflib.get_close_matches(key, known, n=1, cutoff=_ALIKE)
+    known += ("catalogue",) if table[:1] == ("materials",) else _RESOLVED.get(table, ())
     if dotted(path) in renamed.KEYS:
         return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"
-    elsewhere = [where for where, other in _tables(Tables) if key in other.model_fields and where != table]
-    if len(elsewhere) == 1:
-        hint = (
-            f"; it belongs in [{dotted(elsewhere[0])}]"
-            if elsewhere[0]
-            else "; it is written above all tables"
-        )
-    elif near:
-        hint = f"; did you mean '{near[0]}'?"
+    is_set = data.get("spindle") is not None or table[:1] == ("spindle",)
+    other = "mounting" if is_set else "spindle"
+    homes = [(where, one) for where, one in _tables(Tables) if where != table and where != _plain(table)]
+    mine = [(where, one) for where, one in homes if where[:1] != (other,)]
+    exact = [
+        where
+        for where, one in mine
+        if (key in one.model_fields or key in _RESOLVED.get(where, ())) and (*where, key) != (other,)
+    ]
+    if 1 <= len(exact) <= _HOMES:
+        hint = f"; it belongs in {' or '.join(_place(where, key) for where in exact)}"
+        hint = hint if exact[0] else "; it is written above all tables"
+    elif near := nearest(key, known):
+        hint = f"; did you mean '{near}'?"
+    elif hint := _of_others(
+        key, is_set, [where for where, one in homes if where and key in one.model_fields]
+    ):
+        pass
+    elif away := nearest(key, [name for _, one in mine for name in one.model_fields if "_" in name]):
+        where = next(where for where, one in mine if away in one.model_fields)
+        hint = f"; did you mean {away} in [{dotted(where)}]?" if where else f"; did you mean '{away}'?"
     else:
         hint = f"; known here: {', '.join(known)}"
     return f"{dotted(path)} is not a key of a scene{hint}"
+
+
+def _plain(path: Location) -> Location:
+    """Return a location without places in arrays."""
+    return tuple(step for step in path if not isinstance(step, int))
+
+
+def _place(where: Location, key: str) -> str:
+    """Return the table a key belongs in; of a table, the table itself."""
+    field = _field((*where, key))
+    if field is None or table_of(field.annotation) is None or is_material((*where, key)):
+        return f"[{dotted(where)}]"
+    name = dotted((*where, key))
+    many = any(typing.get_origin(kind) is tuple for kind in (field.annotation, *get_args(field.annotation)))
+    return f"[[{name}]]" if many else f"[{name}]"
+
+
+def _of_others(key: str, is_set: bool, homes: list[Location]) -> str:
+    """Return what such a scene has in place of a key that only scenes of the other kind have."""
+    if not homes:
+        return ""
+    ways = (
+        {own: other for own, other in _COUNTERPARTS.items()}
+        if is_set
+        else {other: own for own, other in _COUNTERPARTS.items()}
+        | {_FORCE_X: ("mounting", "preload_N"), ("spindle", "preload"): ("mounting", "preload_N")}
+    )
+    kind = "a set on one shaft" if is_set else "one bearing"
+    for where in homes:
+        if found := ways.get((*where, key)):
+            return f"; {kind} has {_key(found)}"
+    others = "one bearing" if is_set else "a set on one shaft"
+    return f"; it is of [{dotted(homes[0])}], which {others} has, and this scene is of {kind}"
+
+
+def _key(path: Location) -> str:
+    """Return a key and its table; of a table, the table."""
+    field = _field(path)
+    if field is not None and table_of(field.annotation) is not None:
+        return f"[{dotted(path)}]"
+    return f"{path[-1]} in [{dotted(path[:-1])}]"
+
+
+def _key_of(model: type[BaseModel], name: str) -> str | None:
+    """Return the dotted key of a value, ``[k]`` for a member; None: there is none, or there are several."""
+    places = [path for path, one in _tables(Tables) if issubclass(model, one) and name in one.model_fields]
+    if len(places) != 1:
+        return None
+    (where,) = places
+    arrays = (_place(where[:k], step).startswith("[[") for k, step in enumerate(where))
+    steps = [f"{step}[k]" if array else step for step, array in zip(where, arrays, strict=True)]
+    return ".".join([*steps, name])
+
+
+base.key_of.append(_key_of)
 
 
 def _tables(model: type[BaseModel], path: Location = ()) -> Iterator[tuple[Location, type[BaseModel]]]:

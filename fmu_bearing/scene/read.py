@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
@@ -196,11 +197,15 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     try:
         text = read_text(path, LONGEST)
     except FileNotFoundError:
-        raise SceneError(f"{path}: there is no such scene file") from None
+        raise SceneError(f"{path}: {absent(path, 'scene file')}") from None
     except UnicodeDecodeError as problem:
-        raise SceneError(f"{path}: is not text in UTF-8: {problem}") from None
+        raise SceneError(
+            f"{path}: {instead(path, SCENE) or f'is not text in UTF-8: {why(problem)}'}"
+        ) from None
     except (OSError, ValueError) as problem:
-        raise SceneError(f"{path}: cannot be read: {problem}") from None
+        raise SceneError(f"{path}: {instead(path, SCENE) or f'cannot be read: {why(problem)}'}") from None
+    if mistaken := instead(path, SCENE):
+        raise SceneError(f"{path}: {mistaken}")
     return read_scene_text(text, str(path), Path(path).parent)
 
 
@@ -239,7 +244,8 @@ def _checked(
     try:
         scene = Scene.model_validate(data)
     except ValidationError as problem:
-        lines += explain(problem, data, unresolved)
+        both = data.get("mounting") is not None and data.get("spindle") is not None
+        lines += explain(problem, data, [*unresolved, *([("mounting",)] if both else [])])
         lines += _one_mounting(data)
     else:
         lines += _one_mounting(data)

@@ -1,13 +1,14 @@
 """A sweep as a small TOML file, so that it can be made again."""
 
-import difflib
 import os
 import pathlib
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from fmu_bearing.file_words import SWEEP, instead, why
 from fmu_bearing.files import read_text
+from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.toml_text import LONGEST, parse
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW
@@ -66,7 +67,7 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     try:
         data = parse(read_text(path, LONGEST))
     except (OSError, ValueError) as problem:
-        raise SweepError(f"{path}: cannot be read: {problem}") from None
+        raise SweepError(f"{path}: {instead(path, SWEEP) or f'cannot be read: {why(problem)}'}") from None
     try:
         found = Description.model_validate(data)
     except ValidationError as failure:
@@ -80,8 +81,8 @@ def _lines(failure: ValidationError) -> list[str]:
         key = ".".join(str(step) for step in error["loc"][:2])
         if error["type"] == "extra_forbidden":
             names = list(Description.model_fields)
-            near = difflib.get_close_matches(key, names, n=1, cutoff=0.5)
-            hint = f"did you mean '{near[0]}'?" if near else f"known here: {', '.join(names)}"
+            near = nearest(key, names)
+            hint = f"did you mean '{near}'?" if near else f"known here: {', '.join(names)}"
             lines.append(f"{key} is not a key of a sweep; {hint}")
         elif error["type"] == "missing":
             lines.append(f"{key} is missing, for example {_EXAMPLES[key]}")

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import IO, Any
 from xml.etree import ElementTree
 
+from fmu_bearing.file_words import FMU, absent, instead, why
 from fmu_bearing.files import plain_file
 from fmu_bearing.validation import tools
 from fmu_bearing.validation.checks import CHECKS, NEEDED, meaning_of, name_of
@@ -84,9 +85,9 @@ def _unpack(path: Path, folder: Path) -> None:
                 raise NotAnFmu(f"{path}: is not an FMU: it holds no {_DESCRIPTION}")
             archive.extractall(folder)  # leaves out what points outside the folder
     except FileNotFoundError:
-        raise NotAnFmu(f"{path}: there is no such FMU") from None
+        raise NotAnFmu(f"{path}: {absent(path, 'FMU')}") from None
     except (zipfile.BadZipFile, OSError) as problem:
-        raise NotAnFmu(f"{path}: is not an FMU: {problem}") from None
+        raise NotAnFmu(f"{path}: {instead(path, FMU) or f'is not an FMU: {why(problem)}'}") from None
 
 
 def _kind(path: Path, folder: Path) -> str:

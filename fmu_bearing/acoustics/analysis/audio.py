@@ -17,6 +17,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.io import wavfile
 
+from fmu_bearing.file_words import why
 from fmu_bearing.files import plain_file
 
 WAV_RATE = 48_000
@@ -93,7 +94,7 @@ def read_wav(
     try:
         data = plain_file(path).read_bytes()
     except OSError as problem:
-        raise ValueError(f"{path}: cannot be read: {problem}") from None
+        raise ValueError(f"{path}: cannot be read: {why(problem)}") from None
     if full_scale is None:
         found = _CALIBRATION.search(data.decode("latin-1"))
         if found is None:

@@ -18,7 +18,6 @@ for the balls' sums over cos(m theta), sin(m theta), theta from 12 o'clock (``co
 ``flexure[i]``, i = 1 .., for flexural coordinates. What a table leaves out is silent.
 """
 
-import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path as File
@@ -29,7 +28,9 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Path
 from fmu_bearing.engine.layout import SD
+from fmu_bearing.file_words import absent as no_file, why
 from fmu_bearing.files import read_arrays
+from fmu_bearing.likeness import nearest
 
 _ARRAYS = ("frequencies", "inputs", "microphones", "positions", "H")
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
@@ -63,9 +64,9 @@ def read_table(path: str | File) -> Table:
     try:
         data = read_arrays(path, _ARRAYS)
     except FileNotFoundError:
-        raise ValueError(f"{where}: there is no such file; paths count from the scene file") from None
+        raise ValueError(f"{where}: {no_file(path)}; paths count from the scene file") from None
     except OSError as problem:
-        raise ValueError(f"{where}: cannot be read: {problem}") from None
+        raise ValueError(f"{where}: cannot be read: {why(problem)}") from None
     except ValueError as problem:
         raise ValueError(f"{where}: {problem}; make one by numpy.savez") from None
     absent = [name for name in _ARRAYS if name not in data]
@@ -186,8 +187,8 @@ def table_paths(
     found: dict[int, Path] = {}
     for name, response in zip(table.inputs, responses, strict=True):
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-            hint = f"did you mean '{near[0]}'?" if near else "an example: outer_ring.acceleration.x"
+            near = nearest(name, known)
+            hint = f"did you mean '{near}'?" if near else "an example: outer_ring.acceleration.x"
             raise ValueError(f"sound.table_file: '{name}' is not an input of this scene; {hint}")
         component, channel, kind = known[name]
         if channel in found:

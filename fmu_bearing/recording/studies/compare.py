@@ -27,7 +27,7 @@ from fmu_bearing.recording.studies.comparison_data import (
 from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.units import symbol
@@ -291,9 +291,10 @@ def compare(
     >>> found.b.figures["contact.inner.load_mean"] > 2.0 * found.a.figures["contact.inner.load_mean"]
     True
     """
+    sources = [_loaded(source) for source in (a, b)]  # what cannot be read is refused before a run
     sides = [
-        _finished(letter, source, duration, settle, fidelity, radiation_model, tell, progress)
-        for letter, source in (("A", a), ("B", b))
+        _finished(letter, name, source, duration, settle, fidelity, radiation_model, tell, progress)
+        for letter, (name, source) in zip("AB", sources, strict=True)
     ]
     scenes = [side.scene for side in sides]
     keys: dict[str, tuple[Any, Any]] = {}
@@ -304,19 +305,23 @@ def compare(
     return Comparison(sides[0], sides[1], keys)
 
 
-def _finished(
-    letter: str, source: Compared, duration: float, settle: float, fidelity: str | None,
-    radiation_model: str | None, tell: Tell, progress: bool | None,
-) -> ComparisonData:  # fmt: skip
-    """Load or run one side, and measure it."""
-    name = ""
+def _loaded(source: Compared) -> tuple[str, Recording | Run | Scene]:
+    """Return what is compared with the name of its file, read where it is one."""
     if isinstance(source, str | os.PathLike):
         path = pathlib.Path(source)
-        name = path.stem
         if path.suffix == ".npz":
-            source = Recording.load(path)
-        elif path.suffix in ENDINGS:
-            source = Run.load(path)
+            return path.stem, Recording.load(path)
+        if path.suffix in ENDINGS:
+            return path.stem, Run.load(path)
+        return path.stem, scene_of(source)
+    return "", source
+
+
+def _finished(
+    letter: str, name: str, source: Recording | Run | Scene, duration: float, settle: float,
+    fidelity: str | None, radiation_model: str | None, tell: Tell, progress: bool | None,
+) -> ComparisonData:  # fmt: skip
+    """Run one side where it is a scene, and measure it."""
     if isinstance(source, Recording | Run):
         if fidelity is not None:
             raise ValueError(
@@ -327,7 +332,7 @@ def _finished(
         if isinstance(source, Run):
             return of_run(source, settle, radiation_model)
         return of_recording(source, name, radiation_model)
-    scene = scene_of(source)
+    scene = source
     require(scene, "comparison")
     if fidelity is not None:
         scene = with_fidelity(scene, model=fidelity)

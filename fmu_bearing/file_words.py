@@ -1,0 +1,115 @@
+"""Messages about files that serve no purpose: why one cannot be read, and what one holds instead."""
+
+import os
+import re
+import zipfile
+
+from fmu_bearing.files import plain_file
+
+__all__ = ["absent", "instead", "why"]
+
+EMPTY, SCENE, SWEEP, FMU, TABLE = "an empty file", "a scene", "a sweep", "an FMU", "a table of values (CSV)"
+RESULT, RECORDING, CATALOGUE = "a result of a run", "a recording", "a catalogue of bearings"
+
+#: What a file has to hold, and where one comes from.
+_DUE = {
+    SCENE: "a scene is a TOML file, which `fmu-bearing scene new` writes",
+    SWEEP: "a sweep is a TOML file with scene and [axes]",
+    FMU: "`fmu-bearing build` makes an FMU of a scene",
+    TABLE: "write lines of values under a line of names",
+    RESULT: "`fmu-bearing simulate` writes results, as .csv or .nc",
+    RECORDING: "`fmu-bearing sound` writes recordings, as .npz",
+    CATALOGUE: "a catalogue is a TOML file with one table per bearing",
+}
+#: Which commands read what is given.
+_READ = {
+    SCENE: "`fmu-bearing info` and most other commands read scenes",
+    SWEEP: "`fmu-bearing sweep` runs it",
+    FMU: "`fmu-bearing simulate` runs an FMU, `validate` checks one",
+    TABLE: "`fmu-bearing plot` and `compare` read results of runs",
+    RECORDING: "`fmu-bearing sound`, `report` and `compare` read recordings",
+}
+_BEGINNINGS = {
+    b"\x89HDF": "a netCDF or HDF5 file",
+    b"RIFF": "a WAV file",
+    b"\x89PNG": "a picture",
+    b"%PDF": "a PDF file",
+    b"<": "a page or picture in HTML or XML",
+    b"{": "a JSON file",
+}
+_OF_SCENE = re.compile(r"^\s*\[+\s*(bearing|mounting|spindle|operation|lubricant)\b", re.MULTILINE)
+_OF_SWEEP = re.compile(r"^\s*\[\s*axes\s*\]", re.MULTILINE)
+_HEAD = 65_536  # bytes that are looked at; the tables of a scene begin among the first
+
+
+def why(problem: Exception) -> str:
+    """Return why a file could not be read or written, in one line without Python's own words."""
+    if isinstance(problem, UnicodeDecodeError):
+        if problem.object[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            return "it is UTF-16: save it as UTF-8"
+        return f"byte {problem.start + 1} is no character of it: save it as UTF-8"
+    if isinstance(problem, OSError) and problem.strerror:
+        return problem.strerror[0].lower() + problem.strerror[1:]
+    return str(problem)
+
+
+def absent(path: str | os.PathLike[str], kind: str = "file") -> str:
+    """Say that there is no such file, or not even its folder."""
+    folder = os.path.dirname(os.fspath(path))
+    where = f": there is no folder {folder}" if folder and not os.path.isdir(folder) else ""
+    return f"there is no such {kind}{where}"
+
+
+def instead(path: str | os.PathLike[str], due: str) -> str:
+    """Say what a file holds where something else is due; empty where that cannot be told.
+
+    Parameters
+    ----------
+    path : path
+    due : str
+        What the file had to hold: one of the constants of this module.
+    """
+    found = _holds(path)
+    fits = found == due or (found, due) == (TABLE, RESULT) or (found == EMPTY and due != SCENE)
+    if not found or fits:
+        return ""
+    ways = [_DUE[due], _READ.get(found, "")]
+    return f"is not {due}, but {found}: {'; '.join(way for way in ways if way)}"
+
+
+def _holds(path: str | os.PathLike[str]) -> str:
+    """Return what a file holds by its first bytes; empty: unknown, or it cannot be read."""
+    try:
+        with plain_file(path).open("rb") as file:
+            head = file.read(_HEAD)
+    except OSError:
+        return ""
+    if zipfile.is_zipfile(path):
+        return _archive(path)
+    known = next((words for mark, words in _BEGINNINGS.items() if head.lstrip().startswith(mark)), "")
+    if known or b"\0" in head:
+        return known
+    text = head.decode("utf-8-sig", errors="ignore")
+    first = next((line for line in text.splitlines() if line.strip() and line.lstrip()[0] != "#"), "")
+    if not first:
+        return EMPTY
+    if _OF_SCENE.search(text):
+        return SCENE
+    if _OF_SWEEP.search(text):
+        return SWEEP
+    if "=" not in first and any(mark in first for mark in ",;\t"):
+        return TABLE
+    return ""
+
+
+def _archive(path: str | os.PathLike[str]) -> str:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+    except (OSError, zipfile.BadZipFile):
+        return "a damaged archive"
+    if "modelDescription.xml" in names:
+        return FMU
+    if "head.npy" in names:
+        return RECORDING
+    return "a NumPy archive" if any(name.endswith(".npy") for name in names) else "a ZIP archive"

@@ -76,6 +76,24 @@ def ceramic():
     return point(*CERAMIC)
 
 
+SPINDLE = EXAMPLES / "7003C-spindle.toml"
+SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
+
+
+@functools.cache
+def settled(scene, preload=None, speed=None, water=None):
+    """Steady temperatures and operating point by the example's thermal network."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(EXAMPLES.parent / "spindle_cosimulation"))
+        import steady
+
+        if water is not None:
+            patch.setitem(steady.CONDUCTANCES, ("housing", "ambient"), water)
+        values = {"mounting.preload_N": preload, "operation.speed_rpm": speed}
+        given = {key: value for key, value in values.items() if value is not None}
+        return steady.steady(read_scene(scene).replace(given))
+
+
 #: Figures of each page in words, and where they come from.
 FIGURES = {
     "tutorial.md": {
@@ -145,6 +163,20 @@ FIGURES = {
         "0.98 GPa": lambda: pressure(ceramic(), "outer"),
         "28.5 times": lambda: ceramic().film,
     },
+    "heat.md": {
+        "44.23 W with": lambda: point().heat.total,
+        "73 % of": lambda: 100.0 * point().heat.rolling / point().heat.total,
+        "31.4 degC, its": lambda: settled(SET)[0][0, "shaft"],
+        "22.7 degC. The": lambda: settled(SET)[0][0, "housing"],
+        "8.7 K.": lambda: settled(SET)[0][0, "shaft"] - settled(SET)[0][0, "housing"],
+        "210 N instead": lambda: settled(SET)[1].bearings[0].axial,
+        "167 N, and": lambda: operating_point(SET).bearings[0].axial,
+        "10898 h instead": lambda: settled(SET)[1].bearings[0].life,
+        "21553 h.": lambda: operating_point(SET).bearings[0].life,
+        "15.8 K warmer": lambda: settled(SPINDLE)[0][1, "inner_ring"] - settled(SPINDLE)[0][1, "outer_ring"],
+        "32.1 degC instead": lambda: settled(SPINDLE, water=2.0)[0][1, "outer_ring"],
+        "44.3 degC instead": lambda: settled(SPINDLE, water=2.0)[0][1, "oil"],
+    },
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),
         "1986 Hz": lambda: resonance(point()),
@@ -192,6 +224,18 @@ def test_table_of_lives():
     for load, equivalent, life in rows("life.md", "axial load, N | P"):
         found = point(load).rating
         assert (equivalent, life) == pytest.approx((found.equivalent, found.life), abs=0.6)
+
+
+def test_table_of_temperatures():
+    table = rows("heat.md", "preload, N | speed")
+    assert len(table) == 6
+    for preload, speed, heat, oil, ring, ratio, life in table:
+        found, at = settled(SPINDLE, preload, speed)
+        reached = (at.heat.total, found[1, "oil"], found[1, "inner_ring"])
+        assert reached == pytest.approx((heat, oil, ring), abs=0.06)
+        (one,) = at.bearings
+        assert one.viscosity_ratio == pytest.approx(ratio, abs=6e-3)
+        assert one.life == pytest.approx(life, rel=1e-3)  # 0.01 K of the last round
 
 
 def test_shares_of_makers():

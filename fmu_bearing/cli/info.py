@@ -8,7 +8,7 @@ import typer
 from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
 
 if TYPE_CHECKING:
-    from fmu_bearing.design.operating_point import BearingPoint
+    from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint
     from fmu_bearing.design.verdict import Verdict
     from fmu_bearing.steady.statics import Statics
 
@@ -41,6 +41,7 @@ def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) 
         _show_bearing(point.bearings[0])
     else:
         _show_set(point.statics)
+    _show_heat(point)
     _show_verdicts(found, len(point.bearings))
     for line in lines:
         tell(f"caution: {line}")
@@ -83,6 +84,14 @@ def _show_set(found: "Statics") -> None:
     )  # fmt: skip
     show("bearings: load; largest ball load, angle, pressure", columns, _loads(found))
     show("shaft", ("", "value"), _shaft(found))
+
+
+def _show_heat(point: "OperatingPoint") -> None:
+    """Print the friction torque of each bearing and the heat it makes."""
+    from fmu_bearing.design.heat import heat_table
+    from fmu_bearing.results.table import show
+
+    show("friction and heat: settled, no waviness", *heat_table(point.bearings))
 
 
 def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
@@ -189,7 +198,6 @@ def _ratings(point: "BearingPoint") -> list[list[str]]:
     from fmu_bearing.design.rating import unrated
 
     rows = [["viscosity of the oil, mm2/s", f"{point.viscosity:.1f}", "at its temperature"]]
-    rows.append(["friction torque, N mm", f"{1e3 * point.friction_torque:.2f}", "settled, without waviness"])
     found = point.rating
     if found is None:
         return [*rows, ["C, C0, life", "none", unrated(point.scene)]]

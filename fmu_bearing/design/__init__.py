@@ -2,6 +2,7 @@
 
 ===================  ================================================================
 ``rating``           ratings and makers' limits of the bearing of a scene
+``heat``             watts by where friction loses them, and by what they warm
 ``operating_point``  a scene's bearings at their operating point, without a run
 ``verdict``          figure, limit, source and judgement
 ``verdicts``         the verdicts on each bearing, and on all together

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.design.heat import Heat, heat_in_all, heat_of
 from fmu_bearing.design.rating import Rating, least_preload, rating, reference_life, speed_limit
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
@@ -69,6 +70,8 @@ class BearingPoint:
         Mrev: L10r by ISO 16281 from the loads of the balls; None where no standard rates the bearing.
     friction_torque : float
         N m: of the settled bearing, positive where it brakes positive rotation.
+    heat : Heat
+        W: what that torque loses, by where it arises and what it warms.
     gyroscopic_friction : float
         Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls.
     load : BearingLoad
@@ -89,6 +92,7 @@ class BearingPoint:
     rating: Rating | None
     reference_life: float | None
     friction_torque: float
+    heat: Heat
     gyroscopic_friction: float
     load: BearingLoad
     on_shaft: bool
@@ -152,6 +156,7 @@ class BearingPoint:
             "rating": None if self.rating is None else self.rating._asdict(),
             "reference_life_Mrev": self.reference_life,
             "friction_torque_N_m": self.friction_torque,
+            "heat_W": self.heat.summary(),
             "gyroscopic_friction": self.gyroscopic_friction,
             "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
         }
@@ -185,6 +190,11 @@ class OperatingPoint:
     steady: bool
 
     @property
+    def heat(self) -> Heat:
+        """Of all bearings together, W."""
+        return heat_in_all(one.heat for one in self.bearings)
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         """That no steady state was found, that the pedestal is soft."""
         return self.statics.remarks
@@ -196,6 +206,7 @@ class OperatingPoint:
             "speed_rpm": self.scene.operation.speed_rpm,
             "bearings": [one.summary() for one in self.bearings],
             "statics": self.statics.summary(),
+            "heat_W": self.heat.summary(),
             "life_h": self.life,
             "whirl_Hz_1_s": self.whirl,
             "steady": self.steady,
@@ -232,6 +243,8 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     ...     print(f"{one.axial:.0f} N, {1e-9 * one.contacts['inner']['pressure_max']:.2f} GPa")
     167 N, 1.54 GPa
     67 N, 1.17 GPa
+    >>> print(f"{operating_point('examples/spindle_set/7003C-DB.toml').heat.total:.1f} W")
+    27.9 W
     """
     scene = still_of(scene_of(scene))
     found = point(scene, tell=tell)
@@ -297,6 +310,7 @@ def _figures(
         iso281.viscosity_ratio(nu, rpm, pitch), abs(rpm) * pitch, speed_limit(scene),
         least_preload(scene, centrifugal), rating(scene, max(0.0, load.axial), load.radial, rpm),
         reference_life(scene, *load.ball_loads), settled.get(one.prefix + "friction_torque"),
+        heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM),
         _gyroscopic_friction(part, load.ball_loads), load, one.prefix != "",
     )  # fmt: skip
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.operating_point import OperatingPoint, operating_point
 from fmu_bearing.design.verdict import Verdict, shown_hours
 from fmu_bearing.design.verdicts import cautions, side_by_side, verdicts
@@ -66,6 +67,7 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     plan: tuple[tuple[str, str, Callable[[], list[Block]]], ...] = (
         ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
         ("balls", "Ball loads", lambda: [_balls(point)]),
+        ("heat", "Friction and heat", lambda: [_heat(point)]),
         ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
         ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
         ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
@@ -102,6 +104,7 @@ def _tiles(point: OperatingPoint) -> list[Tile]:
         way, first = min(found.lift_off.items(), key=lambda pair: abs(pair[1].load))
         words = f"axial load {way} that unloads bearing {first.bearing}"
         tiles.append(tile("lift_off_N", words, abs(first.load), "N", ".0f"))
+    tiles.append(tile("heat_W", "friction heat of all bearings", point.heat.total, "W", ".1f"))
     if life is not None and math.isfinite(life):
         shown = tile("life_h", "L10r of all bearings together", life, "h", ",.0f")
         tiles.append(shown | {"text": shown_hours(life)})
@@ -164,6 +167,12 @@ def _bearings(found: Statics) -> Table:
         for row in found.table()
     ]  # fmt: skip
     return Table("What each bearing carries, in the axes of the shaft", columns, rows)
+
+
+def _heat(point: OperatingPoint) -> Table:
+    """Friction torque of each bearing, and the heat it makes, by where it arises and what it warms."""
+    columns, rows = heat_table(point.bearings)
+    return Table("Friction and heat of the settled bearings, without waviness", list(columns), rows)
 
 
 def _balls(point: OperatingPoint) -> Chart:

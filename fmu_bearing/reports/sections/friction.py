@@ -2,21 +2,22 @@
 
 import numpy as np
 
+from fmu_bearing.design.heat import ARISES, GOES
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words, small, thinned
 from fmu_bearing.reports.sections.ring_motion import last_turns
 
 _SHARES = {
-    "contacts": ("sliding in the contacts", "inner_ring"),
-    "rolling": ("rolling resistance of the oil", "outer_ring"),
-    "cage": ("cage: pockets and lands", "cage"),
-    "drag": ("drag of oil and air on the balls", "balls"),
+    "contacts": (ARISES["sliding"], "inner_ring"),
+    "rolling": (ARISES["rolling"], "outer_ring"),
+    "cage": (ARISES["cage"], "cage"),
+    "drag": (ARISES["drag"], "balls"),
 }
 _HEATS = {
-    "inner_ring": ("inner ring", "inner_ring"),
-    "outer_ring": ("outer ring", "outer_ring"),
-    "oil": ("oil and balls", "balls"),
+    "inner_ring": (GOES["inner_ring"], "inner_ring"),
+    "outer_ring": (GOES["outer_ring"], "outer_ring"),
+    "oil": (GOES["oil"], "balls"),
 }
 
 

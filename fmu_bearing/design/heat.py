@@ -1,0 +1,119 @@
+"""Heat of a bearing at its operating point: where friction loses power, and what that power warms."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass, fields
+from typing import Any, Protocol
+
+#: Where power is lost, and what the loss warms, in words.
+ARISES = {
+    "sliding": "sliding in the contacts",
+    "rolling": "rolling resistance of the oil",
+    "cage": "cage: pockets and lands",
+    "drag": "drag of oil and air on the balls",
+}
+GOES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "oil": "oil and balls"}
+_SHARES = {"sliding": "contacts"}  # names of the engine's shares that differ
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Power (W) that the shaft loses to friction, all of which becomes heat.
+
+    The first four add up to `total`, and so do the last three: half of what a contact loses warms its ring,
+    all else oil and balls.
+
+    Attributes
+    ----------
+    sliding : float
+        Sliding, spinning and damping in the contacts of both races.
+    rolling : float
+        Rolling resistance of the oil at the inlets of the contacts.
+    cage : float
+        Pockets and lands of the cage, or dampers between the balls.
+    drag : float
+        Drag of oil and air on the balls that go round.
+    inner_ring, outer_ring : float
+        To the rings.
+    oil : float
+        To oil and balls.
+    """
+
+    sliding: float
+    rolling: float
+    cage: float
+    drag: float
+    inner_ring: float
+    outer_ring: float
+    oil: float
+
+    @property
+    def total(self) -> float:
+        """All of it, W."""
+        return self.sliding + self.rolling + self.cage + self.drag
+
+    @property
+    def inner_race(self) -> float:
+        """What the contacts of the inner race lose, W."""
+        return 2.0 * self.inner_ring
+
+    @property
+    def outer_race(self) -> float:
+        """What the contacts of the outer race lose, W."""
+        return 2.0 * self.outer_ring
+
+    def summary(self) -> dict[str, Any]:
+        """Return all figures by name, W, for machines."""
+        races = {"inner_race": self.inner_race, "outer_race": self.outer_race}
+        return {"total": self.total} | asdict(self) | races
+
+
+def heat_of(output: Callable[[str], float], speed: float) -> Heat:
+    """Return the heat of a settled bearing.
+
+    Parameters
+    ----------
+    output : callable
+        Value of an output of the bearing by its name.
+    speed : float
+        Of the shaft, rad/s.
+    """
+    arises = {name: speed * output(f"friction_torque_share.{_SHARES.get(name, name)}") for name in ARISES}
+    return Heat(**arises, **{name: output(f"heat.{name}") for name in GOES})
+
+
+def heat_in_all(found: Iterable[Heat]) -> Heat:
+    """Return the sum of the heat of several bearings."""
+    every = list(found)
+    return Heat(*(sum(getattr(one, field.name) for one in every) for field in fields(Heat)))
+
+
+class Heated(Protocol):
+    """A bearing with its friction torque (N m) and heat."""
+
+    @property
+    def friction_torque(self) -> float:
+        """Positive where it brakes positive rotation."""
+        ...
+
+    @property
+    def heat(self) -> Heat:
+        """What the torque loses."""
+        ...
+
+
+def heat_table(bearings: Sequence[Heated]) -> tuple[tuple[str, ...], list[list[str]]]:
+    """Return columns and rows for people: a column per bearing, and one for all where they are several."""
+    torques = [1e3 * one.friction_torque for one in bearings]
+    heats = [one.heat for one in bearings]
+    columns: tuple[str, ...] = ("", "value")
+    if len(heats) > 1:
+        columns = ("", *(f"bearing {k + 1}" for k in range(len(heats))), "all")
+        torques, heats = [*torques, sum(torques)], [*heats, heat_in_all(heats)]
+    words = {"inner_race": "of it in the inner race", "outer_race": "of it in the outer race"}
+    words = ARISES | {"total": "in all"} | words | {name: f"of it to {_the(name)}" for name in GOES}
+    rows = [[f"{text}, W", *(f"{getattr(one, name):.2f}" for one in heats)] for name, text in words.items()]
+    return columns, [["friction torque, N mm", *(f"{torque:.2f}" for torque in torques)], *rows]
+
+
+def _the(name: str) -> str:
+    return GOES[name] if name == "oil" else f"the {GOES[name]}"

@@ -21,6 +21,10 @@ _BALANCE = 0.5
 _GRADED = (
     "inner_race_amplitude_um", "outer_race_amplitude_um", "ball_diameter_spread_nm", "ball_form_nm",
 )  # fmt: skip
+_RACES, _BALLS = _GRADED[:2], ("ball_form_nm", "ball_diameter_spread_nm")
+#: Grades of balls (ISO 3290), from coarse to fine, and the class of bearings from which they take form and
+#: spread of diameters.
+_BALL_GRADES = {"G10": "P6", "G5": "P5", "G3": "P4"}
 #: One grade is about a factor of two in A_1.
 _STEP = 2.0
 _STEEL, _CERAMIC = "GCr15", "Si3N4"
@@ -87,6 +91,28 @@ def _grades(scene: Scene) -> Iterator[Alternative]:
         values = {f"imperfections.{key}": grades[name][key] for key in now}
         if values:
             yield Alternative("grade", f"{before} -> {'' if same else 'grade '}{name}", values)
+    yield from _part("race grade", "races", grades, _RACES, now)
+    named = {ball: grades[name] for ball, name in _BALL_GRADES.items()}
+    yield from _part("ball grade", "balls", named, _BALLS, now)
+
+
+def _part(
+    topic: str, words: str, rows: Mapping[str, Mapping[str, Any]], keys: tuple[str, ...],
+    now: Mapping[str, float],
+) -> Iterator[Alternative]:  # fmt: skip
+    """Yield the next finer and the next coarser of rows from coarse to fine, of races or of balls alone."""
+    own = [key for key in keys if key in now]
+    judged = [key for key in own if key != "ball_diameter_spread_nm"]  # a class sets that, no grade of balls
+    if not judged:
+        return
+    same = [name for name, row in rows.items() if all(row[key] == now[key] for key in judged)]
+    others = {name: row for name, row in rows.items() if name not in same}
+    finer = [name for name, row in others.items() if all(row[key] <= now[key] for key in judged)]
+    coarser = [name for name, row in others.items() if all(row[key] >= now[key] for key in judged)]
+    before = f"{words} {same[0]}" if same else f"own {words}"
+    for name in (*finer[:1], *coarser[-1:]):
+        changed = {f"imperfections.{key}": rows[name][key] for key in own}
+        yield Alternative(topic, f"{before} -> {name}", changed)
 
 
 def _oil(scene: Scene) -> Iterator[Alternative]:

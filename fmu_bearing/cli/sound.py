@@ -50,6 +50,12 @@ def sound(
     resolution: Annotated[
         float | None, typer.Option(help="Of the spectra, Hz; default: 5, or as fine as a shorter one allows.")
     ] = None,
+    at: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--at", metavar="HZ", help="What makes the noise at this frequency; once per frequency."
+        ),
+    ] = None,
     wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
     directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
     spread: Annotated[
@@ -61,6 +67,7 @@ def sound(
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
     from fmu_bearing.recording.channels.microphone_places import named_places
+    from fmu_bearing.recording.measurements.at_frequency import noise_at
     from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.spread import doubt_of
@@ -93,16 +100,22 @@ def sound(
             output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
         analysis = analyse_sound(recording, microphone, radiation_model, resolution)
+        sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
         files = write_all(recording, analysis, output, radiation_model, wav, directivity, tell)
         sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
         doubted = doubt_of(recording)
     if as_json:
         print_json(
             {"levels": analysis.summary(), "doubt": doubted, "files": files}
+            | ({"at": [one.summary() for one in sources]} if sources else {})
             | ({"spread": sure.summary()} if sure else {})
         )
     else:
         show(_heading(recording), *analysis.rows())
+        for one in sources:
+            show(f"{one.frequency:g} Hz: third octave of {one.band:g} Hz", *one.rows())
+            for line in one.sentences():
+                typer.echo(f"{one.frequency:g} Hz: {line}")
         if doubted:
             tell(f"{doubted}.")
         if sure is not None:

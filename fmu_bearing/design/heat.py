@@ -67,7 +67,7 @@ class Heat:
         return {"total": self.total} | asdict(self) | races
 
 
-def heat_of(output: Callable[[str], float], speed: float) -> Heat:
+def heat_of(output: Callable[[str], float], speed: float, cage: bool) -> Heat:
     """Return the heat of a settled bearing.
 
     Parameters
@@ -76,9 +76,13 @@ def heat_of(output: Callable[[str], float], speed: float) -> Heat:
         Value of an output of the bearing by its name.
     speed : float
         Of the shaft, rad/s.
+    cage : bool
+        Whether it has one, whose share is an output; else dampers between balls lose what is left.
     """
-    arises = {name: speed * output(f"friction_torque_share.{_SHARES.get(name, name)}") for name in ARISES}
-    return Heat(**arises, **{name: output(f"heat.{name}") for name in GOES})
+    shares = [name for name in ARISES if cage or name != "cage"]
+    arises = {name: speed * output(f"friction_torque_share.{_SHARES.get(name, name)}") for name in shares}
+    goes = {name: output(f"heat.{name}") for name in GOES}
+    return Heat(**{"cage": sum(goes.values()) - sum(arises.values())} | arises | goes)
 
 
 def heat_in_all(found: Iterable[Heat]) -> Heat:

@@ -310,7 +310,7 @@ def _figures(
         iso281.viscosity_ratio(nu, rpm, pitch), abs(rpm) * pitch, speed_limit(scene),
         least_preload(scene, centrifugal), rating(scene, max(0.0, load.axial), load.radial, rpm),
         reference_life(scene, *load.ball_loads), settled.get(one.prefix + "friction_torque"),
-        heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM),
+        heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM, scene.bearing.cage is not None),
         _gyroscopic_friction(part, load.ball_loads), load, one.prefix != "",
     )  # fmt: skip
 

@@ -112,7 +112,8 @@ def test_the_microphone_is_the_loudest(found, spindle):
 def test_every_choice_is_there_and_ranked(found):
     topics = {each.choice.topic for each in found.changes}
     assert topics == {
-        "preload", "balls", "grade", "oil", "conformity", "contact angle", "speed", "pedestal", "balance",
+        "preload", "balls", "grade", "race grade", "ball grade",
+        "oil", "conformity", "contact angle", "speed", "pedestal", "balance",
     }  # fmt: skip
     assert len({each.choice.words for each in found.changes}) == len(found.changes) >= 20
     assert found.figures == ("level", "life", "torque") and not found.refused
@@ -220,6 +221,21 @@ def test_choices_follow_the_scene(scene, spindle):
     )
     assert words(own, "grade") == ["own surfaces -> grade P2", "own surfaces -> grade P4"]
     assert words(spindle.replace({"imperfections": None}), "grade") == []
+    # races and balls alone: the next finer and coarser, each without the values of the other
+    assert words(spindle, "race grade") == ["races P4 -> P2", "races P4 -> P5"]
+    assert words(spindle, "ball grade") == ["balls G3 -> G5"]
+    assert words(spindle.replace({"imperfections.grade": "P5"}), "ball grade") == [
+        "balls G5 -> G3",
+        "balls G5 -> G10",
+    ]
+    assert words(own, "race grade") == ["own races -> P2", "own races -> P4"]
+    uneven = spindle.replace({"imperfections.inner_race_amplitude_um": 0.2})
+    assert words(uneven, "race grade") == ["own races -> P2", "own races -> P4"]
+    values = {each.topic: set(each.values) for each in alternatives(spindle)}
+    assert values["race grade"] == {f"imperfections.{race}_race_amplitude_um" for race in ("inner", "outer")}
+    assert values["ball grade"] == {"imperfections.ball_form_nm", "imperfections.ball_diameter_spread_nm"}
+    round_balls = spindle.replace({"imperfections.ball_form_nm": 0.0})
+    assert words(round_balls, "ball grade") == []
     # grades are of one law: with another exponent their amplitudes say nothing
     flat = spindle.replace({"imperfections.waviness_exponent": 1.0})
     halved, doubled = (each for each in alternatives(flat) if each.topic == "grade")

@@ -53,6 +53,14 @@ def test_heat_is_that_of_a_run():
         assert bearing.get(f"heat.{name}") == pytest.approx(getattr(found, name), rel=0.02)
 
 
+def test_a_bearing_without_a_cage_loses_nothing_there():
+    scene = read_scene(SINGLE).replace({"bearing.cage": None, "materials.cage": None})
+    found = operating_point(scene).bearings[0]
+    speed = scene.operation.speed_rpm * RPM
+    assert found.heat.total == pytest.approx(found.friction_torque * speed, rel=1e-6)
+    assert found.heat.cage == pytest.approx(0.0, abs=1e-6 * found.heat.total)
+
+
 def test_no_heat_at_standstill():
     found = operating_point(
         read_scene(SINGLE).replace({"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 3000.0})

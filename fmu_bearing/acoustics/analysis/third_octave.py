@@ -12,7 +12,8 @@ from fmu_bearing.acoustics.filters.weighting import band_sections, level
 
 #: Octave ratio of the base-ten system.
 OCTAVE = 10.0**0.3
-_EDGE = OCTAVE ** (1.0 / 6.0)
+#: From the centre of a band to its edges, as a factor.
+EDGE = OCTAVE ** (1.0 / 6.0)
 _NOMINAL = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 _LOWEST, _HIGHEST = -17, 13  # bands 20 Hz to 20 kHz
 _ROOM = 0.95  # of half the sample rate: the last band's upper edge lies below
@@ -21,7 +22,7 @@ _ROOM = 0.95  # of half the sample rate: the last band's upper edge lies below
 def centre_frequencies(sample_rate: float = np.inf) -> NDArray[np.float64]:
     """Exact centres (Hz) of the bands from 20 Hz to 20 kHz that fit below half the sample rate."""
     centres = 1000.0 * 10.0 ** (np.arange(_LOWEST, _HIGHEST + 1) / 10.0)
-    fitting: NDArray[np.float64] = centres[centres * _EDGE < _ROOM * sample_rate / 2.0]
+    fitting: NDArray[np.float64] = centres[centres * EDGE < _ROOM * sample_rate / 2.0]
     return fitting
 
 
@@ -88,5 +89,5 @@ def third_octave_levels(
 
 def spread(centre: ArrayLike, duration: float) -> NDArray[np.float64]:
     """Return the standard deviation (dB) of a band's level of Gaussian noise over ``duration`` (s)."""
-    width = np.asarray(centre, dtype=float) * (_EDGE - 1.0 / _EDGE)
+    width = np.asarray(centre, dtype=float) * (EDGE - 1.0 / EDGE)
     return 10.0 / np.log(10.0) / np.sqrt(width * duration)

@@ -5,6 +5,7 @@
 ``tables``          such measurements as tables
 ``pictures``        such measurements as pictures
 ``audio``           pressures as WAV files in pascals
+``at_frequency``    which component and which line make the noise at a frequency
 ``sound_analysis``  levels, spectra, third octaves and lines in one call, and their files
 ==================  ==========================================================================
 """

@@ -52,6 +52,8 @@ class SoundAnalysis:
         Centres of third octaves (Hz).
     third_octaves : ndarray, shape (mics, bands)
         In dB.
+    third_octave_parts : dict of str to ndarray, shape (mics, bands)
+        Those (dB) of each component alone; empty for a recording of pressures.
     lines : list of Line
         Strongest lines at the first microphone; empty where the bearing is not known.
     positions : tuple of (x, y, z)
@@ -65,6 +67,7 @@ class SoundAnalysis:
     spectra: dict[str, NDArray[np.float64]]
     bands: NDArray[np.float64]
     third_octaves: NDArray[np.float64]
+    third_octave_parts: dict[str, NDArray[np.float64]]
     lines: list[Line]
     positions: tuple[Position, ...]
 
@@ -88,11 +91,14 @@ class SoundAnalysis:
         """Return spectra and third octaves with microphones and sources as coordinates."""
         xr = need("xarray", "a dataset")
         spectra = np.stack([self.spectra[name] for name in self.spectra])
+        every = {"total": self.third_octaves} | self.third_octave_parts
+        thirds = np.stack([every[name] for name in self.spectra])
         decibel = {"units": "dB", "long_name": "level re 20 uPa"}
         return xr.Dataset(
             {
                 "spectrum": (("source", "microphone", "frequency"), spectra, decibel),
                 "third_octaves": (("microphone", "band"), self.third_octaves, decibel),
+                "third_octaves_by_source": (("source", "microphone", "band"), thirds, decibel),
                 "leq": ("microphone", self.levels[:, 0], decibel),
                 "laeq": ("microphone", self.levels[:, 1], decibel | {"units": "dB(A)"}),
             },
@@ -138,7 +144,8 @@ def analyse_sound(
         parts, signals = {}, {"total": recording.pressure(microphones)}
     frequency, spectra = _spectra(signals, recording.rate, resolution or measure.fine(recording))
     settle = min(_SETTLE, 0.2 * recording.size / recording.rate)
-    bands, thirds = third_octave_levels(signals["total"], recording.rate, settle)
+    octaves = {name: third_octave_levels(rows, recording.rate, settle) for name, rows in signals.items()}
+    bands, thirds = octaves.pop("total")
     lines = (
         []
         if recording.scene is None
@@ -148,7 +155,8 @@ def analyse_sound(
         names,
         np.column_stack([recording.levels(microphones, radiation_model, w) for w in "ZA"]),
         {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
-        frequency, spectra, bands, thirds, lines, places,
+        frequency, spectra, bands, thirds, {name: levels for name, (_, levels) in octaves.items()}, lines,
+        places,
     )  # fmt: skip
 
 
@@ -198,7 +206,12 @@ def write_all(
     first = {name: levels[0] for name, levels in found.spectra.items()}
     write_csv(folder / "spectrum.csv", *tables.spectrum_table(found.frequency, first))
     thirds = dict(zip(found.names, found.third_octaves, strict=True))
-    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(found.bands, thirds))
+    alone = {
+        f"{name} {part}": levels[k]
+        for k, name in enumerate(found.names)
+        for part, levels in found.third_octave_parts.items()
+    }
+    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(found.bands, thirds | alone))
     files = ["levels.csv", "spectrum.csv", "third-octaves.csv"]
     drawn = available("matplotlib", "a picture", "pictures", tell)
     if drawn:

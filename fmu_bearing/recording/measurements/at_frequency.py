@@ -1,0 +1,151 @@
+"""Which source makes the noise at a frequency: by component, and by the line that is strongest round it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, kinematic_lines
+from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.recording.measurements.measure import strongest
+from fmu_bearing.recording.measurements.sound_analysis import SoundAnalysis
+
+#: What a kinematic frequency arises from, by its carrier.
+_ARISES = {
+    "f_r": "unbalance",
+    "f_i": "waves of the inner race",
+    "f_o": "waves of the outer race, and the balls passing",
+    "f_b": "form of the balls",
+    "f_c": "the cage, or one ball larger than the others",
+}
+
+
+@dataclass(frozen=True)
+class NoiseAt:
+    """Who makes the noise in the third octave that holds a frequency.
+
+    Attributes
+    ----------
+    frequency, band : float
+        Hz: the one asked for, and the nominal centre of its third octave.
+    names : tuple of str
+        Microphones.
+    levels : dict of str to ndarray, shape (mics,)
+        Level (dB) in the third octave, in total and of each component alone.
+    line : Line, optional
+        The strongest line in the band at the microphone that is loudest there; None where none stands out.
+    nearest : KinematicLine, optional
+        The kinematic frequency nearest to that line, or to the frequency; None where the bearing is unknown.
+    excitation_end : float, optional
+        Hz: above it no surface of the scene excites the bearing.
+    """
+
+    frequency: float
+    band: float
+    names: tuple[str, ...]
+    levels: dict[str, NDArray[np.float64]]
+    line: Line | None
+    nearest: KinematicLine | None
+    excitation_end: float | None
+
+    @property
+    def loudest(self) -> int:
+        """Place of the microphone that is loudest in the band."""
+        return int(np.argmax(self.levels["total"]))
+
+    def rows(self) -> tuple[list[str], list[list[str]]]:
+        """Columns and rows of a table for people; what is below 0 dB is a dash."""
+        columns = ["microphone", *(f"{name.replace('_', ' ')}, dB" for name in self.levels)]
+        shown = [
+            [f"{level:.1f}" if level > 0.0 else "-" for level in row]
+            for row in np.array([*self.levels.values()]).T
+        ]
+        return columns, [[name, *row] for name, row in zip(self.names, shown, strict=True)]
+
+    def sentences(self) -> list[str]:
+        """Return which component and which line make the noise, and what excites that line."""
+        found = []
+        parts = {name: float(row[self.loudest]) for name, row in self.levels.items() if name != "total"}
+        if parts:
+            first, *rest = sorted(parts, key=lambda name: -parts[name])
+            ahead = f", {parts[first] - parts[rest[0]]:.1f} dB above the next" if rest else ""
+            found.append(f"at {self.names[self.loudest]} {first.replace('_', ' ')} radiates most{ahead}")
+        end = self.excitation_end
+        if end is not None and self.frequency > end:
+            return [*found, f"no surface of the scene excites it: they end at {1e-3 * end:.3g} kHz"]
+        if self.line is None:
+            found.append("no line stands out in the band")
+            place = self.frequency
+        else:
+            found.append(f"the strongest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
+            place = self.line.frequency
+        if self.line is not None and self.line.name:
+            found.append(f"it is {self.line.name}: {_source(self.line.name)}")
+        elif self.nearest is not None:
+            away = place - self.nearest.frequency
+            found.append(
+                f"no kinematic frequency fits; the nearest is {self.nearest.name}, {abs(away):.1f} Hz "
+                f"{'below' if away > 0.0 else 'above'}: {_source(self.nearest.name)}"
+            )
+        return found
+
+    def summary(self) -> dict[str, Any]:
+        """Return all of it for machines."""
+        return {
+            "frequency_Hz": self.frequency,
+            "third_octave_Hz": self.band,
+            "levels_dB": {
+                name: {source: float(row[k]) for source, row in self.levels.items()}
+                for k, name in enumerate(self.names)
+            },
+            "line": None if self.line is None else {
+                "frequency_Hz": self.line.frequency, "level_dB": self.line.level,
+                "explained_by": self.line.name,
+            },
+            "nearest": None if self.nearest is None else {
+                "frequency_Hz": self.nearest.frequency, "name": self.nearest.name,
+            },
+            "words": self.sentences(),
+        }  # fmt: skip
+
+
+def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) -> NoiseAt:
+    """Return which component and which line make the noise at a frequency.
+
+    Parameters
+    ----------
+    recording, found
+        As given to and returned by `analyse_sound`.
+    frequency : float
+        Hz, in one of the third octaves that were measured.
+
+    Raises
+    ------
+    ValueError
+        For a frequency beside the third octaves.
+    """
+    low, high = found.bands[0] / EDGE, found.bands[-1] * EDGE
+    if not low <= frequency <= high:
+        raise ValueError(f"at {frequency:g} Hz: there are third octaves from {low:.3g} to {high:.5g} Hz only")
+    place = int(np.argmin(np.abs(np.log(found.bands / frequency))))
+    centre = float(found.bands[place])
+    levels = {"total": found.third_octaves[:, place]}
+    levels |= {name: values[:, place] for name, values in found.third_octave_parts.items()}
+    line, nearest = None, None
+    if recording.scene is not None:
+        spectrum = found.spectra["total"][int(np.argmax(levels["total"]))]
+        lines = strongest(recording, found.frequency, spectrum, len(found.frequency))
+        line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)
+        about = frequency if line is None else line.frequency
+        known = kinematic_lines(recording.kinematics(), float(found.frequency[-1]))
+        nearest = min(known, key=lambda one: (abs(one.frequency - about), one.rank), default=None)
+    return NoiseAt(
+        frequency, nominal_frequency(centre), found.names, levels, line, nearest, recording.excitation_end
+    )
+
+
+def _source(name: str) -> str:
+    """Return what a kinematic line arises from: its name begins with its carrier, maybe with a factor."""
+    return next(words for carrier, words in _ARISES.items() if carrier in name.split(" ")[:2])

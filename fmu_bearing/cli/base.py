@@ -8,6 +8,8 @@ Commands import their modules when they run, so that help and completion answer 
 
 import json
 import math
+import os
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -52,6 +54,10 @@ class Commands(TyperGroup):
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)
             raise typer.Exit(INTERRUPTED) from None
+        except BrokenPipeError:
+            # who reads has read enough, as `head` does: what is left in the buffer goes nowhere
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            raise typer.Exit() from None
 
 
 @contextmanager
@@ -131,7 +137,7 @@ def refusals() -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        if not isinstance(error, _refused()):
+        if not isinstance(error, _refused()) or isinstance(error, BrokenPipeError):
             raise
         message = "; ".join(line.strip() for line in _words(error).splitlines() if line.strip())
         typer.echo(f"error: {message}", err=True)

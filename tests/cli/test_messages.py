@@ -325,6 +325,18 @@ def test_help_of_the_command_alone_is_no_error(run):
     assert done.exit_code in (0, 2) and "Commands" in done.output and "error:" not in done.output
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
+@pytest.mark.parametrize("words", ["info one.toml", "scene show one.toml", "scene catalogue --json"])
+def test_a_reader_that_has_read_enough_is_no_error(folder, words):
+    """The pipe is closed before the command prints."""
+    ours, theirs = os.pipe()
+    os.close(ours)
+    command = [sys.executable, "-m", "fmu_bearing", *words.split()]
+    done = subprocess.run(command, stdout=theirs, stderr=subprocess.PIPE, text=True, timeout=300)
+    os.close(theirs)
+    assert done.returncode == 0 and "error" not in done.stderr.lower()
+
+
 # --- warnings ----------------------------------------------------------------------------------------
 
 

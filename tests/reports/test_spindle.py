@@ -5,10 +5,12 @@ from typer.testing import CliRunner
 
 from fmu_bearing import operating_point, statics
 from fmu_bearing.cli import app
+from fmu_bearing.design.heat import heat_table
 from fmu_bearing.progress import silent
 from fmu_bearing.reports import make
 from fmu_bearing.reports.set_page import _warmth
 from tests.conftest import ROOT
+from tests.reports.reading import Page
 from tests.spindle.sets import scene
 
 PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
@@ -16,14 +18,18 @@ PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 
 def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     made = make(PAIR, tmp_path / "pair.html")
-    assert list(made.sections) == ["arrangement", "balls", "axial", "warmth", "verdicts"]
+    assert list(made.sections) == ["arrangement", "balls", "heat", "axial", "warmth", "verdicts"]
     assert not any(made.sections.values()) and made.recording is None
     text = made.path.read_text(encoding="utf-8")
     assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
     found = statics(PAIR)
     assert made.figures["nose_stiffness"] == pytest.approx(1e-6 * found.nose_stiffness)
     assert made.figures["lift_off_N"] == pytest.approx(min(abs(x.load) for x in found.lift_off.values()))
-    assert made.figures["life_h"] == pytest.approx(operating_point(PAIR).life)
+    point = operating_point(PAIR)
+    assert made.figures["life_h"] == pytest.approx(point.life)
+    assert made.figures["heat_W"] == pytest.approx(point.heat.total)
+    _, *rows = Page(made.path).tables["Friction and heat of the settled bearings, without waviness"]
+    assert rows == heat_table(point.bearings)[1]
     assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
 
 

@@ -314,7 +314,7 @@ def _loaded(source: Compared) -> tuple[str, Recording | Run | Scene]:
         if path.suffix in ENDINGS:
             return path.stem, Run.load(path)
         return path.stem, scene_of(source)
-    return "", source
+    return "", source if isinstance(source, Recording | Run) else scene_of(source)
 
 
 def _finished(

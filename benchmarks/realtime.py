@@ -13,37 +13,27 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from fmu_bearing import Scene, build_fmu, read_scene, with_fidelity
+from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.results.table import machine, markdown, write_csv
+from fmu_bearing.run import realtime
+from fmu_bearing.run.realtime import Timed
 
 _EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(_EXAMPLES / "spindle_cosimulation"))
 from build import best_flavour, build  # noqa: E402
 from coupling import Fmu, Plan, exchanger, initialise  # noqa: E402
 
-COLUMNS = (
-    "bearings", "fidelity", "microphones", "phase", "steps", "mean, us", "p50", "p99", "worst",
-    "worst over mean", "late",
-)  # fmt: skip
+COLUMNS = ("bearings", *realtime.COLUMNS)
 _STEP = 1e-3  # s
 _START, _TARGET = 1500.0, 6500.0  # r/min
 _RUN_UP, _HELD, _JUMPS = 1000, 500, 200  # steps of each phase
 _JUMP = 40.0  # N, every tenth step
 _RPM = np.pi / 30.0
-_FIDELITIES = ("full", "rings", "response")
-
-
-@dataclass
-class Timed:
-    """What the bearing's step takes of the processor, and all three of the clock (s)."""
-
-    bearing: list[float] = field(default_factory=list)
-    all: list[float] = field(default_factory=list)
 
 
 def scenes() -> dict[str, Scene]:
@@ -75,11 +65,11 @@ def phases(load: str, quick: bool) -> Iterator[tuple[str, dict[str, float]]]:
         yield "jumps", {load: _JUMP if k // 10 % 2 == 0 else 0.0} if k % 10 == 0 else {}
 
 
-def timed(scene: Scene, partners: dict[str, Path], folder: Path, quick: bool) -> dict[str, Timed]:
-    """Run a scene with its partners; times by phase."""
+def timed(scene: Scene, partners: dict[str, Path], folder: Path, quick: bool) -> Iterator[Timed]:
+    """Run a scene with its partners; the bearing's time of the processor, that of all three on the clock."""
     path = Path(build_fmu(scene, folder / f"{scene.name}.fmu", only_here=True).path)
     plan = Plan(start_speed=_START * _RPM, target_speed=_TARGET * _RPM, ramp_time=_RUN_UP * _STEP)
-    found: dict[str, Timed] = {}
+    found: dict[str, list[tuple[float, float]]] = {}
     with (
         Fmu(partners["motor"], "motor") as motor,
         Fmu(path, "bearing") as bearing,
@@ -101,10 +91,10 @@ def timed(scene: Scene, partners: dict[str, Path], folder: Path, quick: bool) ->
             begin = time.perf_counter()
             bearing.set(inputs)
             exchange(k * _STEP, (k + 1) * _STEP)
-            times = found.setdefault(phase, Timed())
-            times.all.append(time.perf_counter() - begin)
-            times.bearing.append(spent)
-    return found
+            found.setdefault(phase, []).append((spent, time.perf_counter() - begin))
+    microphones = 0 if scene.sound is None else len(scene.sound.points())
+    for phase, times in found.items():
+        yield Timed(scene.fidelity.model, microphones, phase, *np.array(times).T)
 
 
 def rows(quick: bool = False) -> list[list[str]]:
@@ -120,25 +110,12 @@ def rows(quick: bool = False) -> list[list[str]]:
                 "motor": build(spindle / "motor.py", folder, flavour),
                 "thermal": build(spindle / "thermal.py", folder, flavour, bearings=bearings),
             }
-            for fidelity in _FIDELITIES:
+            for fidelity in FIDELITIES:
                 for sounding in (False, True):
                     of = with_fidelity(scene, model=fidelity)
                     of = of if sounding else of.model_copy(update={"sound": None})
-                    for phase, times in timed(of, partners, folder, quick).items():
-                        found.append([words, fidelity, "4" if sounding else "none", phase, *_row(times)])
+                    found += [[words, *one.cells(_STEP)] for one in timed(of, partners, folder, quick)]
     return found
-
-
-def _row(times: Timed) -> list[str]:
-    micro = 1e6 * np.array(times.bearing)
-    late = sum(one > _STEP for one in times.all)
-    figures = (micro.mean(), *np.quantile(micro, (0.5, 0.99)), micro.max())
-    return [
-        str(len(micro)),
-        *(f"{one:.0f}" for one in figures),
-        f"{micro.max() / micro.mean():.2f}",
-        str(late),
-    ]
 
 
 def main() -> None:

@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from fmu_bearing.results.result import Run
     from fmu_bearing.run.bearing import Bearing
     from fmu_bearing.run.build import build_fmu
+    from fmu_bearing.run.realtime import realtime
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.read import with_fidelity
@@ -104,6 +105,7 @@ _PLACES = {
     "operating_point": "design.operating_point",
     "pictures": "recording.measurements",
     "read_scene": "scene",
+    "realtime": "run.realtime",
     "record": "recording.record",
     "report": "reports",
     "simulate": "run.simulate",
@@ -139,6 +141,7 @@ __all__ = [
     "operating_point",
     "pictures",
     "read_scene",
+    "realtime",
     "record",
     "report",
     "simulate",

@@ -12,6 +12,7 @@
 ``stiffness``   K and C over speed, preload and frequency, and of a set's shaft
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
+``realtime``    what steps cost beside the clock, by fidelity
 ``modes``       natural frequencies, and over speed what excites them
 ``validate``    checks of an FMU
 ``report``      a page about a run
@@ -26,6 +27,7 @@ from fmu_bearing.cli import (  # noqa: F401
     identify,
     info,
     modes,
+    realtime,
     report,
     runs,
     scenes,

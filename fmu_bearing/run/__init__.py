@@ -11,5 +11,6 @@
 ``simulate``      `simulate`: a run over given inputs
 ``bearing``       `Bearing`: to initialise and step by hand
 ``build``         `build_fmu`: the FMU of a scene in one call
+``realtime``      `realtime`: what communication steps cost beside the clock
 ================  ===========================================================================
 """

@@ -117,8 +117,7 @@ class _Cost:
     @property
     def name(self) -> str:
         """Fidelity and sound in words."""
-        fidelity, count = self.case
-        return f"{fidelity} {f'with {count} microphone' if count else 'without sound'}{'s' * (count > 1)}"
+        return _name(*self.case)
 
     def longer(self, step: float) -> float:
         """Return the shortest multiple of ``step`` (s) that so many steps in a row keep; infinite: none."""
@@ -191,7 +190,7 @@ class Realtime:
         elif best.case[1] < sounding:
             words.append(f"With sound none does: {self._change(missed)}.")
         else:
-            words.append(f"{_capital(missed[0].name)} does not: {self._change(missed[:1])}.")
+            words.append(f"{_capital(missed[0].name)} does not: {self._change(missed[:1], 'it')}.")
         if late := sum(one.late(self.step) for one in self.timed if one.case == best.case):
             words.append(
                 f"By the clock {late} of its steps came late all the same, as other work took the processor."
@@ -224,24 +223,29 @@ class Realtime:
         margin = ", which leaves little margin" if share > _AMPLE else ""
         return f"its worst step takes {_time(worst)}, {100.0 * share:.2g} % of it{margin}"
 
-    def _change(self, costs: list[_Cost]) -> str:
-        """Words for what lets one of several cases keep up: a longer step where one helps, else less work."""
+    def _change(self, costs: list[_Cost], who: str = "") -> str:
+        """Words for what lets one of several cases keep up: a longer step where one helps, else less work.
+
+        ``who``: in place of the name of a case that was named already.
+        """
         for one in costs:
             if (longer := one.longer(self.step)) < math.inf:
-                return f"{one.name} would keep a step of {_time(longer)}, or a buffer as long"
+                return f"{who or one.name} would keep a step of {_time(longer)}, or a buffer as long"
         first = costs[0]
         if self.step < _SHORT:
             return f"give a longer step; below {_time(_SHORT)} the cost of a step falls less than its length"
-        reason = f"its steps take {_time(first.mean)} on average, so that a longer one helps little"
-        return f"{first.name}: {reason}; take {', '.join(self._less(first))} or a faster machine"
+        steps = "its steps" if who else f"steps of {first.name}"
+        reason = f"{steps} take {_time(first.mean)} on average, so that a longer one helps little"
+        return f"{reason}; take {', '.join([*self._less(first), 'or a faster machine'])}"
 
     def _less(self, cost: _Cost) -> list[str]:
         """Name what the scene could leave out."""
         fidelity, count = cost.case
-        ways = [] if fidelity == FIDELITIES[-1] else ["a faster fidelity"]
+        faster = [one.case[0] for one in self._costs() if one.case[1] == count and one.mean < self.step]
+        ways = [f"fidelity {faster[0]}"] if faster else []
         if count:
             ways.append("fewer microphones" if count > 1 else "no sound")
-        if self.scene.imperfections is not None:
+        if fidelity == FIDELITIES[0] and self.scene.imperfections is not None:  # others hardly change
             ways.append("a lower highest order of waves (`imperfections.highest_frequency_kHz`)")
         return ways
 
@@ -304,9 +308,9 @@ def realtime(
         try:
             found += _timed(case, step, steps, first, last)
         except (ValueError, Refused) as problem:
-            left_out[f"{case.fidelity}, microphones: {case.microphones}"] = str(problem)
+            left_out[_name(case.fidelity, case.microphones)] = str(problem)
     if not found:
-        reasons = "; ".join(f"{name}: {reason}" for name, reason in left_out.items())
+        reasons = "; ".join(dict.fromkeys(left_out.values()))
         raise ValueError(f"no fidelity of {scene.name} could be timed: {reasons}")
     return Realtime(scene, step, tuple(found), left_out, machine())
 
@@ -386,6 +390,11 @@ def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> I
             bearing.step(step)
             cpu[k], clock[k] = thread_time() - begin, perf_counter() - begun
         yield Timed(case.fidelity, case.microphones, phase, cpu, clock)
+
+
+def _name(fidelity: str, microphones: int) -> str:
+    sound = f"with {microphones} microphone{'s' * (microphones > 1)}" if microphones else "without sound"
+    return f"{fidelity} {sound}"
 
 
 def _capital(words: str) -> str:

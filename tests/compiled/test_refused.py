@@ -47,3 +47,19 @@ def entry(a, b, n):
     ran = both_ways.run(code, "lean")
     assert ran.returncode == 1
     assert "kernels return one type: __main__.root may return nothing" in ran.stderr
+
+
+def test_a_kernel_that_allocates_is_refused():
+    """What a step calls can take no memory: the allocator is none of the functions that objects may call."""
+    code = """
+@kernel
+def total(n):
+    return np.zeros(n).sum()
+
+def entry(a, b, n):
+    b[0] = total(3)
+    return 0
+"""
+    ran = both_ways.run(code, "lean")
+    assert ran.returncode == 1
+    assert "the kernels are not free of Python: they call NRT_MemInfo_alloc" in ran.stderr

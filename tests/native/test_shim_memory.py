@@ -90,6 +90,27 @@ def test_running_out_of_memory_is_survived(counting, resources):
     assert [OK, ERROR, ERROR, ERROR] in [one[6:10] for one in lives]
 
 
+def test_steps_and_values_take_no_memory(counting, resources):
+    """An exchange of a loop goes on where every allocation fails; a state is what needs one."""
+    counting.toy_fail_after(-1)
+    one, free = (Master(counting, resources).start() for _ in range(2))
+    counting.toy_fail_after(1)
+    held = counting.toy_held()
+    for k in range(1000):
+        assert one.set("load", 50.0 + k % 2) == OK
+        assert one.step(0.1 * k) == OK
+        assert one.read("angle")[0] == OK
+    assert counting.toy_held() == held
+    assert one.call("GetFMUstate", ctypes.byref(ctypes.c_void_p())) == ERROR
+    counting.toy_fail_after(-1)
+    for k in range(1000):
+        free.set("load", 50.0 + k % 2)
+        free.step(0.1 * k)
+    assert one.everything() == free.everything()
+    one.free()
+    free.free()
+
+
 def test_message_without_memory(counting, resources):
     counting.toy_fail_after(-1)
     one = Master(counting, resources).start()

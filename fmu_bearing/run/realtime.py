@@ -20,7 +20,7 @@ from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.results.table import machine
+from fmu_bearing.results.table import machine, number
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.sound import Microphone
@@ -184,12 +184,12 @@ class Realtime:
         best = kept[0]
         words = [f"{_capital(best.name)} keeps the step of {_time(self.step)}: {self._share(best.worst)}."]
         sounding = max(count for _, count in (one.case for one in costs))
-        missed = [one for one in costs if one.worst > self.step and one.case[1] >= best.case[1]]
-        if not missed:
+        missed = [one for one in costs if one.worst > self.step]
+        if best.case[1] < sounding:
+            words.append(f"With sound none does: {self._change([one for one in missed if one.case[1]])}.")
+        elif not missed and len(costs) > 1:
             words.append("So does every other that was timed.")
-        elif best.case[1] < sounding:
-            words.append(f"With sound none does: {self._change(missed)}.")
-        else:
+        elif missed:
             words.append(f"{_capital(missed[0].name)} does not: {self._change(missed[:1], 'it')}.")
         if late := sum(one.late(self.step) for one in self.timed if one.case == best.case):
             words.append(
@@ -221,7 +221,7 @@ class Realtime:
         """Words for the worst step beside the step."""
         share = worst / self.step
         margin = ", which leaves little margin" if share > _AMPLE else ""
-        return f"its worst step takes {_time(worst)}, {100.0 * share:.2g} % of it{margin}"
+        return f"its worst step takes {_time(worst)}, {number(100.0 * share)} % of it{margin}"
 
     def _change(self, costs: list[_Cost], who: str = "") -> str:
         """Words for what lets one of several cases keep up: a longer step where one helps, else less work.
@@ -244,7 +244,7 @@ class Realtime:
         faster = [one.case[0] for one in self._costs() if one.case[1] == count and one.mean < self.step]
         ways = [f"fidelity {faster[0]}"] if faster else []
         if count:
-            ways.append("fewer microphones" if count > 1 else "no sound")
+            ways += ["fewer microphones", "no sound"] if count > 1 else ["no sound"]
         if fidelity == FIDELITIES[0] and self.scene.imperfections is not None:  # others hardly change
             ways.append("a lower highest order of waves (`imperfections.highest_frequency_kHz`)")
         return ways
@@ -404,6 +404,6 @@ def _capital(words: str) -> str:
 def _time(seconds: float) -> str:
     """Return a time in the unit that suits it."""
     for unit, scale in (("s", 1.0), ("ms", 1e3)):
-        if seconds * scale >= 1.0:
+        if seconds * scale >= 0.9995:  # what three digits round to 1
             return f"{seconds * scale:.3g} {unit}"
     return f"{seconds * 1e6:.3g} us"

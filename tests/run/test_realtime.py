@@ -41,14 +41,23 @@ def test_all_keep_a_long_step(scene):
     )
 
 
+def test_one_alone_is_compared_with_nothing(scene):
+    advice = made(scene, ("rings", 4, 1e-4, 9.997e-3), step=1e-2).advice()
+    assert (
+        advice
+        == "Rings with 4 microphones keeps the step of 10 ms: its worst step takes 10 ms, 100 % of it"
+        + (", which leaves little margin.")
+    )
+
+
 def test_the_most_complete_that_keeps_is_named_with_what_the_next_needs(scene):
     costs = ("full", 0, 9e-4, 1.4e-3), ("full", 4, 1.2e-3, 2e-3), ("rings", 0, 1e-4, 2e-4)
-    advice = made(scene, *costs, ("rings", 4, 3e-4, 9e-4), late=2).advice()
+    advice = made(scene, *costs, ("rings", 4, 3e-4, 9.96e-4), late=2).advice()
     assert advice == (
-        "Rings with 4 microphones keeps the step of 1 ms: its worst step takes 900 us, 90 % of it, which "
+        "Rings with 4 microphones keeps the step of 1 ms: its worst step takes 996 us, 99.6 % of it, which "
         "leaves little margin. Full with 4 microphones does not: its steps take "
-        "1.28 ms on average, so that a longer one helps little; take fidelity rings, fewer microphones, a "
-        "lower highest order of waves (`imperfections.highest_frequency_kHz`), or a faster machine. "
+        "1.28 ms on average, so that a longer one helps little; take fidelity rings, fewer microphones, no "
+        "sound, a lower highest order of waves (`imperfections.highest_frequency_kHz`), or a faster machine. "
         "By the clock 4 of its steps came late all the same, as other work took the processor."
     )
 

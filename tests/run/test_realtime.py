@@ -43,10 +43,9 @@ def test_all_keep_a_long_step(scene):
 
 def test_one_alone_is_compared_with_nothing(scene):
     advice = made(scene, ("rings", 4, 1e-4, 9.997e-3), step=1e-2).advice()
-    assert (
-        advice
-        == "Rings with 4 microphones keeps the step of 10 ms: its worst step takes 10 ms, 100 % of it"
-        + (", which leaves little margin.")
+    assert advice == (
+        "Rings with 4 microphones keeps the step of 10 ms: its worst step takes 10 ms, 100 % of it, which "
+        "leaves little margin."
     )
 
 

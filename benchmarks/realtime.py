@@ -20,15 +20,15 @@ import numpy as np
 from fmu_bearing import Scene, build_fmu, read_scene, with_fidelity
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.results.table import machine, markdown, write_csv
-from fmu_bearing.run import realtime
-from fmu_bearing.run.realtime import Timed
+from fmu_bearing.run import step_times
+from fmu_bearing.run.step_times import Timed
 
 _EXAMPLES = Path(__file__).parents[1] / "examples"
 sys.path.insert(0, str(_EXAMPLES / "spindle_cosimulation"))
 from build import best_flavour, build  # noqa: E402
 from coupling import Fmu, Plan, exchanger, initialise  # noqa: E402
 
-COLUMNS = ("bearings", *realtime.COLUMNS)
+COLUMNS = ("bearings", *step_times.COLUMNS)
 _STEP = 1e-3  # s
 _START, _TARGET = 1500.0, 6500.0  # r/min
 _RUN_UP, _HELD, _JUMPS = 1000, 500, 200  # steps of each phase

@@ -58,7 +58,8 @@ def realtime(
     take longer on the clock than they simulate.
     """
     from fmu_bearing.results.table import show, write_csv
-    from fmu_bearing.run.realtime import SHORT, realtime as time_it
+    from fmu_bearing.run.realtime import realtime as time_it
+    from fmu_bearing.run.step_times import SHORT
 
     with refusals():
         if speed is not None and run_up is not None:

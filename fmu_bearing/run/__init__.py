@@ -12,5 +12,6 @@
 ``bearing``       `Bearing`: to initialise and step by hand
 ``build``         `build_fmu`: the FMU of a scene in one call
 ``realtime``      `realtime`: what communication steps cost beside the clock
+``step_times``    its result: table and advice
 ================  ===========================================================================
 """

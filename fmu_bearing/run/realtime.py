@@ -1,87 +1,37 @@
-"""Communication steps beside the clock: what they cost by fidelity, and what to change where they come late.
+"""Communication steps beside the clock: what they cost by fidelity.
 
 The loop runs as fast as it can; no step waits for the clock. A step is a call of the kernel that fmi2DoStep
 of a native FMU calls. What the FMU does besides, and what its master adds, is not in it: through FMPy a step
-took 2 to 13 us more (means of 1000 steps in turn with those of the FMU, `rings` and `response` of the
-7003C-spindle at 1 ms, 2-core AMD EPYC virtual machine, Python 3.11, Numba 0.68).
+took 7 to 12 us more in `response`, at most 10 in `rings`, and no more than the noise in `full` (means of 1000
+steps in turn with those of the FMU, 7003C-spindle at 1 ms and held speed, 2-core AMD EPYC virtual machine,
+Python 3.11, Numba 0.68).
 """
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from time import perf_counter, thread_time
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.results.table import machine, number
+from fmu_bearing.results.table import machine
+from fmu_bearing.run.step_times import HELD, Realtime, Timed, name_of
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.sound import Microphone
 
-__all__ = ["COLUMNS", "SHORT", "Realtime", "Timed", "realtime"]
+__all__ = ["realtime"]
 
-COLUMNS = (
-    "fidelity", "microphones", "phase", "steps", "mean, us", "p50", "p99", "worst", "worst over mean", "late",
-)  # fmt: skip
-#: The columns of a table for a terminal: the steps of all rows are as many.
-SHORT = ("fidelity", "microphones", "phase", "mean, us", "p50", "p99", "worst", "late")
 DURATION = 0.5  # s of each phase
 WARM_UP = 10  # steps that are not timed: they touch memory and fill caches for the first time
 _MOST_STEPS = 1_000_000
-_AMPLE = 0.8  # of the step: what takes more has little margin
-_SHORT = 1e-4  # s: internal steps are some tens of microseconds long, and a call computes one at least
-_HELD = "held"
 #: Runs one by one, as a progress bar wants them.
 Track = Callable[[Sequence["_Case"]], Iterable["_Case"]]
-
-
-@dataclass(frozen=True)
-class Timed:
-    """What the steps of one phase took.
-
-    Attributes
-    ----------
-    fidelity : str
-    microphones : int
-        0: the sound is not computed.
-    phase : str
-    cpu : ndarray, shape (steps,)
-        Time of the processor for this thread (s): other work on the machine enters through caches alone.
-    clock : ndarray, shape (steps,)
-        Time of the clock (s).
-    """
-
-    fidelity: str
-    microphones: int
-    phase: str
-    cpu: NDArray[np.float64]
-    clock: NDArray[np.float64]
-
-    @property
-    def case(self) -> tuple[str, int]:
-        """Fidelity and microphones."""
-        return self.fidelity, self.microphones
-
-    def late(self, step: float) -> int:
-        """Return how many steps took longer on the clock than the ``step`` (s) that they simulate."""
-        return int((self.clock > step).sum())
-
-    def cells(self, step: float) -> list[str]:
-        """Return the row of the table."""
-        micro = 1e6 * self.cpu
-        figures = (micro.mean(), *np.quantile(micro, (0.5, 0.99)), micro.max())
-        return [
-            self.fidelity, str(self.microphones or "none"), self.phase, str(micro.size),
-            *(f"{one:.0f}" if one >= 10.0 else f"{one:.1f}" for one in figures),
-            f"{micro.max() / micro.mean():.2f}", str(self.late(step)),
-        ]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -95,159 +45,6 @@ class _Case:
     def microphones(self) -> int:
         """Number of microphones that are computed."""
         return 0 if self.scene.sound is None else len(self.scene.sound.points())
-
-
-@dataclass(frozen=True)
-class _Cost:
-    """What a case costs over all of its phases."""
-
-    case: tuple[str, int]  # fidelity, and number of microphones
-    phases: dict[str, NDArray[np.float64]]
-
-    @property
-    def worst(self) -> float:
-        """Longest step (s)."""
-        return max(float(cpu.max()) for cpu in self.phases.values())
-
-    @property
-    def mean(self) -> float:
-        """Mean of the phase that takes most (s)."""
-        return max(float(cpu.mean()) for cpu in self.phases.values())
-
-    @property
-    def name(self) -> str:
-        """Fidelity and sound in words."""
-        return _name(*self.case)
-
-    def longer(self, step: float) -> float:
-        """Return the shortest multiple of ``step`` (s) that so many steps in a row keep; infinite: none."""
-        sums = [np.concatenate(([0.0], np.cumsum(cpu))) for cpu in self.phases.values()]
-        for count in range(2, min(one.size for one in sums) // 2):
-            if all((one[count:] - one[:-count]).max() <= count * step for one in sums):
-                return count * step
-        return math.inf
-
-
-@dataclass(frozen=True)
-class Realtime:
-    """Times of the steps of a scene.
-
-    Attributes
-    ----------
-    scene : Scene
-    step : float
-        Communication step (s).
-    timed : tuple of Timed
-        By fidelity, without sound before with it, by phase.
-    left_out : dict
-        Reasons by fidelity, or fidelity and sound, that could not run.
-    machine : str
-    """
-
-    scene: Scene
-    step: float
-    timed: tuple[Timed, ...]
-    left_out: dict[str, str]
-    machine: str
-
-    def table(self, columns: Sequence[str] = COLUMNS) -> tuple[Sequence[str], list[list[str]]]:
-        """Return columns, of `COLUMNS`, and rows."""
-        rows = [dict(zip(COLUMNS, one.cells(self.step), strict=True)) for one in self.timed]
-        return columns, [[row[name] for name in columns] for row in rows]
-
-    def summary(self) -> dict[str, Any]:
-        """Return all as numbers and words, SI units."""
-        rows = [
-            {
-                "fidelity": one.fidelity, "microphones": one.microphones, "phase": one.phase,
-                "steps": one.cpu.size, "mean_s": float(one.cpu.mean()),
-                "p50_s": float(np.quantile(one.cpu, 0.5)), "p99_s": float(np.quantile(one.cpu, 0.99)),
-                "worst_s": float(one.cpu.max()), "late": one.late(self.step),
-            }
-            for one in self.timed
-        ]  # fmt: skip
-        return {
-            "scene": self.scene.name, "step_s": self.step, "machine": self.machine, "steps": rows,
-            "left_out": self.left_out, "advice": self.advice(),
-        }  # fmt: skip
-
-    def advice(self) -> str:
-        """Return in two or three sentences which fidelity keeps the step and what to change.
-
-        A fidelity keeps the step if its worst step takes no more of the processor than the step is long. The
-        most complete one that does is named, with sound where there is any.
-        """
-        costs = self._costs()
-        kept = [one for one in costs if one.worst <= self.step]
-        if not kept:
-            return self._none(costs)
-        best = kept[0]
-        words = [f"{_capital(best.name)} keeps the step of {_time(self.step)}: {self._share(best.worst)}."]
-        sounding = max(count for _, count in (one.case for one in costs))
-        missed = [one for one in costs if one.worst > self.step]
-        if best.case[1] < sounding:
-            words.append(f"With sound none does: {self._change([one for one in missed if one.case[1]])}.")
-        elif not missed and len(costs) > 1:
-            words.append("So does every other that was timed.")
-        elif missed:
-            words.append(f"{_capital(missed[0].name)} does not: {self._change(missed[:1], 'it')}.")
-        if late := sum(one.late(self.step) for one in self.timed if one.case == best.case):
-            words.append(
-                f"By the clock {late} of its steps came late all the same, as other work took the processor."
-            )
-        return " ".join(words)
-
-    def _none(self, costs: list[_Cost]) -> str:
-        """Advice where nothing keeps the step."""
-        near = min(costs, key=lambda one: one.worst)
-        words = [
-            f"No fidelity keeps the step of {_time(self.step)}: {near.name} takes up to {_time(near.worst)}."
-        ]
-        held = [one for one in costs if one.phases[_HELD].max() <= self.step]
-        if held:
-            words.append(
-                f"At the held speed {held[0].name} does: {self._share(float(held[0].phases[_HELD].max()))}."
-            )
-        words.append(f"To change: {self._change(costs)}.")
-        return " ".join(words)
-
-    def _costs(self) -> list[_Cost]:
-        """Costs with sound, the most complete fidelity first, then without."""
-        cases = list(dict.fromkeys(one.case for one in self.timed))
-        cases.sort(key=lambda case: (-case[1], FIDELITIES.index(case[0])))  # type: ignore[arg-type]
-        return [_Cost(case, {o.phase: o.cpu for o in self.timed if o.case == case}) for case in cases]
-
-    def _share(self, worst: float) -> str:
-        """Words for the worst step beside the step."""
-        share = worst / self.step
-        margin = ", which leaves little margin" if share > _AMPLE else ""
-        return f"its worst step takes {_time(worst)}, {number(100.0 * share)} % of it{margin}"
-
-    def _change(self, costs: list[_Cost], who: str = "") -> str:
-        """Words for what lets one of several cases keep up: a longer step where one helps, else less work.
-
-        ``who``: in place of the name of a case that was named already.
-        """
-        for one in costs:
-            if (longer := one.longer(self.step)) < math.inf:
-                return f"{who or one.name} would keep a step of {_time(longer)}, or a buffer as long"
-        first = costs[0]
-        if self.step < _SHORT:
-            return f"give a longer step; below {_time(_SHORT)} the cost of a step falls less than its length"
-        steps = "its steps" if who else f"steps of {first.name}"
-        reason = f"{steps} take {_time(first.mean)} on average, so that a longer one helps little"
-        return f"{reason}; take {', '.join([*self._less(first), 'or a faster machine'])}"
-
-    def _less(self, cost: _Cost) -> list[str]:
-        """Name what the scene could leave out."""
-        fidelity, count = cost.case
-        faster = [one.case[0] for one in self._costs() if one.case[1] == count and one.mean < self.step]
-        ways = [f"fidelity {faster[0]}"] if faster else []
-        if count:
-            ways += ["fewer microphones", "no sound"] if count > 1 else ["no sound"]
-        if fidelity == FIDELITIES[0] and self.scene.imperfections is not None:  # others hardly change
-            ways.append("a lower highest order of waves (`imperfections.highest_frequency_kHz`)")
-        return ways
 
 
 def realtime(
@@ -308,7 +105,7 @@ def realtime(
         try:
             found += _timed(case, step, steps, first, last)
         except (ValueError, Refused) as problem:
-            left_out[_name(case.fidelity, case.microphones)] = str(problem)
+            left_out[name_of(case.fidelity, case.microphones)] = str(problem)
     if not found:
         reasons = "; ".join(dict.fromkeys(left_out.values()))
         raise ValueError(f"no fidelity of {scene.name} could be timed: {reasons}")
@@ -382,7 +179,7 @@ def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> I
     bearing.run(WARM_UP * step, step)
     rising = first + (last - first) * np.arange(1, steps + 1) / steps
     phases = {} if first == last else {"run-up": rising}
-    for phase, speeds in (phases | {_HELD: np.full(steps, last)}).items():
+    for phase, speeds in (phases | {HELD: np.full(steps, last)}).items():
         cpu, clock = np.zeros(steps), np.zeros(steps)
         for k in range(steps):
             bearing.u[U.SPEED] = speeds[k]
@@ -390,20 +187,3 @@ def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> I
             bearing.step(step)
             cpu[k], clock[k] = thread_time() - begin, perf_counter() - begun
         yield Timed(case.fidelity, case.microphones, phase, cpu, clock)
-
-
-def _name(fidelity: str, microphones: int) -> str:
-    sound = f"with {microphones} microphone{'s' * (microphones > 1)}" if microphones else "without sound"
-    return f"{fidelity} {sound}"
-
-
-def _capital(words: str) -> str:
-    return words[0].upper() + words[1:]
-
-
-def _time(seconds: float) -> str:
-    """Return a time in the unit that suits it."""
-    for unit, scale in (("s", 1.0), ("ms", 1e3)):
-        if seconds * scale >= 0.9995:  # what three digits round to 1
-            return f"{seconds * scale:.3g} {unit}"
-    return f"{seconds * 1e6:.3g} us"

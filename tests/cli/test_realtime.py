@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from fmu_bearing.run.realtime import COLUMNS, SHORT
+from fmu_bearing.run.step_times import COLUMNS, SHORT
 
 SHORT_RUN = ("--step", 1e-3, "--duration", 5e-3)
 

@@ -7,7 +7,7 @@ import pytest
 
 from fmu_bearing import realtime
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.run.realtime import COLUMNS, SHORT, Realtime, Timed
+from fmu_bearing.run.step_times import COLUMNS, SHORT, Realtime, Timed
 
 
 def made(scene, *costs, step=1e-3, late=0):

@@ -18,7 +18,13 @@ KEYS = {"fidelity.level": "fidelity.model", "sound.rung": "sound.radiation_model
 #: Values of a scene's keys that were removed, each with the one to use instead.
 VALUES = {"fidelity.method": {"fast": "esdirk4"}}
 #: Options of the command line.
-OPTIONS = {"--level": "--fidelity", "--rung": "--radiation-model"}
+OPTIONS = {
+    "--level": "--fidelity",
+    "--rung": "--radiation-model",
+    "--picture": "--plot",
+    "--chart": "--plot",
+    "--csv": "--output",
+}
 #: Variables of a bearing.
 VARIABLES = {
     "level": "fidelity",

@@ -1,4 +1,4 @@
-"""The application, options that commands share, and error messages.
+"""The application, error messages, and what commands do to files.
 
 Exit codes: 0 done; 1 a check has findings; 2 refused (a scene, an option, a file, a missing extra); 3 the
 computation ended early; 130 interrupted. In the last two cases the results so far are written.
@@ -19,11 +19,11 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.progress import track
 from typer.core import TyperGroup
 
 from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.progress import lines
 
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 #: What Typer raises for words that are no command, option or value; it names only the kind for values.
@@ -49,7 +49,7 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         """Run a command, its warnings one line each. Ctrl-C ends it; what it keeps by itself is kept."""
         try:
-            with quiet_warnings(), _one_line():
+            with quiet_warnings(), _one_line(), lines(tell):
                 return super().invoke(ctx)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)
@@ -102,32 +102,7 @@ def _common(
     """Options of the command itself."""
 
 
-def _with_catalogues(context: typer.Context, files: list[Path] | None) -> list[Path] | None:
-    """Let the command know the bearings of users' files until it ends."""
-    if files:
-        from fmu_bearing.scene.entries import using
-
-        context.with_resource(using(files))
-    return files
-
-
-SceneFile = Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).")]
-Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")]
-Quick = Annotated[bool, typer.Option("--quick", help="Few variants, short windows: to see that it works.")]
-Catalogues = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--catalogue",
-        metavar="FILE",
-        callback=_with_catalogues,
-        help="TOML file with bearings of your own, which scenes may name; several: one option each. A scene "
-        "that names the file itself, under catalogues, needs no option.",
-    ),
-]
-Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON, for machines.")]
-
 errors = Console(stderr=True)
-progress = partial(track, console=errors)  # results alone go to standard output
 tell = partial(typer.echo, err=True)
 
 
@@ -198,6 +173,30 @@ def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
 
 class Refusal(ValueError):
     """A command cannot work with its arguments; the message says why and what to do."""
+
+
+def check_new(force: bool, *paths: Path | None) -> None:
+    """Refuse to replace files that are there, unless ``--force`` is given.
+
+    Raises
+    ------
+    Refusal
+        With the files.
+    """
+    there = [path for path in paths if path is not None and path.is_file()]
+    if there and not force:
+        more = f" and {len(there) - 3} more" if len(there) > 3 else ""
+        words = ", ".join(str(path) for path in there[:3]) + more
+        raise Refusal(
+            f"{words} {'is' if len(there) == 1 else 'are'} there already: name another place with -o or "
+            "--plot, or give --force to replace what is there"
+        )
+
+
+def check_new_in(force: bool, folder: Path | None, *patterns: str) -> None:
+    """Refuse to replace files of a folder that have names of results, unless ``--force`` is given."""
+    if folder is not None and folder.is_dir():
+        check_new(force, *sorted({path for pattern in patterns for path in folder.glob(pattern)}))
 
 
 def print_json(result: Any) -> None:

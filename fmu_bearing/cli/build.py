@@ -6,13 +6,12 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import app, check_new, print_json, refusals, tell
+from fmu_bearing.cli.options import Catalogues, Fidelity, Force, Json, SceneFile, Settings, output as target
+from fmu_bearing.cli.settings import source_of
 from fmu_bearing.compiled.platforms import PLATFORMS
 
-Output = Annotated[
-    Path | None,
-    typer.Option("--output", "-o", help="FMU to write; default: Bearing<designation>.fmu here."),
-]
+Output = Annotated[Path | None, target("FMU to write; default: Bearing<designation>.fmu here.")]
 Flavour = Annotated[
     str | None,
     typer.Option(
@@ -46,7 +45,10 @@ def named(platforms: str | None) -> list[str]:
 @app.command()
 def build(
     scene: SceneFile,
+    settings: Settings = None,
+    fidelity: Fidelity = None,
     output: Output = None,
+    force: Force = False,
     flavour: Flavour = None,
     platforms: Platforms = None,
     only_here: OnlyHere = False,
@@ -54,10 +56,14 @@ def build(
     as_json: Json = False,
 ) -> None:
     """Build the co-simulation FMU (FMI 2.0) of a scene."""
+    from fmu_bearing.fmi.description import identifier
     from fmu_bearing.run.build import build_fmu
+    from fmu_bearing.scene import scene_of
 
     with refusals():
-        built = build_fmu(scene, output, flavour, named(platforms), tell, only_here)
+        source = scene_of(source_of(scene, settings, fidelity))
+        check_new(force, output or Path(f"{identifier(source)}.fmu"))
+        built = build_fmu(source, output, flavour, named(platforms), tell, only_here)
     if as_json:
         print_json(asdict(built))
     else:

@@ -1,13 +1,34 @@
 """``fmu-bearing compare``: two scenes, recordings or runs side by side."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Catalogues, Json, app, print_json, refusals, tell
+from fmu_bearing.cli.base import app, check_new, check_new_in, print_json, refusals, tell
+from fmu_bearing.cli.options import (
+    DURATION,
+    SEEDS,
+    SETTLE,
+    Catalogues,
+    Duration,
+    Fidelity,
+    Force,
+    Json,
+    Plot,
+    RadiationModel,
+    Seeds,
+    Settings,
+    Settle,
+    Speed,
+    output as target,
+)
+from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_folder
+from fmu_bearing.progress import steps
 
+_FILES = ("what-differs-in-the-scenes.csv", "levels.csv", "loads-angles-torque.csv", "third-octaves.csv")
 _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
 
 
@@ -15,26 +36,28 @@ _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
 def compare(
     a: Annotated[Path, typer.Argument(metavar="A", help=_WHAT)],
     b: Annotated[Path, typer.Argument(metavar="B", help=_WHAT)],
-    duration: Annotated[float, typer.Option("--duration", "-t", help="Length of each recording, s.")] = 0.5,
-    settle: Annotated[float, typer.Option(help="Time left out at the beginning, s.")] = 0.1,
-    fidelity: Annotated[str | None, typer.Option(help="Fidelity in place of the scenes'.")] = None,
-    radiation_model: Annotated[
-        str | None, typer.Option(help="How radiation is computed, in place of the scenes'.")
-    ] = None,
-    plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Picture of both spectra: .png, .svg or .pdf.")
-    ] = None,
+    duration: Duration = DURATION,
+    settle: Settle = SETTLE,
+    speed: Speed = None,
+    settings: Settings = None,
+    fidelity: Fidelity = None,
+    radiation_model: RadiationModel = None,
+    seeds: Seeds = SEEDS,
+    plot: Plot = None,
     microphone: Annotated[
         str | None,
         typer.Option("--microphone", "-m", help="Of third octaves and picture; default: the loudest of A."),
     ] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="Write the tables as CSV too.")
-    ] = None,
+    output: Annotated[Path | None, target("Write the tables as CSV too.", "FOLDER")] = None,
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B minus A."""
+    """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B minus A.
+
+    What is set, as fidelity and speed, is set in both scenes. The difference of the levels is a finding where
+    it has one sign with every seed: --seeds draws of the surfaces, the same for both, in short runs.
+    """
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.studies.compare import compare as compare_them
     from fmu_bearing.results.picture_parts import check_picture, save
@@ -43,29 +66,39 @@ def compare(
 
     with refusals():
         if plot is not None:
-            check_picture(plot)
+            check_new(force, check_picture(plot))
         for source in (a, b):  # an unknown microphone is reported before the runs
             if microphone is not None and source.suffix == ".toml":
                 named_places(read_scene(source).microphones, microphone)
         if output is not None:
             check_folder(output)  # refused before the runs
+            check_new_in(force, output, *_FILES)
+        values = at_speed(speed, settings)
+        one, other = (source_of(source, values) for source in (a, b))
         found = compare_them(
-            a, b, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
-            tell=tell, progress=False if as_json else None,
+            one, other, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
+            tell=tell,
         )  # fmt: skip
         tables = found.tables(microphone)
+        both = bool(found.a.levels.keys() & found.b.levels.keys())
+        track = partial(steps, what="draws of the surfaces")
+        finding = found.finding(microphone, seeds, track) if both else None
         files = [] if output is None else found.save(output, microphone)
         if plot is not None:
             save(found.plot(microphone), plot)
             files.append(plot)
     if as_json:
-        print_json(found.summary() | {"files": files})
+        print_json(
+            found.summary() | {"finding": None if finding is None else finding.summary(), "files": files}
+        )
         return
     for title, table in tables.items():
-        show(title, *table)
+        show(f"levels, {found.conditions()}" if title == "levels" else title, *table)
     if not found.keys and found.a.scene is not None and found.b.scene is not None:
         typer.echo("the scenes do not differ")
     typer.echo(f"A: {a}, B: {b}; differences are B minus A")
+    if finding is not None:
+        typer.echo(finding.words())
     for line in found.doubts():
         tell(line)
     if files:

@@ -5,20 +5,23 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    INTERRUPTED,
+from fmu_bearing.cli.base import INTERRUPTED, app, check_new, check_new_in, print_json, refusals, tell
+from fmu_bearing.cli.options import (
     Catalogues,
+    Force,
     Json,
+    Plot,
     SceneFile,
-    app,
-    print_json,
-    refusals,
-    tell,
+    Settings,
+    output as target,
+    settle as time_left_out,
 )
+from fmu_bearing.cli.settings import source_of
 
 if TYPE_CHECKING:
     from fmu_bearing.identification import Identified
 
+_FILES = ("levels.csv", "values.csv", "jacobian.csv", "report.md", "levels.png")
 Data = Annotated[
     Path,
     typer.Argument(
@@ -45,8 +48,14 @@ def identify(
     background: Annotated[
         Path | None, typer.Option(help="Background levels (CSV with the same columns), added as energy.")
     ] = None,
+    settings: Settings = None,
     fidelity: Annotated[
-        str | None, typer.Option(help="Of the search; default: response, full where rings bend.")
+        str | None,
+        typer.Option(
+            "--fidelity",
+            metavar="NAME",
+            help="Fidelity of the search; default: response, for hundreds of runs, or full where rings bend.",
+        ),
     ] = None,
     seeds: Annotated[int | None, typer.Option(min=1, help="Seeds averaged over; default 4.")] = None,
     starts: Annotated[int | None, typer.Option(min=1, help="Starting points; default 3.")] = None,
@@ -54,7 +63,7 @@ def identify(
         float | None, typer.Option(help="Length of each run, s; default 0.1 or more.")
     ] = None,
     settle: Annotated[
-        float | None, typer.Option(help="Time left out before it, s; default 0.03 to 0.05.")
+        float | None, time_left_out("; default 0.03 to 0.05 by fidelity: hundreds of short runs")
     ] = None,
     few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
     accept: Annotated[
@@ -63,38 +72,51 @@ def identify(
     anyway: Annotated[
         bool, typer.Option("--anyway", help="Write the scene though it and the data contradict each other.")
     ] = False,
-    workers: Annotated[int, typer.Option("--workers", "-w", min=1, help="Threads.")] = 1,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", help="Scene to write; a folder beside it takes all else.")
-    ] = Path("identified.toml"),
+    workers: Annotated[
+        int, typer.Option("--workers", "-w", min=1, help="Threads; default 1: each run keeps a core busy.")
+    ] = 1,
+    plot: Plot = None,
+    output: Annotated[Path, target("Scene to write; a folder beside it takes all else.")] = Path(
+        "identified.toml"
+    ),
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Find the values of free keys that explain measured levels; write scene, tables, report, picture.
 
-    Computed levels are kept in the folder: the same command goes on where an earlier one was interrupted.
+    Computed levels are kept in the folder: the same command goes on where an earlier one was interrupted,
+    with --force where that one wrote its best so far. --plot writes a copy of the picture there, levels.png.
     """
     from fmu_bearing.identification import SEEDS, STARTS, Interrupted, identify as search
     from fmu_bearing.identification.files import output_paths
+    from fmu_bearing.results.picture_parts import check_picture
 
     with refusals():
         path, folder = output_paths(output)
+        if plot is not None:
+            check_picture(plot)
+        check_new(force, path, plot)
+        check_new_in(force, folder, *_FILES)
+        source = source_of(scene, settings)
         code = 0
         try:
             found = search(
-                scene, measured, free or [], background=background, fidelity=fidelity, seeds=seeds or SEEDS,
+                source, measured, free or [], background=background, fidelity=fidelity, seeds=seeds or SEEDS,
                 starts=starts or STARTS, duration=duration, settle=settle, few=few, accept=accept,
                 folder=folder, workers=workers,
             )  # fmt: skip
         except Interrupted as stop:
             found, code = stop.best, INTERRUPTED
-            tell(f"{stop}; the same command goes on, from {folder / 'runs.jsonl'}")
-        _write(found, path, scene, as_json, anyway)
+            tell(f"{stop}; the same command with --force goes on, from {folder / 'runs.jsonl'}")
+        _write(found, path, scene if source == scene else None, plot, as_json, anyway)
     if code:
         raise typer.Exit(code)
 
 
-def _write(found: "Identified", path: Path, scene: Path, as_json: bool, anyway: bool) -> None:
+def _write(
+    found: "Identified", path: Path, scene: Path | None, plot: Path | None, as_json: bool, anyway: bool
+) -> None:  # fmt: skip
     """Print values, levels and remarks, and write the files."""
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import levels_table, values_table
@@ -102,6 +124,11 @@ def _write(found: "Identified", path: Path, scene: Path, as_json: bool, anyway: 
 
     refused = bool(found.doubts) and not anyway
     files = [] if refused else write_all(found, path, scene, tell, anyway=anyway)
+    if plot is not None and not refused:
+        from fmu_bearing.identification.picture import identified_picture, save
+
+        save(identified_picture(found), plot)
+        files.append(plot)
     if as_json:
         print_json(found.summary() | {"files": files})
     else:

@@ -5,7 +5,9 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from fmu_bearing.cli.base import Catalogues, Json, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import app, print_json, refusals, tell
+from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
+from fmu_bearing.cli.settings import at_speed, source_of
 
 if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint
@@ -21,7 +23,13 @@ _WORDS = {
 
 
 @app.command()
-def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) -> None:
+def info(
+    scene: SceneFile,
+    speed: Speed = None,
+    settings: Settings = None,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
+) -> None:
     """Show a scene's bearings at their operating point without a run: contacts, stiffness, verdicts.
 
     Of a set of bearings on one shaft: the load of each, the stiffness of the shaft, lift-off, preload.
@@ -30,7 +38,7 @@ def info(scene: SceneFile, catalogue: Catalogues = None, as_json: Json = False) 
     from fmu_bearing.design.verdicts import cautions, verdicts
 
     with refusals():
-        point = operating_point(scene)
+        point = operating_point(source_of(scene, at_speed(speed, settings)))
     found = verdicts(point)
     lines = cautions(point, found)
     if as_json:

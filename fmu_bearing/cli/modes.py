@@ -1,45 +1,47 @@
 """``fmu-bearing modes``: natural frequencies of a mounted bearing, and over speed what excites them."""
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fmu_bearing.cli.base import (
-    Catalogues,
-    Json,
     Refusal,
-    SceneFile,
     app,
+    check_new,
+    check_new_in,
     print_json,
-    progress,
     refusals,
     shaft_speed,
     tell,
 )
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Force,
+    Json,
+    Plot,
+    SceneFile,
+    Settings,
+    Speed,
+    output as target,
+)
+from fmu_bearing.cli.settings import changed
 from fmu_bearing.extras import available
 from fmu_bearing.files import check_folder
+from fmu_bearing.progress import steps, work
 
 if TYPE_CHECKING:
     from fmu_bearing.modal.campbell.over_speed import Campbell
     from fmu_bearing.modal.modes.natural_modes import Modes
-    from fmu_bearing.scene import Scene
 
-Changes = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        "-s",
-        metavar="KEY=VALUE",
-        help="A key of the scene (mounting.preload_N=300) or an input of the model, SI units (preload=300).",
-    ),
-]
 Speeds = Annotated[
     str | None,
     typer.Option(
         metavar="LOW:HIGH:COUNT", help="Campbell diagram over these speeds, r/min; also VALUE,VALUE,..."
     ),
 ]
+_FILES = ("modes.csv", "campbell.csv", "crossings.csv", "campbell.png", "shaft.png", "modes.html")
 _LARGEST = 3  # shares named in a row
 _LEAST = 0.05  # of the kinetic energy: smaller shares are left out
 
@@ -47,43 +49,55 @@ _LEAST = 0.05  # of the kinetic energy: smaller shares are left out
 @app.command()
 def modes(
     scene: SceneFile,
-    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min; default: the scene's.")] = None,
+    speed: Speed = None,
     speeds: Speeds = None,
-    settings: Changes = None,
+    settings: Settings = None,
     highest: Annotated[float, typer.Option(help="Highest frequency, kHz.")] = 20.0,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FOLDER", help="Write tables, picture and page there."),
-    ] = None,
+    plot: Plot = None,
+    output: Annotated[Path | None, target("Write tables, picture and page there.", "FOLDER")] = None,
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Show natural frequencies, damping, direction and what moves; with --speeds what excites them.
 
-    With --output the Campbell diagram is computed in any case: modes.csv, campbell.csv, crossings.csv,
-    campbell.png and modes.html, with the shapes moving; of a set shaft.png instead, the line of the shaft.
+    With --plot, the picture of it, or --output the Campbell diagram is computed in any case. The folder gets
+    modes.csv, campbell.csv, crossings.csv, campbell.png and modes.html, with the shapes moving; of a set
+    shaft.png instead, the line of the shaft.
     """
     from fmu_bearing.modal.campbell.over_speed import campbell as over_speed
     from fmu_bearing.modal.modes.points import modes as at_speed
+    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
     from fmu_bearing.sweeps.axes import parse_values
 
     with refusals():
         if output is not None:
             check_folder(output)
+            check_new_in(force, output, *_FILES)
+        if plot is not None:
+            check_new(force, check_picture(plot))
         chosen, inputs = changed(read_scene(scene), settings)
         turning = shaft_speed(speed)
-        found = at_speed(chosen, inputs | ({} if turning is None else {"shaft_speed": turning}))
+        if plot is not None and speeds is None and not chosen.operation.speed_rpm:
+            raise Refusal(
+                "--plot draws a Campbell diagram, and the scene's shaft does not turn: give --speeds"
+            )
+        with work(f"modes of {chosen.name}"):
+            found = at_speed(chosen, inputs | ({} if turning is None else {"shaft_speed": turning}))
         free = at_speed(chosen, inputs | {"shaft_speed": 0.0}, friction=False) if found.rpm == 0.0 else None
         diagram = None
-        if speeds is not None or output is not None and chosen.operation.speed_rpm:
+        if speeds is not None or plot is not None or output is not None and chosen.operation.speed_rpm:
             rows = None if speeds is None else parse_values("speeds", speeds)
             rest = {name: value for name, value in inputs.items() if name != "shaft_speed"}
             diagram = over_speed(
                 chosen, rows, inputs=rest, highest=1e3 * highest, tell=tell,
-                track=None if as_json else lambda values: progress(values, "speeds", transient=True),
+                track=partial(steps, what="Campbell diagram", unit="speeds"),
             )  # fmt: skip
         files = [] if output is None else _write(output, found, diagram)
+        if plot is not None and diagram is not None:
+            save(diagram.picture(), plot)
+            files.append(plot)
     if as_json:
         print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
         return
@@ -96,34 +110,6 @@ def modes(
         tell(f"caution: {line}")
     if files:
         tell(f"written: {', '.join(map(str, files))}")
-
-
-def changed(scene: "Scene", settings: list[str] | None) -> tuple["Scene", dict[str, float]]:
-    """Return a scene with the keys that were set, and the inputs that were set.
-
-    Raises
-    ------
-    ValueError
-        For text that is not a setting, an unknown key, and a value that is refused.
-    """
-    from fmu_bearing.interface.table import inputs_of
-    from fmu_bearing.sweeps.axes import plain_value
-
-    known = {variable.name for variable in inputs_of(scene)}
-    keys: dict[str, Any] = {}
-    inputs: dict[str, float] = {}
-    for setting in settings or ():
-        name, equals, text = (part.strip() for part in setting.partition("="))
-        if not (name and equals and text):
-            raise Refusal(f"--set {setting}: write KEY=VALUE, as mounting.preload_N=300 or preload=300")
-        if name in known:
-            try:
-                inputs[name] = float(text)
-            except ValueError:
-                raise Refusal(f"--set {setting}: {name} is a number in SI units") from None
-        else:
-            keys[name] = plain_value(text.strip("\"'"))
-    return (scene.replace(keys) if keys else scene), inputs
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:

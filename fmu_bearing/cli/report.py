@@ -5,17 +5,22 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
+from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, shaft_speed, tell
+from fmu_bearing.cli.options import (
+    DURATION,
+    SETTLE,
     Catalogues,
+    Duration,
+    Fidelity,
+    Force,
     Json,
-    Refusal,
-    app,
-    errors,
-    print_json,
-    refusals,
-    shaft_speed,
-    tell,
+    RadiationModel,
+    Settings,
+    Settle,
+    Speed,
+    output as target,
 )
+from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_file
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.exclusions import require
@@ -23,7 +28,7 @@ from fmu_bearing.scene.exclusions import require
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
 ]
-Page = Annotated[Path, typer.Option("--output", "-o", help="HTML file to write.")]
+Page = Annotated[Path, target("HTML file to write.")]
 
 
 def _check_keep(path: Path, source: Path) -> None:
@@ -52,17 +57,13 @@ def span(text: str) -> tuple[float, float]:
 def report(
     source: Source,
     output: Page = Path("report.html"),
-    speed: Annotated[
-        float | None, typer.Option(metavar="RPM", help="Shaft speed; default: the scene's.")
-    ] = None,
-    duration: Annotated[float, typer.Option(metavar="S", help="Length of the run that is shown.")] = 0.5,
-    settle: Annotated[float, typer.Option(metavar="S", help="Time left out before it.")] = 0.1,
-    radiation_model: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME", help="How sound is radiated: bem, compact, paper ...; default: the scene's."
-        ),
-    ] = None,
+    force: Force = False,
+    duration: Duration = DURATION,
+    settle: Settle = SETTLE,
+    speed: Speed = None,
+    settings: Settings = None,
+    fidelity: Fidelity = None,
+    radiation_model: RadiationModel = None,
     run_up: Annotated[
         str | None,
         typer.Option(metavar="RPM:RPM", help="Second run from one speed to the other, for the waterfall."),
@@ -87,14 +88,15 @@ def report(
     with refusals():
         turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
+        check_new(force, output, keep)
         if keep is not None:  # refused before the run
             _check_keep(keep, source)
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
+        chosen = source_of(source, settings, fidelity)
         made = make(
-            source, output, duration=duration, settle=settle, radiation_model=radiation_model,
-            radius=radius, title=title, speed=turning, run_up=speeds,
-            run_up_time=run_up_time, changes=changes, tell=tell, progress=errors.is_terminal,
+            chosen, output, duration=duration, settle=settle, radiation_model=radiation_model, radius=radius,
+            title=title, speed=turning, run_up=speeds, run_up_time=run_up_time, changes=changes, tell=tell,
         )  # fmt: skip
         if keep is not None and made.recording is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)

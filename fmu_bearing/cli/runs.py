@@ -1,6 +1,7 @@
 """``fmu-bearing simulate`` and ``plot``: a run of a scene or an FMU, its results, its pictures."""
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,33 +10,33 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
-    Catalogues,
-    Json,
     Refusal,
     app,
+    check_new,
     print_json,
     refusals,
     shaft_speed,
 )
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Fidelity,
+    Force,
+    Json,
+    Plot,
+    Settings,
+    Speed,
+    Variables,
+    output as target,
+    settle as time_left_out,
+)
+from fmu_bearing.cli.settings import changed, number, pair
 from fmu_bearing.files import check_file
 
 if TYPE_CHECKING:
     from fmu_bearing.results.result import Run
+    from fmu_bearing.scene import Scene
 
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
-Settings = Annotated[
-    list[str] | None,
-    typer.Option("--set", "-s", metavar="NAME=VALUE", help="Start value of an input or parameter, SI units."),
-]
-Variables = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--variables",
-        "-v",
-        metavar="NAME,...",
-        help="Variables, with commas between or one option each; * matches any text.",
-    ),
-]
 
 
 @app.command()
@@ -43,7 +44,11 @@ def simulate(
     source: Source,
     stop_time: Annotated[float, typer.Option("--stop-time", "-t", help="End of the run, s.")] = 0.1,
     step: Annotated[float, typer.Option(help="Communication step, s.")] = 1e-3,
-    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
+    settle: Annotated[
+        float, time_left_out("; default 0: a result begins with the steady state it starts from")
+    ] = 0.0,
+    speed: Speed = None,
+    fidelity: Fidelity = None,
     inputs: Annotated[
         Path | None,
         typer.Option(
@@ -54,35 +59,48 @@ def simulate(
     ] = None,
     settings: Settings = None,
     variables: Variables = None,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", help="Result to write: .csv as FMPy has it, or .nc.")
-    ] = Path("result.csv"),
+    plot: Plot = None,
+    output: Annotated[Path, target("Result to write: .csv as FMPy has it, or .nc.")] = Path("result.csv"),
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
     from fmu_bearing.results import result as results
+    from fmu_bearing.results.picture_parts import check_picture
+    from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
     with refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
         check_file(results.check_target(output))  # refused before the run
+        if plot is not None:
+            check_picture(plot)
+        check_new(force, output, plot)
+        if not 0.0 <= settle < stop_time:
+            raise Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
         turning = shaft_speed(speed)
-        start = _settings(settings) | ({} if turning is None else {"shaft_speed": turning})
+        chosen, start = _begun(source, settings, fidelity)
+        start |= {} if turning is None else {"shaft_speed": turning}
         run = run_it(
-            source, stop_time, step=step, inputs=inputs, start_values=start, outputs=split(variables),
-            progress=False if as_json else None,
-        )  # fmt: skip
+            chosen, stop_time, step=step, inputs=inputs, start_values=start, outputs=split(variables)
+        )
+        if settle and run.time[-1] >= settle:
+            run = replace(run, table=run.table[run.time >= settle])
         run.save(output)
+        files = [output]
+        if plot is not None:
+            draw(run, plot, split(variables))
+            files.append(plot)
         doubted = "" if run.scene is None else _doubt(run, start, inputs is not None)
     if as_json:
-        print_json(run.summary() | {"file": output, "doubt": doubted})
+        print_json(run.summary() | {"files": files, "doubt": doubted})
     else:
         if run.note:
             typer.echo(f"error: {run.note}", err=True)
         typer.echo(
-            f"written: {output}, {len(run)} points to {run.time[-1]:g} s, {len(run.names)} variables, "
-            f"in {run.wall:.2g} s"
+            f"written: {', '.join(map(str, files))}, {len(run)} points to {run.time[-1]:g} s, "
+            f"{len(run.names)} variables, in {run.wall:.2g} s"
         )
         if doubted:
             typer.echo(f"{doubted}.")
@@ -98,9 +116,8 @@ def plot(
         Path | None,
         typer.Option(help="Scene of the run, for the names of microphones; a result in .nc knows it."),
     ] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Picture: .png or .svg; default: beside the result.")
-    ] = None,
+    output: Annotated[Path | None, target("Picture: .png, .svg or .pdf; default: beside the result.")] = None,
+    force: Force = False,
     catalogue: Catalogues = None,
 ) -> None:
     """Draw variables over time, one panel per unit: speeds in r/min, levels from the first valid sample."""
@@ -111,6 +128,7 @@ def plot(
     with refusals():
         run = Run.load(result)
         picture = output or result.with_suffix(".png")
+        check_new(force, picture)
         if scene is not None:
             run.scene = read_scene(scene)
         draw(run, picture, split(variables))
@@ -135,15 +153,19 @@ def split(options: list[str] | None) -> list[str] | None:
     return [name.strip() for option in options for name in option.split(",") if name.strip()]
 
 
-def _settings(settings: list[str] | None) -> dict[str, float]:
-    """Return values by name from ``NAME=VALUE``."""
-    found = {}
-    for setting in settings or ():
-        name, equals, text = setting.partition("=")
-        try:
-            found[name.strip()] = float(text)
-        except ValueError:
-            equals = ""
-        if not equals:
-            raise Refusal(f"--set {setting}: write NAME=VALUE with a number in SI units, as preload=300")
-    return found
+def _begun(
+    source: Path, settings: list[str] | None, fidelity: str | None
+) -> tuple["Path | Scene", dict[str, float]]:
+    """Return what is run, with keys and fidelity of the command line, and the values it starts with."""
+    from fmu_bearing.interface.parameters import parameters
+    from fmu_bearing.scene.read import read_scene, with_fidelity
+
+    if source.suffix == ".fmu":
+        if fidelity is not None:
+            raise Refusal(f"--fidelity is refused: that of {source} was settled when it was built")
+        return source, {name: number(name, text) for name, text in map(pair, settings or ())}
+    if not settings and fidelity is None:
+        return source, {}
+    scene = read_scene(source)
+    scene = scene if fidelity is None else with_fidelity(scene, model=fidelity)
+    return changed(scene, settings, [one.name for one in parameters(scene)])

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import FOUND, Catalogues, Json, Refusal, SceneFile, app, print_json, refusals, tell
+from fmu_bearing.cli.base import FOUND, Refusal, app, check_new, print_json, refusals, tell
+from fmu_bearing.cli.options import Catalogues, Force, Json, SceneFile
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.designation import suggestion
@@ -31,7 +32,11 @@ _SAID = (
     "mounting.preload_N", "spindle.preload.preload_N", "spindle.load.force_x_N", "spindle.shaft.sections_mm",
     "operation.speed_rpm", "sound.radiator",
 )  # fmt: skip
-_OPTIONAL = "Needed for a bearing that is not in the catalogue."
+
+
+def _own(words: str, *names: str) -> Any:
+    """Return the declaration of a dimension of a bearing of one's own."""
+    return typer.Option(*names, help=f"{words} Needed for a bearing that is not in the catalogue.")
 
 
 @scene_app.command()
@@ -41,11 +46,9 @@ def new(
         typer.Argument(metavar="FILE", help="Scene file to write; default: named after the bearing."),
     ] = None,
     bearing: Annotated[str | None, typer.Option(help="A bearing of the catalogue.")] = None,
-    bore: Annotated[float | None, typer.Option(help=f"Bore, mm. {_OPTIONAL}")] = None,
-    outside_diameter: Annotated[
-        float | None, typer.Option("--outside-diameter", "--outside", help=f"mm. {_OPTIONAL}")
-    ] = None,
-    width: Annotated[float | None, typer.Option(help=f"mm. {_OPTIONAL}")] = None,
+    bore: Annotated[float | None, _own("Bore, mm.")] = None,
+    outside_diameter: Annotated[float | None, _own("mm.", "--outside-diameter", "--outside")] = None,
+    width: Annotated[float | None, _own("mm.")] = None,
     contact_angle: Annotated[float, typer.Option(help="deg; with --bore.")] = 15.0,
     designation: Annotated[str | None, typer.Option(help="Designation of the bearing.")] = None,
     kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
@@ -77,7 +80,8 @@ def new(
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
     catalogue: Catalogues = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
+    force: Force = False,
+    as_json: Json = False,
 ) -> None:
     """Write a scene from the catalogue, or from boundary dimensions with the rest estimated.
 
@@ -111,8 +115,7 @@ def new(
                 "--outside-diameter and --width"
             )
         path = path or _named(bearing or designation or "bearing", arrangement)
-        if path.exists() and not force:
-            raise Refusal(f"{path} is there already: name another file, or give --force")
+        check_new(force, path)
         text = new_scene(
             path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
             designation=designation, preload_N=preload, preload_class=preload_class,
@@ -121,11 +124,15 @@ def new(
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [one for one in origins(path) if one.assumed]
+    cautions = _findings(path)[1]
+    if as_json:
+        print_json({"file": path, "assumed": [asdict(one) for one in found], "cautions": cautions})
+        return
     typer.echo(f"written: {path}; {len(found)} values are assumed: `fmu-bearing scene show {path} --assumed`")
     for one in found:
         if one.key in _SAID and one.origin == "file":
             typer.echo(f"assumed: {one.key} = {_shown(one)}: {one.remark}")
-    for line in _findings(path)[1]:
+    for line in cautions:
         tell(f"caution: {line}")
 
 

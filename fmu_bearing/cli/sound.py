@@ -7,22 +7,43 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fmu_bearing.cli.base import (
-    Catalogues,
-    Folder,
-    Json,
     Refusal,
     app,
+    check_new,
+    check_new_in,
     print_json,
-    progress,
     refusals,
     shaft_speed,
     tell,
 )
+from fmu_bearing.cli.options import (
+    DURATION,
+    SETTLE,
+    Catalogues,
+    Duration,
+    Fidelity,
+    Folder,
+    Force,
+    Json,
+    Plot,
+    RadiationModel,
+    Settings,
+    Settle,
+    Speed,
+)
+from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder
+from fmu_bearing.progress import steps, work
 
 if TYPE_CHECKING:
     from fmu_bearing.recording.recording import Recording
     from fmu_bearing.recording.studies.spread import Spread
+
+#: What may be written into the folder.
+_FILES = (
+    "recording.npz", "levels.csv", "spectrum.csv", "third-octaves.csv", "planes.csv", "spectrum.png",
+    "third-octaves.png", "planes.png", "lines.md", "spectra.nc", "*.wav",
+)  # fmt: skip
 
 
 @app.command()
@@ -34,13 +55,12 @@ def sound(
             help="Scene (.toml), recording (.npz), or result of an FMU run with pressures (.csv).",
         ),
     ],
-    duration: Annotated[float, typer.Option("--duration", "-t", help="Length of the recording, s.")] = 0.5,
-    settle: Annotated[float, typer.Option(help="Time left out at the beginning, s.")] = 0.02,
-    speed: Annotated[float | None, typer.Option(help="Shaft speed, r/min.")] = None,
-    fidelity: Annotated[str | None, typer.Option(help="Fidelity in place of the scene's.")] = None,
-    radiation_model: Annotated[
-        str | None, typer.Option(help="How radiation is computed, in place of the scene's.")
-    ] = None,
+    duration: Duration = DURATION,
+    settle: Settle = SETTLE,
+    speed: Speed = None,
+    settings: Settings = None,
+    fidelity: Fidelity = None,
+    radiation_model: RadiationModel = None,
     microphone: Annotated[
         list[str] | None, typer.Option("--microphone", "-m", help="Only these microphones, by name.")
     ] = None,
@@ -61,22 +81,32 @@ def sound(
     spread: Annotated[
         bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
     ] = True,
+    plot: Plot = None,
     output: Folder = Path("out/sound"),
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV."""
+    """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV.
+
+    --plot writes the picture of the spectra, as spectrum.png in the folder, to a file.
+    """
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.measurements.at_frequency import noise_at
-    from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
+    from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, spectra_picture, write_all
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.spread import doubt_of
+    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show
+    from fmu_bearing.scene import scene_of
     from fmu_bearing.scene.exclusions import require
-    from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with refusals():
         check_folder(output)  # refused before the run
+        check_new_in(force, output, *_FILES)
+        if plot is not None:
+            check_new(force, check_picture(plot))
+        chosen = source_of(source, settings, fidelity)
         turning = shaft_speed(speed)
         if source.suffix == ".npz":
             recording = Recording.load(source)
@@ -88,20 +118,23 @@ def sound(
                     f"--resolution {resolution:g} Hz needs --duration {1.0 / resolution:g} s or more, "
                     f"not {duration:g} s"
                 )
-            found = read_scene(source)
-            if fidelity is not None:
-                found = with_fidelity(found, model=fidelity)
+            found = scene_of(chosen)
             require(found, "measurement")
             named_places(found.microphones, microphone)
             recording = record(
                 found, duration, speed=turning, settle=settle,
-                radiation_model=radiation_model, progress=False if as_json else None, warn=False,
+                radiation_model=radiation_model, warn=False,
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)
             recording.save(output / "recording.npz")
-        analysis = analyse_sound(recording, microphone, radiation_model, resolution)
-        sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
-        files = write_all(recording, analysis, output, radiation_model, wav, directivity, tell)
+        with work("sound at the microphones"):
+            analysis = analyse_sound(recording, microphone, radiation_model, resolution)
+            sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
+        with work("directivity, tables and pictures"):
+            files = write_all(recording, analysis, output, radiation_model, wav, directivity, tell)
+            if plot is not None:
+                save(spectra_picture(recording, analysis), plot)
+                files.append(plot)
         sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
         doubted = doubt_of(recording)
     if as_json:
@@ -139,7 +172,7 @@ def _spread(
     """Range of the levels, or None with a line why there is none."""
     from fmu_bearing.recording.studies.spread import spread
 
-    bar = partial(progress, description="range of levels", disable=quiet, transient=True)
+    bar = partial(steps, what="range of levels", unit="draws")
     try:
         return spread(recording, microphones, radiation_model=radiation_model, bar=bar)
     except ValueError as reason:

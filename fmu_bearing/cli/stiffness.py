@@ -1,23 +1,25 @@
 """``fmu-bearing stiffness``: stiffness and damping of a scene's bearings for rotor programs."""
 
+import glob
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fmu_bearing.cli.base import (
-    Catalogues,
-    Json,
     Refusal,
-    SceneFile,
     app,
+    check_new,
+    check_new_in,
     print_json,
-    progress,
     refusals,
     shaft_speed,
     tell,
 )
-from fmu_bearing.cli.modes import Changes, changed
+from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
+from fmu_bearing.cli.settings import changed
+from fmu_bearing.progress import steps
 
 if TYPE_CHECKING:
     from fmu_bearing.steady.stiffness.bearing_stiffness import BearingStiffness
@@ -43,7 +45,7 @@ def stiffness(
     frequencies: Annotated[
         str | None, typer.Option(metavar="VALUES", help="Hz, same syntax; default: 8 from 50 to 10000.")
     ] = None,
-    settings: Changes = None,
+    settings: Settings = None,
     spacing: Annotated[
         str, typer.Option(help="held: balls keep their distances, as in a cage; free: they do not.")
     ] = "held",
@@ -53,14 +55,9 @@ def stiffness(
     mirrored: Annotated[
         bool, typer.Option("--mirrored", help="For ross: the bearing carries the other way.")
     ] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="Default: stiffness and the format's ending."),
-    ] = None,
-    picture: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Picture of K and C over speed, .png or .svg."),
-    ] = None,
+    plot: Plot = None,
+    output: Annotated[Path | None, written_to("Default: stiffness and the format's ending.")] = None,
+    force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
@@ -87,8 +84,10 @@ def stiffness(
             shaft_speed(speed, "--speeds")
         given = read_scene(scene)
         target = _target(form, output, asked)
-        if picture is not None:
-            check_picture(picture)
+        if plot is not None:
+            check_picture(plot)
+        check_new(force, target, plot)
+        check_new_in(force, target.parent, f"{glob.escape(target.stem)}-*{target.suffix}")
         chosen, inputs = changed(given, settings)
         if mirrored and chosen.spindle is not None:
             raise Refusal(
@@ -97,12 +96,12 @@ def stiffness(
         found = table_of(
             chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
             spacing=_spacing(spacing),
-            track=None if as_json else lambda values: progress(values, "speeds", transient=True),
+            track=partial(steps, what="stiffness", unit="speeds"),
         )  # fmt: skip
         files = [*found.save(target)] if form != "ross" else _elements(found, target, mirrored)
-        if picture is not None:
-            save(found.picture(), picture)
-            files.append(picture)
+        if plot is not None:
+            save(found.picture(), plot)
+            files.append(plot)
     if as_json:
         print_json(_document(found, form, mirrored) | {"files": files})
         return

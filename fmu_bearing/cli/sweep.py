@@ -8,15 +8,25 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
-    Catalogues,
-    Folder,
-    Json,
     app,
+    check_new,
+    check_new_in,
     print_json,
     refusals,
     tell,
 )
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Fidelity,
+    Folder,
+    Force,
+    Json,
+    Plot,
+    Settings,
+    settle as time_left_out,
+)
 from fmu_bearing.cli.runs import split
+from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder
 
 if TYPE_CHECKING:
@@ -44,9 +54,7 @@ Names = Annotated[
         "mean, rms, min, max, last, 1x.",
     ),
 ]
-Settle = Annotated[
-    float | None, typer.Option(help="Time each point runs before it is read, s; default 0.02.")
-]
+Settle = Annotated[float | None, time_left_out("; default 0.02, or the sweep file's: a map has many points")]
 Window = Annotated[float | None, typer.Option(help="Time over which it is read, s; default 0.1.")]
 Workers = Annotated[
     int | None, typer.Option("--workers", "-w", min=1, help="Processes; default: one per core.")
@@ -69,7 +77,11 @@ def sweep(
     window: Window = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
+    settings: Settings = None,
+    fidelity: Fidelity = None,
+    plot: Plot = None,
     output: Folder = Path("out/sweep"),
+    force: Force = False,
     dry_run: DryRun = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
@@ -77,8 +89,11 @@ def sweep(
     """Run a scene over all combinations of some of its values; write netCDF, CSV, a picture.
 
     Finished points are kept in the folder: the same command goes on where an earlier one was interrupted.
+    The results of another sweep in the folder are replaced with --force alone. The picture is sweep.png
+    there, or the file of --plot.
     """
     from fmu_bearing.extras import need
+    from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.sweeps.cluster import checked
 
     with refusals():
@@ -87,21 +102,25 @@ def sweep(
         if scheduler is not None:  # refused before a file is written
             checked(scheduler)
         check_folder(output)
-        made = _plan(source, axis, variables, settle, window, output if not dry_run else None)
+        if plot is not None:
+            check_new(force, check_picture(plot))
+        made, text = _plan(source, axis, variables, settle, window, settings, fidelity)
+        if not dry_run:
+            _keep_plan(made, text, output, force)
         if made.note:
             tell(made.note)
         if dry_run:
             _estimate(made, output, workers, as_json)
         else:
-            _run(made, output, workers, scheduler, as_json)
+            _run(made, output, workers, scheduler, plot, as_json)
 
 
 def _plan(
     source: Path, axis: list[str] | None, variables: list[str] | None, settle: float | None,
-    window: float | None, folder: Path | None,
-) -> "Plan":  # fmt: skip
-    """Make the plan from file and options; options win. The folder gets a file that repeats the sweep."""
-    from fmu_bearing.scene import read_scene
+    window: float | None, settings: list[str] | None, fidelity: str | None,
+) -> tuple["Plan", str]:  # fmt: skip
+    """Return the plan from file and options, which win, and the text of a file that repeats the sweep."""
+    from fmu_bearing.scene import scene_of
     from fmu_bearing.sweeps.axes import SweepError, key_of, parse_axis
     from fmu_bearing.sweeps.description import Description, is_description, read_description
     from fmu_bearing.sweeps.plan import plan
@@ -110,7 +129,7 @@ def _plan(
     known: dict[str, Any] = {"scene": str(source), "axes": {}}
     if is_description(source):
         known = read_description(source).model_dump()
-    scene = read_scene(known["scene"])
+    scene = scene_of(source_of(Path(known["scene"]), settings, fidelity))
     given = {key_of(scene, key): values for key, values in parsed}
     if len(given) < len(parsed):
         raise SweepError("an axis is given twice: give each --axis once")
@@ -122,17 +141,23 @@ def _plan(
     if not known["axes"]:
         raise SweepError("a sweep needs an axis, for example --axis speed=8000:40000:9")
     wanted = Description.model_construct(**known)
-    made = plan(wanted.scene, wanted.axes, wanted.settle_s, wanted.window_s, wanted.figures)
-    if folder is not None:
-        kept = folder / "scene.toml"
-        folder.mkdir(parents=True, exist_ok=True)
-        kept.write_text(made.scene.to_toml(), "utf-8")
-        text = wanted.model_copy(update={"scene": kept.name}).to_toml()
-        (folder / "sweep.toml").write_text(text, "utf-8")
-    return made
+    made = plan(scene, wanted.axes, wanted.settle_s, wanted.window_s, wanted.figures)
+    return made, wanted.model_copy(update={"scene": "scene.toml"}).to_toml()
 
 
-def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None, as_json: bool) -> None:
+def _keep_plan(made: "Plan", text: str, folder: Path, force: bool) -> None:
+    """Write the scene and a file that repeats the sweep; refuse to replace those of another sweep."""
+    texts = {folder / "scene.toml": made.scene.to_toml(), folder / "sweep.toml": text}
+    if not all(path.is_file() and path.read_text("utf-8") == new for path, new in texts.items()):
+        check_new_in(force, folder, "scene.toml", "sweep.*")
+    folder.mkdir(parents=True, exist_ok=True)
+    for path, new in texts.items():
+        path.write_text(new, "utf-8")
+
+
+def _run(
+    made: "Plan", output: Path, workers: int | None, scheduler: str | None, plot: Path | None, as_json: bool
+) -> None:  # fmt: skip
     from fmu_bearing.sweeps.runs import Interrupted, run_plan
     from fmu_bearing.sweeps.store import Store
 
@@ -146,12 +171,12 @@ def _run(made: "Plan", output: Path, workers: int | None, scheduler: str | None,
         tell(f"{stop} and kept; `{again}` runs the {left} that are left")
     if any(not outcome.lasting for outcome in outcomes.values()):
         code = code or ENDED_EARLY
-    _write(made, outcomes, output, as_json)
+    _write(made, outcomes, output, plot, as_json)
     if code:
         raise typer.Exit(code)
 
 
-def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> None:
+def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, as_json: bool) -> None:
     """Write the results so far and print a summary."""
     from fmu_bearing.extras import available
     from fmu_bearing.results.table import show
@@ -162,8 +187,10 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, as_json: bool) -> N
     data = dataset(made, outcomes)
     files = save(data, output)
     drawable = outcomes and sum(size > 1 for size in made.shape) in (1, 2)
+    if plot is not None and not drawable:
+        tell(f"no {plot}: one or two axes with two values or more can be drawn")
     if drawable and available("matplotlib", "a picture", "sweep.png", tell):
-        files["picture"] = output / "sweep.png"
+        files["picture"] = plot or output / "sweep.png"
         asked = made.figures != figures_of(made.scene, None)
         drawn = [figure.name for figure in made.figures][:MOST] if asked else None
         save_picture(sweep_picture(data, drawn), files["picture"])

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import FOUND, Json, Refusal, app, errors, print_json, refusals
+from fmu_bearing.cli.base import FOUND, Refusal, app, print_json, refusals
+from fmu_bearing.cli.options import Json
+from fmu_bearing.progress import work
 
 if TYPE_CHECKING:
     from fmu_bearing.validation import Result
@@ -28,9 +30,9 @@ def validate(
     """
     from fmu_bearing import validation
 
-    with refusals(), errors.status("checking") as status:
+    with refusals(), work("checking") as status:
         try:
-            results = validation.validate(fmu, limit, lambda name: status.update(f"checking: {name}"))
+            results = validation.validate(fmu, limit, lambda name: status.named(f"checking: {name}"))
         except validation.NotAnFmu as problem:
             raise Refusal(str(problem)) from None
     counts = {outcome: sum(r.outcome == outcome for r in results) for outcome in _COLOURS}

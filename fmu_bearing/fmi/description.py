@@ -107,13 +107,13 @@ STOP_TIME = 1.0  # s
 STEP_SIZE = 1e-4  # s
 
 
-def identifier(model: "Model") -> str:
+def identifier(scene: "Scene") -> str:
     """Return the name of the FMU's shared library: ``Bearing`` and the designation as a C identifier.
 
     That of a set begins with ``Spindle``.
     """
-    what = "Bearing" if model.scene.spindle is None else "Spindle"
-    return what + re.sub(r"\W", "_", model.scene.bearing.designation, flags=re.ASCII)
+    what = "Bearing" if scene.spindle is None else "Spindle"
+    return what + re.sub(r"\W", "_", scene.bearing.designation, flags=re.ASCII)
 
 
 def fmi_type(variable: Variable) -> str:
@@ -174,7 +174,7 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
     )
     derivatives = flavour == "native" and len(led_inputs(scene)) > 0
     can = {
-        "modelIdentifier": identifier(shown),
+        "modelIdentifier": identifier(shown.scene),
         **CAPABILITIES[flavour],
         **_BOTH_CAN,
         "providesDirectionalDerivative": str(derivatives).lower(),

@@ -130,7 +130,7 @@ def build(
     BuildError
         If a library that was asked for cannot be made.
     """
-    path = Path(output) if output is not None else Path(f"{identifier(model)}.fmu")
+    path = Path(output) if output is not None else Path(f"{identifier(model.scene)}.fmu")
     if path.is_dir():
         raise IsADirectoryError(f"{path} is a folder: name the file to write")
     check_choice(flavour, platforms, only_here)
@@ -159,7 +159,7 @@ def build(
     return BuiltFmu(
         path,
         interface_guid(model, flavour),
-        identifier(model),
+        identifier(model.scene),
         len(data),
         dict(sorted(counts.items())),
         flavour,
@@ -237,7 +237,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, bytes] | None
         inside[TERMINALS_FILE] = terminals_xml(as_fmu_model(model))
     if flavour == "python":
         return inside | _python_parts(model)
-    name = identifier(model)
+    name = identifier(model.scene)
     for platform, data in (libraries or {}).items():
         inside[f"binaries/{platform}/{name}{PLATFORMS[platform].suffix}"] = data
     guid = interface_guid(model, flavour)
@@ -247,7 +247,7 @@ def contents(model: "Model", flavour: str, libraries: Mapping[str, bytes] | None
 
 def _python_parts(model: "Model") -> dict[str, bytes]:
     """Return the files of the Python build only: stub, parameters, pythonfmu's libraries."""
-    name = identifier(model)
+    name = identifier(model.scene)
     fingerprint = resources.fingerprint(model)
     # Python keeps modules by name for the life of the process: two FMUs must not share one.
     module = f"{re.sub('[^a-z0-9]', '_', name.lower())}_{fingerprint[:16]}"

@@ -10,7 +10,6 @@
 
 import math
 import pathlib
-import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -39,6 +38,7 @@ from fmu_bearing.identification.statistics import (
     whitener,
     widened,
 )
+from fmu_bearing.progress import work
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
@@ -427,23 +427,12 @@ class _Display:
 @contextmanager
 def _bar(shown: bool | None) -> Iterator[_Display]:
     """Show stage, number of runs, misfit now and at best."""
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    shown = sys.stderr.isatty() if shown is None else shown
-    columns = (
-        SpinnerColumn(), TextColumn("{task.description}"), TextColumn("{task.completed:.0f} runs"),
-        TextColumn("{task.fields[misfit]}"), TimeElapsedColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), transient=True, disable=not shown) as display:
-        task = display.add_task("identify", total=None, misfit="")
+    with work("identify", unit="runs", shown=shown) as display:
         best = math.inf
 
         def misfit(rms: float) -> None:
             nonlocal best
             best = min(best, rms)
-            display.update(task, misfit=f"{rms:.2f} dB rms, best {best:.2f} dB")
+            display.at(display.done, f"{rms:.2f} dB rms, best {best:.2f} dB")
 
-        yield _Display(
-            lambda text: display.update(task, description=text), lambda: display.advance(task), misfit
-        )
+        yield _Display(display.named, lambda: display.at(display.done + 1.0), misfit)

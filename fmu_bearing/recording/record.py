@@ -3,7 +3,6 @@
 import math
 import os
 import pathlib
-import sys
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
@@ -19,6 +18,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.prepare.sound import from_lines
+from fmu_bearing.progress import work
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
@@ -244,13 +244,9 @@ def _march(
     bearing: Instance, drives: Mapping[str, Signal], kept: _Readings, step: float, progress: bool | None
 ) -> None:
     """Step until all rows are read."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     total = len(kept.rows)
-    shown = sys.stderr.isatty() and total > SD.RATE / 2 if progress is None else progress
-    with Progress(console=Console(stderr=True), transient=True, disable=not shown) as bar:
-        task = bar.add_task(f"{bearing.model.scene.name}: recording", total=total)
+    shown = False if progress is None and total <= SD.RATE / 2 else progress
+    with work(f"{bearing.model.scene.name}: recording", total / SD.RATE, "s", shown=shown) as bar:
         kept.read()
         number = 0
         while not kept.full:
@@ -258,7 +254,7 @@ def _march(
             _drive(bearing, drives, number * step)
             bearing.step(number * step - bearing.time)
             kept.read()
-            bar.update(task, completed=min(kept.count, total))
+            bar.at(min(kept.count, total) / SD.RATE)
 
 
 def _drive(bearing: Instance, drives: Mapping[str, Signal], time: float) -> None:

@@ -4,7 +4,6 @@ import math
 import os
 import pathlib
 import signal
-import sys
 import threading
 import time as clock
 import warnings
@@ -21,6 +20,7 @@ from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.progress import work
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, Run
 from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.results.variable_names import by_name
@@ -316,21 +316,10 @@ def stoppable() -> Iterator[Callable[[], bool]]:
 @contextmanager
 def bar(name: str, stop_time: float, shown: bool | None) -> Iterator[Callable[[float], None]]:
     """Progress over simulated time, with the pace (simulated per wall second) and the time left."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    shown = sys.stderr.isatty() if shown is None else shown
-    columns = (
-        TextColumn("{task.description}"), BarColumn(),
-        TextColumn("{task.completed:.4g} of {task.total:.4g} s"), TextColumn("{task.fields[pace]}"),
-        TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), disable=not shown) as display:
-        task = display.add_task(name, total=stop_time, pace="")
+    with work(name, stop_time, "s", shown=shown, keep=True) as display:
         begin = clock.perf_counter()
 
         def tell(time: float) -> None:
-            pace = f"{time / max(clock.perf_counter() - begin, 1e-9):.2g} simulated/wall"
-            display.update(task, completed=time, pace=pace)
+            display.at(time, f"{time / max(clock.perf_counter() - begin, 1e-9):.2g} simulated/wall")
 
         yield tell

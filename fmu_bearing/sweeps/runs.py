@@ -1,10 +1,10 @@
 """Running the points that are not finished, with progress."""
 
-import sys
 import time as clock
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing, contextmanager
 
+from fmu_bearing.progress import work
 from fmu_bearing.sweeps.local import cores, here, processes
 from fmu_bearing.sweeps.plan import Plan
 from fmu_bearing.sweeps.point import Outcome, Task
@@ -87,21 +87,13 @@ def _ends(
 @contextmanager
 def _bar(total: int, kept: int, shown: bool | None) -> Iterator[Callable[[int], None]]:
     """Show points done and left, the pace, and the time left."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    shown = sys.stderr.isatty() if shown is None else shown
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} of {task.total:.0f}"),
-        TextColumn("{task.fields[pace]}"), TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=Console(stderr=True), disable=not shown) as display:
-        name = "points" if not kept else f"points ({kept} kept)"
-        bar = display.add_task(name, total=total, completed=kept, pace="")
+    name = "points" if not kept else f"points ({kept} kept)"
+    with work(name, total, shown=shown, keep=True) as bar:
+        bar.at(kept)
         begin = clock.perf_counter()
 
         def tell(done: int) -> None:
             pace = 60.0 * (done - kept) / max(clock.perf_counter() - begin, 1e-9)
-            display.update(bar, completed=done, pace=f"{pace:.3g} points/min")
+            bar.at(done, f"{pace:.3g} points/min")
 
         yield tell

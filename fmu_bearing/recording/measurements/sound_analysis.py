@@ -27,6 +27,7 @@ from fmu_bearing.results.table import markdown, write_csv
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
@@ -215,13 +216,8 @@ def write_all(
     files = ["levels.csv", "spectrum.csv", "third-octaves.csv"]
     drawn = available("matplotlib", "a picture", "pictures", tell)
     if drawn:
-        audible = found.frequency <= 20_000.0
-        kinematics = None if recording.scene is None else recording.kinematics()
-        shown = {name: values[audible] for name, values in first.items()}
-        end = recording.excitation_end
-        picture = pictures.spectrum_picture(found.frequency[audible], shown, kinematics, found.names[0], end)
-        pictures.save(picture, folder / "spectrum.png")
-        bars = pictures.third_octave_picture(found.bands, thirds, excitation_end=end)
+        pictures.save(spectra_picture(recording, found), folder / "spectrum.png")
+        bars = pictures.third_octave_picture(found.bands, thirds, excitation_end=recording.excitation_end)
         pictures.save(bars, folder / "third-octaves.png")
         files += ["spectrum.png", "third-octaves.png"]
     if found.lines:
@@ -236,6 +232,17 @@ def write_all(
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
         files.append("spectra.nc")
     return [folder / file for file in files]
+
+
+def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure":
+    """Draw the spectra at the first microphone, with the bearing's frequencies; Matplotlib is needed."""
+    from fmu_bearing.recording.measurements import pictures
+
+    audible = found.frequency <= 20_000.0
+    kinematics = None if recording.scene is None else recording.kinematics()
+    shown = {name: levels[0][audible] for name, levels in found.spectra.items()}
+    frequency, end = found.frequency[audible], recording.excitation_end
+    return pictures.spectrum_picture(frequency, shown, kinematics, found.names[0], end)
 
 
 def _sounds(

@@ -4,7 +4,7 @@ import html
 import math
 import os
 import pathlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ from fmu_bearing.recording.studies.comparison_data import (
     of_recording,
     of_run,
 )
+from fmu_bearing.recording.studies.finding import SEEDS, Finding, judged
 from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.run.choose import resolve
@@ -181,6 +182,34 @@ class Comparison:
         rows = {label: [side.third_octaves[name][f] for f in bands] for label, side in sides.items()}
         return pictures.third_octave_picture(bands, rows, heading, ends)
 
+    def conditions(self) -> str:
+        """Return fidelity and radiation model of A and B, in words."""
+        words = [_computed(self.a), _computed(self.b)]
+        return words[0] if words[0] == words[1] else f"A: {words[0]}; B: {words[1]}"
+
+    def finding(
+        self,
+        microphone: str | None = None,
+        seeds: int = SEEDS,
+        track: Callable[[Sequence[int]], Iterable[int]] = iter,
+    ) -> Finding:
+        """Judge the difference of the levels at a microphone (default: `loudest`), by short runs.
+
+        Parameters
+        ----------
+        microphone : str, optional
+        seeds : int
+            How many draws of the surfaces, the same for A and B; 0: the difference is not judged.
+        track : callable
+            Passes the draws on one by one, to show progress.
+
+        Raises
+        ------
+        ValueError
+            For a microphone that is not in both.
+        """
+        return judged(self.a, self.b, self._common_microphone(microphone), seeds, track)
+
     def doubts(self) -> list[str]:
         """Return why figures of A and of B are in doubt, in sentences; none: they are not."""
         return [f"{letter}: {side.doubt}." for letter, side in (("A", self.a), ("B", self.b)) if side.doubt]
@@ -211,6 +240,8 @@ class Comparison:
                 },
                 "figures": here.figures,
                 "doubt": here.doubt,
+                "fidelity": here.fidelity,
+                "radiation_model": here.radiation_model,
             }
         return found
 
@@ -218,7 +249,7 @@ class Comparison:
         return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
 
     def _repr_html_(self) -> str:
-        lines = (f"{self!r}; differences are B minus A", *self.doubts())
+        lines = (f"{self!r}; {self.conditions()}; differences are B minus A", *self.doubts())
         parts = [f"<p>{html.escape(line)}</p>" for line in lines]
         for title, (columns, rows) in self.tables().items():
             head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
@@ -347,6 +378,14 @@ def _finished(
     if scene.microphones:
         tell(f"{letter}: sound at the microphones, radiation model {made.radiation_model}")
     return of_recording(made, name, radiation_model)
+
+
+def _computed(side: ComparisonData) -> str:
+    """Return what a side was computed with, in words."""
+    words = [f"fidelity {side.fidelity or 'not known'}"]
+    if side.levels:
+        words.append(f"radiation model {side.radiation_model or 'not known'}")
+    return ", ".join(words)
 
 
 def _pair(

@@ -55,6 +55,8 @@ class ComparisonData:
     doubt : str
         Why figures are in doubt (`modal.campbell.weak`); empty: they are not, or nothing is known of it, as
         of a run whose inputs are not known.
+    fidelity, radiation_model : str
+        What it was computed with; empty: not known.
     """
 
     name: str
@@ -65,6 +67,8 @@ class ComparisonData:
     figures: dict[str, float]
     excitation_end: float | None = None
     doubt: str = ""
+    fidelity: str = ""
+    radiation_model: str = ""
 
 
 def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> ComparisonData:
@@ -72,8 +76,11 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
     own = name or ("recording" if recording.scene is None else recording.scene.name)
     kept = recording.within()
     figures = {key: float(np.mean(kept[key])) for key in FIGURES if key in kept}
+    fidelity = _fidelity(recording.scene)
     if not recording.microphones:
-        return ComparisonData(own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording))
+        return ComparisonData(
+            own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording), fidelity=fidelity
+        )
     found = analyse_sound(recording, None, radiation_model)
     levels = {name: (float(z), float(a)) for name, (z, a) in zip(found.names, found.levels, strict=True)}
     bands = [float(f) for f in found.bands]
@@ -86,8 +93,9 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
         found.names, found.frequency, found.spectra["total"], units, MICROPHONE, recording.excitation_end
     )
     return ComparisonData(
-        own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end, doubt_of(recording)
-    )
+        own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end,
+        doubt_of(recording), fidelity, radiation_model or recording.radiation_model,
+    )  # fmt: skip
 
 
 def of_run(run: Run, settle: float, radiation_model: str | None = None) -> ComparisonData:
@@ -109,7 +117,15 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Compa
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
     figures = {key: float(np.mean(run[key][after])) for key in FIGURES if key in run.names}
     levels, thirds = _meters(run)
-    return ComparisonData(run.name, run.scene, levels, thirds, None, figures, run.excitation_end)
+    sound = None if run.scene is None else run.scene.sound
+    return ComparisonData(
+        run.name, run.scene, levels, thirds, None, figures, run.excitation_end, "", _fidelity(run.scene),
+        "" if sound is None else sound.radiation_model,
+    )  # fmt: skip
+
+
+def _fidelity(scene: Scene | None) -> str:
+    return "" if scene is None else scene.fidelity.model
 
 
 def _meters(run: Run) -> tuple[dict[str, tuple[float, float]], dict[str, dict[float, float]]]:

@@ -1,0 +1,165 @@
+"""What ``--set`` and ``--fidelity`` make of a scene: keys, and inputs of the model by name."""
+
+from collections.abc import Collection, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fmu_bearing.cli.base import Refusal, shaft_speed
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene import Scene
+
+#: Key of the scene behind an input, where it is not the input's own name in ``operation``.
+_KEYS = {
+    "preload": "mounting.preload_N",
+    "pedestal_stiffness": "mounting.pedestal_stiffness_N_m",
+    "radial_load.y": "mounting.radial_load_y_N",
+    "radial_load.z": "mounting.radial_load_z_N",
+}
+_KEYS_OF_SETS = {
+    "preload": "spindle.preload.preload_N",
+    "pedestal_stiffness": "spindle.housing.pedestal_stiffness_N_m",
+    "shaft_temperature": "spindle.shaft.temperature_degC",
+    "housing_temperature": "spindle.housing.temperature_degC",
+}
+_KEYS_OF_BOTH = {
+    "shaft_speed": "operation.speed_rpm",
+    "oil_temperature": "operation.oil_temperature_degC",
+    "inner_ring_temperature": "operation.inner_ring_temperature_degC",
+    "outer_ring_temperature": "operation.outer_ring_temperature_degC",
+}
+
+
+def changed(
+    scene: "Scene", settings: list[str] | None, parameters: Collection[str] = ()
+) -> tuple["Scene", dict[str, float]]:
+    """Return a scene with the keys that were set, and the inputs that were set, in SI units.
+
+    Parameters
+    ----------
+    scene : Scene
+    settings : list of str, optional
+        ``KEY=VALUE`` each.
+    parameters : collection of str
+        Names of parameters that can be set as inputs are.
+
+    Raises
+    ------
+    ValueError
+        For text that is not a setting, an unknown key, and a value that is refused.
+    """
+    from fmu_bearing.interface.table import inputs_of
+    from fmu_bearing.run.input_file import SUFFIXES
+    from fmu_bearing.scene.units import convert
+    from fmu_bearing.sweeps.axes import plain_value
+
+    units = {one.name: one.unit for one in inputs_of(scene)}
+    named = {
+        name + suffix: (name, suffix) for name, unit in units.items() for suffix in SUFFIXES.get(unit, ())
+    } | {name: (name, "") for name in (*units, *parameters)}
+    keys: dict[str, Any] = {}
+    inputs: dict[str, float] = {}
+    for setting in settings or ():
+        key, text = pair(setting)
+        if key in named:
+            name, suffix = named[key]
+            value = number(setting, text)
+            inputs[name] = convert(value, suffix) if suffix else value
+        else:
+            _check_key(scene, setting, key, named, units)
+            keys[key] = plain_value(text.strip("\"'"))
+    return (scene.replace(keys) if keys else scene), inputs
+
+
+def pair(setting: str) -> tuple[str, str]:
+    """Return name and value of a setting.
+
+    Raises
+    ------
+    Refusal
+        For text that is none.
+    """
+    name, equals, text = (part.strip() for part in setting.partition("="))
+    if not (name and equals and text):
+        raise Refusal(f"--set {setting}: write KEY=VALUE, as mounting.preload_N=300 or preload=300")
+    return name, text
+
+
+def number(setting: str, text: str) -> float:
+    """Return the value of an input; `Refusal` for what is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        raise Refusal(f"--set {setting}: write a number, in SI units, as preload=300") from None
+
+
+def at_speed(rpm: float | None, settings: list[str] | None) -> list[str] | None:
+    """Return settings with the shaft speed of ``--speed`` (r/min), which is checked."""
+    shaft_speed(rpm)
+    return settings if rpm is None else [*(settings or ()), f"operation.speed_rpm={rpm!r}"]
+
+
+def source_of(source: Path, settings: list[str] | None, fidelity: str | None = None) -> "Path | Scene":
+    """Return the scene of a file with keys, inputs and fidelity of the command line; the file without any.
+
+    Inputs become the keys behind them, so that all that is computed of the scene is of their values.
+
+    Raises
+    ------
+    ValueError
+        As `changed`, for an input that no key holds, and for a file that is no scene, as a recording is.
+    """
+    from fmu_bearing.scene.read import read_scene, with_fidelity
+
+    if not settings and fidelity is None:
+        return source
+    if source.suffix in (".npz", ".csv", ".nc", ".fmu"):
+        option = "--set" if settings else "--fidelity"
+        raise Refusal(f"{option} is refused: {source} is finished, and was run as it is; give its scene")
+    scene, inputs = changed(read_scene(source), settings)
+    if inputs:
+        scene = scene.replace(_as_keys(scene, inputs))
+    return scene if fidelity is None else with_fidelity(scene, model=fidelity)
+
+
+def _as_keys(scene: "Scene", inputs: dict[str, float]) -> dict[str, float]:
+    """Return the keys that hold these inputs, with their values in the keys' units."""
+    from fmu_bearing.scene.units import UNITS, split_unit
+
+    found = {}
+    for name, value in inputs.items():
+        key = _key_of(scene, name)
+        if key is None:
+            raise Refusal(
+                f"--set {name}={value:g} is refused: no key of the scene holds this input; simulate, modes "
+                "and stiffness take it"
+            )
+        factor, offset = UNITS[split_unit(key)[1]]
+        found[key] = (value - offset) / factor
+    return found
+
+
+def _key_of(scene: "Scene", name: str) -> str | None:
+    if scene.spindle is None:
+        return (_KEYS_OF_BOTH | _KEYS).get(name)
+    place, _, own = name.partition("].")
+    if own in ("inner_ring_temperature", "outer_ring_temperature"):
+        return f"spindle.{place}].{own}_degC"
+    if name.startswith("nose.force.") and scene.spindle.load.position_mm == 0.0:
+        return f"spindle.load.force_{name[-1]}_N"
+    return (_KEYS_OF_BOTH | _KEYS_OF_SETS).get(name)
+
+
+def _check_key(
+    scene: "Scene", setting: str, key: str, inputs: Iterable[str], units: Mapping[str, str]
+) -> None:
+    """Refuse a name that is in no table of scenes, with the input or key that was meant."""
+    from fmu_bearing.likeness import nearest
+    from fmu_bearing.scene.values import fields_of
+
+    if key.partition(".")[0].partition("[")[0] in type(scene).model_fields:
+        return  # the scene itself says what is wrong with it
+    near = nearest(key, (*inputs, *fields_of(scene)))
+    unit = f" ({units[near]})" if units.get(near) else ""
+    hint = f"; did you mean {near}{unit}?" if near else ": keys have their table, as mounting.preload_N"
+    raise Refusal(f"--set {setting}: there is no such key or input{hint}")

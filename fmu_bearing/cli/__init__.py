@@ -1,7 +1,9 @@
 """The command ``fmu-bearing``; one file per command or family of commands.
 
 ==============  ==================================================================
-``base``        the application, shared options, refusals, exit codes
+``base``        the application, refusals, exit codes, files that are there
+``options``     options that several commands have
+``settings``    what --set and --fidelity make of a scene
 ``build``       the FMU of a scene
 ``scenes``      scene new, check, show, catalogue
 ``info``        the operating point, without a run

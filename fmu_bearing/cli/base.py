@@ -188,8 +188,8 @@ def check_new(force: bool, *paths: Path | None) -> None:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""
         words = ", ".join(str(path) for path in there[:3]) + more
         raise Refusal(
-            f"{words} {'is' if len(there) == 1 else 'are'} there already: name another place with -o or "
-            "--plot, or give --force to replace what is there"
+            f"{words} {'is' if len(there) == 1 else 'are'} there already: name another place, or give "
+            "--force to replace what is there"
         )
 
 

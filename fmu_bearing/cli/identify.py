@@ -57,10 +57,18 @@ def identify(
             help="Fidelity of the search; default: response, for hundreds of runs, or full where rings bend.",
         ),
     ] = None,
-    seeds: Annotated[int | None, typer.Option(min=1, help="Seeds averaged over; default 4.")] = None,
+    seeds: Annotated[
+        int | None, typer.Option(min=1, help="Seeds averaged over; default 4, for hundreds of runs.")
+    ] = None,
     starts: Annotated[int | None, typer.Option(min=1, help="Starting points; default 3.")] = None,
     duration: Annotated[
-        float | None, typer.Option(help="Length of each run, s; default 0.1 or more.")
+        float | None,
+        typer.Option(
+            "--duration",
+            "-t",
+            metavar="S",
+            help="Length of each run, s; default 0.1 or more: there are hundreds.",
+        ),
     ] = None,
     settle: Annotated[
         float | None, time_left_out("; default 0.03 to 0.05 by fidelity: hundreds of short runs")

@@ -74,6 +74,7 @@ Speed = Annotated[
     float | None,
     typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min, in place of the scene's."),
 ]
+Step = Annotated[float, typer.Option("--step", metavar="S", help="Communication step, s.")]
 Duration = Annotated[
     float, typer.Option("--duration", "-t", metavar="S", help="Length of what is measured, s.")
 ]

@@ -16,6 +16,7 @@ from fmu_bearing.cli.options import (
     SceneFile,
     Settings,
     Speed,
+    Step,
     output as target,
 )
 from fmu_bearing.cli.report import span
@@ -28,7 +29,7 @@ from fmu_bearing.progress import steps
 @app.command()
 def realtime(
     scene: SceneFile,
-    step: Annotated[float, typer.Option(metavar="S", help="Communication step.")] = 1e-3,
+    step: Step = 1e-3,
     duration: Duration = DURATION,
     speed: Speed = None,
     settings: Settings = None,

@@ -25,6 +25,7 @@ from fmu_bearing.cli.options import (
     Plot,
     Settings,
     Speed,
+    Step,
     Variables,
     output as target,
     settle as time_left_out,
@@ -43,7 +44,7 @@ Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.
 def simulate(
     source: Source,
     stop_time: Annotated[float, typer.Option("--stop-time", "-t", help="End of the run, s.")] = 0.1,
-    step: Annotated[float, typer.Option(help="Communication step, s.")] = 1e-3,
+    step: Step = 1e-3,
     settle: Annotated[
         float, time_left_out("; default 0: a result begins with the steady state it starts from")
     ] = 0.0,
@@ -77,7 +78,7 @@ def simulate(
         if plot is not None:
             check_picture(plot)
         check_new(force, output, plot)
-        if not 0.0 <= settle < stop_time:
+        if settle and not 0.0 < settle < stop_time:
             raise Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
         turning = shaft_speed(speed)
         chosen, start = _begun(source, settings, fidelity)

@@ -87,7 +87,7 @@ def stiffness(
         if plot is not None:
             check_picture(plot)
         check_new(force, target, plot)
-        check_new_in(force, target.parent, f"{glob.escape(target.stem)}-*{target.suffix}")
+        check_new_in(force, target.parent, f"{glob.escape(target.stem)}-[0-9]*{target.suffix}")
         chosen, inputs = changed(given, settings)
         if mirrored and chosen.spindle is not None:
             raise Refusal(

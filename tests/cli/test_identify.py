@@ -70,12 +70,12 @@ def test_it_finds_writes_and_goes_on(run, scene_of, measured, output):
     names = {path.name for path in output.with_suffix("").iterdir()}
     assert names >= {"levels.csv", "values.csv", "jacobian.csv", "report.md", "levels.png", "runs.jsonl"}
     assert "## Correlation" in (output.with_suffix("") / "report.md").read_text("utf-8")
-    again = run(*arguments)
+    again = run(*arguments, "--force")
     assert again.data["runs"] == 0 and again.data["values"] == result.data["values"]
 
 
 def test_tables_on_the_terminal(run, scene_of, measured, output):
-    result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output)
+    result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output, "--force")
     assert result.exit_code == 0, result.output
     for word in (
         "Measured and computed levels",
@@ -122,7 +122,7 @@ def test_ctrl_c_writes_the_best_so_far(run, scene_of, measured, tmp_path, monkey
     output = tmp_path / "identified.toml"
     result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output)
     assert result.exit_code == INTERRUPTED
-    assert "the same command goes on" in result.stderr
+    assert "the same command with --force goes on" in result.stderr
     assert "uncertainty unknown" in output.read_text("utf-8")
 
 

@@ -49,7 +49,7 @@ def test_simulate_reports_machines_and_writes_netcdf(run, rings_file, tmp_path):
     )
     assert done.exit_code == 0
     assert done.data["ended"] == "complete" and done.data["points"] == 3
-    assert done.data["last"]["friction_torque"]["unit"] == "N.m" and done.data["file"] == str(result)
+    assert done.data["last"]["friction_torque"]["unit"] == "N.m" and done.data["files"] == [str(result)]
     with xarray.open_dataset(result) as data:
         assert data["friction_torque"].attrs["units"] == "N.m"
 
@@ -77,9 +77,9 @@ def test_an_interrupted_run_writes_what_it_has(run, rings_file, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (("-s", "preload"), "write NAME=VALUE"),
-        (("-s", "preload=much"), "write NAME=VALUE"),
-        (("-s", "preloads=1"), "did you mean 'preload'"),
+        (("-s", "preload"), "write KEY=VALUE"),
+        (("-s", "preload=much"), "write a number"),
+        (("-s", "preloads=1"), "did you mean preload (N)?"),
         (("-s", "preload=-1"), "preload = -1.0 is refused: allowed are 0 to 10000 N"),
         (("-o", "run.mat"), "written as .csv or .nc"),
         (("-t", "-1"), "stop_time = -1.0 s"),
@@ -117,7 +117,7 @@ def test_plot(run, rings_file, tmp_path):
     assert first.startswith(b"<?xml") and first == (tmp_path / "two.svg").read_bytes()
     for arguments, reason in (
         ((result, "-o", tmp_path / "run.bmp"), "written as .png, .svg, .pdf"),
-        ((result, "-v", "heat.oils"), "did you mean 'heat.oil'"),
+        ((result, "-v", "heat.oils", "-o", tmp_path / "new.png"), "did you mean 'heat.oil'"),
         ((tmp_path / "none.csv",), "there is no such file"),
     ):
         refused = run("plot", *arguments)
@@ -248,7 +248,9 @@ def test_levels_in_doubt_are_named(run, example, tmp_path):
         file = tmp_path / f"{fidelity}.toml"
         scene = with_fidelity(example("7003C-impact"), model=fidelity)
         file.write_text(scene.to_toml(), "utf-8")
-        result = run("simulate", file, "-t", "0.001", "-o", tmp_path / "run.csv")
+        result = run("simulate", file, "-t", "0.001", "-o", tmp_path / "run.csv", "--force")
         assert ("levels of fidelity rings are in doubt" in result.stdout) == (fidelity == "rings")
-        result = run("simulate", file, "-t", "0.001", "-o", tmp_path / "run.csv", "-v", "friction_torque")
+        options = ("-o", tmp_path / "run.csv", "--force", "-v", "friction_torque")
+        result = run("simulate", file, "-t", "0.001", *options)
+        assert result.exit_code == 0
         assert "in doubt" not in result.stdout

@@ -10,15 +10,17 @@ DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 def test_table_picture_and_numbers(run, tmp_path):
     out, picture = tmp_path / "k.csv", tmp_path / "k.png"
-    words = ("--speeds", "0:15000:2", "--preloads", "100,150", "-o", out, "--picture", picture)
+    words = ("--speeds", "0:15000:2", "--preloads", "100,150", "-o", out, "--plot", picture)
     result = run("stiffness", DB, *words)
     assert result.exit_code == 0, result.output
     assert picture.stat().st_size > 10_000 and len(out.read_text("utf-8").splitlines()) == 5
     assert "7003C-DB at the nose" in result.stdout and "set spindle.shaft.flexible = true" in result.stderr
-    data = run("stiffness", DB, "-o", out, "--json").data
+    data = run("stiffness", DB, "-o", out, "--force", "--json").data
     assert data["nose"]["nose_stiffness"] == [[pytest.approx(statics(DB).nose_stiffness)]]
     assert data["preloads_N"] == [150.0] and data["speeds_rpm"] == [15000.0]
-    changed = run("stiffness", DB, "--set", "spindle.preload.preload_N=300", "-o", out, "--json").data
+    changed = run(
+        "stiffness", DB, "--set", "spindle.preload.preload_N=300", "-o", out, "--force", "--json"
+    ).data
     assert changed["nose"]["nose_stiffness"][0][0] > data["nose"]["nose_stiffness"][0][0]
 
 
@@ -30,7 +32,7 @@ def test_tables_of_the_bearings_are_written_too(run, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"k.csv", "k-1.csv", "k-2.csv"}
     shown = " ".join(result.stdout.split())
     assert "7003C-DB at the nose" in shown and "7003C-DB at 1000 Hz" in shown and "│ 2 │ 15000" in shown
-    data = run("stiffness", DB, *words, "-o", out, "--json").data
+    data = run("stiffness", DB, *words, "-o", out, "--force", "--json").data
     assert [one["bearing"] for one in data["bearings"]] == [1, 2]
     assert len(data["bearings"][0]["K"][0][0]) == 2
 

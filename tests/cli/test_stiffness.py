@@ -10,7 +10,7 @@ SMALL = ("--speeds", "10000,20000", "--frequencies", "100:1000:2log")
 
 def test_a_table_is_written_and_told(run, silent_file, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    done = run("stiffness", silent_file, *SMALL, "--preloads", "300,500", "--picture", "k.png")
+    done = run("stiffness", silent_file, *SMALL, "--preloads", "300,500", "--plot", "k.png")
     assert done.exit_code == 0
     assert "7003C-spindle at 1000 Hz: K in N/um and N m/mrad, C in N s/m and mN m s/rad" in done.stdout
     row = next(line for line in done.stdout.splitlines() if "20000" in line and " 500" in line)
@@ -87,7 +87,7 @@ def test_json_holds_all(run, silent_file, tmp_path):
             "3 speeds are refused: ROSS interpolates between at",
         ),
         (("--format", "ross", "--frequencies", "10,20"), "2 frequencies are refused: ROSS interpolates"),
-        (("--picture", "k.doc"), "k.doc: pictures are written as .png, .svg, .pdf"),
+        (("--plot", "k.doc"), "k.doc: pictures are written as .png, .svg, .pdf"),
         (("--set", "preload=300"), "preload is an axis of the table: give preloads, in N"),
         (("--set", "mounting.prelaod_N=300"), "mounting.prelaod_N is not a key of a scene"),
     ],

@@ -49,7 +49,16 @@ def test_a_sweep_writes_its_results_and_goes_on_from_its_own_file(run, silent_fi
     }  # fmt: skip
     kept = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "points").iterdir()}
     more = run(
-        "sweep", tmp_path / "sweep.toml", "-a", "speed=5000,7000,9000", "-w", 1, "-o", tmp_path, "--json"
+        "sweep",
+        tmp_path / "sweep.toml",
+        "-a",
+        "speed=5000,7000,9000",
+        "-w",
+        1,
+        "-o",
+        tmp_path,
+        "--force",
+        "--json",
     )
     assert more.data["points"] == more.data["finished"] == 3 and more.data["reasons"] == []
     assert more.data["axes"] == {"operation.speed_rpm": [5000, 7000, 9000], "fidelity.model": ["rings"]}

@@ -23,7 +23,7 @@ def blocked(tmp_path, monkeypatch):
         ("sound", "{scene}", "-o", "{file}"),
         ("sound", "{scene}", "-o", "{file}/sub"),
         ("tradeoff", "{scene}", "-o", "{file}/sub"),
-        ("tradeoff", "{scene}", "-o", "{folder}/out", "--chart", "{file}/chart.png"),
+        ("tradeoff", "{scene}", "-o", "{folder}/out", "--plot", "{file}/chart.png"),
         ("sensitivity", "{scene}", "-o", "{file}"),
         ("sweep", "{scene}", "-a", "speed=1000,2000", "-o", "{file}"),
         ("compare", "{scene}", "{scene}", "-o", "{file}/tables"),
@@ -46,8 +46,8 @@ def test_a_file_in_place_of_the_folder(run, rings_file, blocked, words):
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
-        (("tradeoff", "--chart", "chart.bmp"), "pictures are written as .png, .svg, .pdf"),
-        (("tradeoff", "--chart", "."), "is a folder"),
+        (("tradeoff", "--plot", "chart.bmp"), "pictures are written as .png, .svg, .pdf"),
+        (("tradeoff", "--plot", "."), "is a folder"),
         (("report", "--keep", "run.csv"), "a run is kept as .npz"),
         (("report", "-o", "."), "is a folder"),
         (("build", "-o", "."), "is a folder"),

@@ -89,8 +89,9 @@ def test_the_command_prints_it_and_the_table_has_components(recording, found, tm
         "--no-directivity",
         "--no-wav",
         "--no-spread",
+        "--force",
         "-o",
-        str(tmp_path),
+        str(tmp_path / "out"),
     ]
     done = CliRunner().invoke(cli.app, [*words, "--at", "5e3", "--at", "12e3"])
     assert done.exit_code == 0, done.output
@@ -100,7 +101,7 @@ def test_the_command_prints_it_and_the_table_has_components(recording, found, tm
             assert f"{frequency:g} Hz: {line}" in printed
     data = json.loads(CliRunner().invoke(cli.app, [*words, "--at", "5e3", "--json"]).stdout)["at"]
     assert data[0]["line"]["explained_by"] == "2 f_i" and data[0]["third_octave_Hz"] == 5000.0
-    with (tmp_path / "third-octaves.csv").open(newline="", encoding="utf-8") as file:
+    with (tmp_path / "out" / "third-octaves.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     place = [float(row["band, Hz"]) for row in rows].index(5000.0)
     for name, values in found.third_octave_parts.items():

@@ -108,11 +108,10 @@ def _obstacle(a: ComparisonData, b: ComparisonData, seeds: int) -> str:
             return f"{letter} has no imperfections, and a perfect bearing has no level that scatters"
         if side.radiation_model.startswith("paper"):
             return f"radiation model {side.radiation_model} needs channels of its own for each draw"
-        weak = weakness(side.scene)
-        if weak or not Setting(_FIDELITY).carries(side.scene):
-            why = weak or f"fidelity {_FIDELITY} does not carry it"
+        if not Setting(_FIDELITY).carries(side.scene) or weakness(side.scene):
             return (
-                f"draws of {letter} need fidelity full ({why}); `fmu-bearing sound` gives the range of each"
+                f"draws of {letter} need fidelity full, as rings that bend and weakly damped modes do; "
+                "`fmu-bearing sound` gives the range of each"
             )
     for what, one, other in (
         ("fidelity", a.fidelity, b.fidelity), ("radiation model", a.radiation_model, b.radiation_model),

@@ -76,8 +76,9 @@ _open: list[Work] = []  # the outermost first
 
 @contextmanager
 def work(
-    what: str, total: float | None = None, unit: str = "", *, shown: bool | None = None, keep: bool = False
-) -> Iterator[Work]:
+    what: str, total: float | None = None, unit: str = "", *, shown: bool | None = None, keep: bool = False,
+    elsewhere: bool = False,
+) -> Iterator[Work]:  # fmt: skip
     """Open a piece of work, and close it at the end of the block.
 
     Parameters
@@ -88,12 +89,15 @@ def work(
         Whether a bar is drawn; default: on a terminal.
     keep : bool
         Whether the bar stays on the terminal afterwards.
+    elsewhere : bool
+        Whether it shows by itself how far it is, so that neither bar nor lines are needed.
     """
     one = Work(what, total, unit)
     if shown is None:
         shown = sys.stderr is not None and sys.stderr.isatty()
-    display = _bar(one, keep) if shown and not any(other.bar for other in _open) else None
-    one.bar = display is not None
+    alone = not elsewhere and not any(other.bar for other in _open)
+    display = _bar(one, keep) if shown and alone else None
+    one.bar = elsewhere or display is not None
     _open.append(one)
     try:
         if display is None:

@@ -76,6 +76,12 @@ def test_on_a_terminal_a_bar_is_drawn_and_no_line_is_told(said, monkeypatch, cap
     assert "run" in shown and "2 of 2 s" in shown
 
 
+def test_what_shows_itself_elsewhere_is_left_alone(said):
+    with lines(said.append), work("command"), work("boundary elements", elsewhere=True):
+        time.sleep(4 * EVERY)
+    assert said == []
+
+
 def test_shown_is_the_callers_choice():
     with work("quiet", shown=False) as one:
         assert not one.bar

@@ -23,7 +23,7 @@ from typer.core import TyperGroup
 
 from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.progress import lines
+from fmu_bearing.progress import lines, work
 
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 #: What Typer raises for words that are no command, option or value; it names only the kind for values.
@@ -49,7 +49,7 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         """Run a command, its warnings one line each. Ctrl-C ends it; what it keeps by itself is kept."""
         try:
-            with quiet_warnings(), _one_line(), lines(tell):
+            with quiet_warnings(), _one_line(), lines(tell), work("fmu-bearing", shown=False):
                 return super().invoke(ctx)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)

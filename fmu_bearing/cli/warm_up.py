@@ -8,6 +8,7 @@ import typer
 from fmu_bearing.cli.base import app, refusals
 from fmu_bearing.cli.build import named
 from fmu_bearing.compiled.platforms import PLATFORMS
+from fmu_bearing.progress import work
 
 Libraries = Annotated[
     str | None,
@@ -32,7 +33,8 @@ def warm_up(platforms: Libraries = None) -> None:
     with refusals():
         names = named(platforms)
         check_choice("native", names)
-        ready(*UNITS)
-        for name in names:
-            library(PLATFORMS[name], "portable", typer.echo)
+        with work("compiling", elsewhere=True):
+            ready(*UNITS)
+            for name in names:
+                library(PLATFORMS[name], "portable", typer.echo)
     typer.echo(f"ready after {time.perf_counter() - begin:.1f} s; kept in {cache_root()}")

@@ -28,7 +28,12 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
         tmp_path / "tables",
     )  # fmt: skip
     assert done.exit_code == 0, done.output
-    for words in ("what differs in the scenes", "levels", "loads, angles, torque", "third octaves at P2"):
+    for words in (
+        "what differs in the scenes",
+        "levels, fidelity rings, radiation model ",
+        "loads, angles, torque",
+        "third octaves at P2",
+    ):
         assert words in done.stdout
     assert "mounting.preload_N" in done.stdout and "differences are B minus A" in done.stdout
     tables = [line for line in done.stdout.splitlines() if line[:1] in "┏┃┡│└"]
@@ -53,16 +58,27 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
 
 
 def test_machines(run, rings_file, light_file):
-    done = run("compare", rings_file, light_file, *SHORT, "--fidelity", "response", "--json")
+    done = run("compare", rings_file, light_file, *SHORT, "--fidelity", "response", "--seeds", 2, "--json")
     assert done.exit_code == 0, done.output
     assert done.data["keys"] == {"mounting.preload_N": {"a": 500.0, "b": 200.0, "unit": "N"}}
     assert set(done.data["a"]["levels"]) == {"P1", "P2", "P3", "P4"} and done.data["files"] == []
     assert "fidelity response" in done.stderr
+    model = read_scene(rings_file).sound.radiation_model
+    for side in "ab":
+        assert done.data[side]["fidelity"] == "response" and done.data[side]["radiation_model"] == model
+    finding = done.data["finding"]
+    at = finding["microphone"]
+    assert at == max(done.data["a"]["levels"], key=lambda name: done.data["a"]["levels"][name]["laeq_dB"])
+    a, b = (done.data[side]["levels"][at]["laeq_dB"] for side in "ab")
+    assert finding["measured_dBA"] == pytest.approx(b - a) and len(finding["drawn_dBA"]) == 2
+    every = [b - a, *finding["drawn_dBA"]]
+    assert finding["is_finding"] is (min(every) > 0.0 or max(every) < 0.0)
 
 
 def test_scenes_that_are_equal(run, rings_file):
-    done = run("compare", rings_file, rings_file, *SHORT)
+    done = run("compare", rings_file, rings_file, *SHORT, "--seeds", 1)
     assert done.exit_code == 0 and "the scenes do not differ" in done.stdout
+    assert "+0.0 dB(A) at P4 is no finding: draws of the surfaces with 1 seed, " in done.stdout
 
 
 def test_refusals(run, rings_file, tmp_path):

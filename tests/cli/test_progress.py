@@ -16,9 +16,11 @@ def test_lines_of_a_run(run, rings_file, tmp_path, monkeypatch, as_json):
         *as_json,
     )  # fmt: skip
     assert done.exit_code == 0, done.output
-    told = [line for line in done.stderr.splitlines() if line.startswith("7003C-bare: ")]
+    told = [line for line in done.stderr.splitlines() if "7003C-bare: " in line]
     assert told
-    form = r"7003C-bare: [\d.e-]+ of 0\.1 s, ([\d.e+-]+ simulated/wall, )?after 0 s"
+    form = (
+        r"fmu-bearing: after \d+ s; 7003C-bare: [\d.e-]+ of 0\.1 s, ([\d.e+-]+ simulated/wall, )?after \d+ s"
+    )
     assert all(re.fullmatch(form, line) for line in told), told
     assert not as_json or done.data["points"] == 1001
 

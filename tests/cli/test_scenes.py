@@ -6,6 +6,7 @@ import pytest
 from fmu_bearing import operating_point
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.entries import entries, entry_text
+from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import MATERIALS, new_scene
 from tests.marks import heavy_but
 
@@ -111,7 +112,10 @@ def test_new_replaces_nothing_unasked(run, tmp_path):
     refused = run("scene", "new", path, *KNOWN)
     assert refused.exit_code == 2 and "--force" in refused.stderr and path.read_text() == "mine"
     given = ("--speed", 20000, "--preload", 100)  # what is not given is searched for: a second
-    assert run("scene", "new", path, "--force", *KNOWN, *given).exit_code == 0
+    made = run("scene", "new", path, "--force", "--json", *KNOWN, *given)
+    assert made.exit_code == 0 and made.data["file"] == str(path) and made.data["cautions"] == []
+    assumed = {one.key: one.value for one in origins(path) if one.assumed}
+    assert {one["key"]: one["value"] for one in made.data["assumed"]} == assumed and assumed
 
 
 def test_new_says_what_is_not_good(run, tmp_path):

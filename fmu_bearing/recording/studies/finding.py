@@ -52,10 +52,11 @@ class Finding:
         if self.reason:
             return f"Whether the difference is a finding was not judged: {self.reason}."
         verdict = f"is {'a' if self.is_finding else 'no'} finding"
+        seeds = f"{len(self.drawn)} seed{'s' if len(self.drawn) > 1 else ''}"
         return (
-            f"{self.measured:+.1f} dB(A) at {self.microphone} {verdict}: {len(self.drawn)} seeds of the "
-            f"surfaces, the same for A and B, give {min(self.drawn):+.1f} to {max(self.drawn):+.1f} dB(A) "
-            f"in fidelity {_FIDELITY}; a finding is {_LEAST:g} dB or more and has one sign with every seed."
+            f"{self.measured:+.1f} dB(A) at {self.microphone} {verdict}: draws of the surfaces with {seeds}, "
+            f"the same for A and B, differ by {min(self.drawn):+.1f} to {max(self.drawn):+.1f} dB(A) in "
+            f"fidelity {_FIDELITY}; a finding is {_LEAST:g} dB or more and has one sign with every seed."
         )
 
     def summary(self) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.task import Task
 from fmu_bearing.compiled.show import Display
 from fmu_bearing.files import cache_root, read_arrays
+from fmu_bearing.progress import work
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -83,7 +84,10 @@ def _solve_all(found: Solution) -> None:
     names = " and ".join(body.name for body in found.task.bodies)
     cost = np.array([float(len(band.points)) ** 3 for band in found.bands])  # of one frequency, in proportion
     what = f"boundary elements of {names}, once for these bodies"
-    with Display(what, steady=True) as display, threadpool_limits(1), ThreadPoolExecutor() as pool:
+    with (
+        work(what, elsewhere=True), Display(what, steady=True) as display, threadpool_limits(1),
+        ThreadPoolExecutor() as pool,
+    ):  # fmt: skip
 
         def solved() -> None:
             done, left = ([getattr(band, name) for band in found.bands] for name in ("done", "left"))

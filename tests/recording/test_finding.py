@@ -1,5 +1,7 @@
 """Whether the difference of two levels is a finding, and with what both were computed."""
 
+from dataclasses import replace
+
 import pytest
 
 from fmu_bearing import compare
@@ -41,8 +43,13 @@ def pair(scene):
     ]
 
 
-def test_of_two_recordings(pair):
-    both = compare(*pair)
+@pytest.fixture(scope="module")
+def both(pair):
+    """The comparison of the two."""
+    return compare(*pair)
+
+
+def test_of_two_recordings(both):
     assert both.conditions() == "fidelity response, radiation model compact"
     found = both.finding("P1", 3)
     assert found.microphone == "P1" and len(found.drawn) == 3
@@ -54,22 +61,28 @@ def test_of_two_recordings(pair):
     assert both.summary()["b"]["radiation_model"] == "compact"
 
 
-def test_of_a_recording_and_itself(pair):
-    found = compare(pair[0], pair[0]).finding(seeds=1)
+def test_of_a_recording_and_itself(both):
+    found = replace(both, b=both.a).finding(seeds=1)
     assert found.measured == 0.0 and found.drawn == (0.0,) and found.is_finding is False
 
 
-def test_what_cannot_be_judged(pair, scene):
-    one, other = pair
-    assert "no seeds were requested" in compare(one, other).finding(seeds=0).reason
-    perfect = record(
-        with_fidelity(scene("7003C-bare"), model="response").replace({"imperfections": None}), 0.05,
-        radiation_model="compact",
-    )  # fmt: skip
-    assert "B has no imperfections" in compare(one, perfect).finding().reason
-    rings = with_fidelity(one.scene, model="rings")
-    both = compare(one, rings, duration=0.05, settle=0.03, radiation_model="compact")
-    assert both.conditions() == (
-        "A: fidelity response, radiation model compact; B: fidelity rings, radiation model compact"
-    )
-    assert "A has fidelity response and B has rings, whose difference is in it" in both.finding().reason
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"scene": None}, "the scene of B is not known"),
+        ({"fidelity": "rings"}, "A has fidelity response and B has rings, whose difference is in it"),
+        ({"radiation_model": "bem"}, "A has radiation model compact and B has bem"),
+        ({"radiation_model": "paper"}, "radiation model paper needs channels of its own"),
+    ],
+)
+def test_what_cannot_be_judged(both, change, words):
+    other = replace(both, b=replace(both.b, **change))
+    found = other.finding()
+    assert words in found.reason and found.is_finding is None and found.drawn == ()
+    assert ("B: " in other.conditions()) is ("scene" not in change)
+
+
+def test_a_perfect_bearing_and_no_seeds_are_not_judged(both):
+    assert "no seeds were requested" in both.finding(seeds=0).reason
+    perfect = replace(both.a, scene=both.a.scene.replace({"imperfections": None}))
+    assert "A has no imperfections" in replace(both, a=perfect).finding().reason

@@ -186,11 +186,14 @@ class Recording(ChannelHistory):
     ) -> "Figure":  # fmt: skip
         """Draw `spectrum` up to ``highest`` (Hz), kinematic frequencies marked where the bearing is known.
 
+        The strongest lines at the first microphone are named.
+
         Raises
         ------
         MissingExtra
             Without Matplotlib.
         """
+        from fmu_bearing.recording.measurements.measure import strongest
         from fmu_bearing.recording.measurements.pictures import spectrum_picture
 
         need("matplotlib", "a picture")  # refused before the sound is computed
@@ -198,7 +201,9 @@ class Recording(ChannelHistory):
         shown = found.frequency <= highest
         kinematics = None if self.scene is None else self.kinematics()
         levels = {name: found[name][shown] for name in found}
-        return spectrum_picture(found.frequency[shown], levels, kinematics, title, self.excitation_end)
+        first = next(iter(levels.values()))
+        lines = [] if kinematics is None else strongest(self, found.frequency[shown], first)
+        return spectrum_picture(found.frequency[shown], levels, kinematics, title, self.excitation_end, lines)
 
     def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.

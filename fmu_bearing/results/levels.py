@@ -22,6 +22,11 @@ def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
     return found
 
 
+def decibels(value: float, digits: int = 1) -> str:
+    """Return a level (dB) as text for a table; a dash for one that is not there."""
+    return "-" if math.isnan(float(present(value, "dB"))) else f"{value:.{digits}f}"
+
+
 def shown(value: float, unit: str) -> str:
     """Return a value as text for a table, six digits; a dash for a level that is not there."""
     there = float(present(value, unit))

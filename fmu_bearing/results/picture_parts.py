@@ -2,7 +2,8 @@
 
 import os
 import pathlib
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file
@@ -20,6 +21,12 @@ COLOURS = {
     "balls": "#CC79A7",
 }
 OTHERS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+#: Dashes: the next kind where all colours are taken.
+DASHES = ("-", "--", "-.", ":")
+#: Marks on curves whose dashes say something else.
+_MARKS = ("", "s", "^", "D")
+_WIDEST, _NARROWEST = 3.0, 0.9  # points: of curves that may lie on each other
+_HEIGHTS = 12  # that are tried for a label, each one line of text above the last
 
 #: Endings of files, and metadata left out of each: dates and versions.
 _METADATA: dict[str, dict[str, None]] = {
@@ -79,6 +86,66 @@ def single(size: tuple[float, float]) -> "tuple[Figure, Axes]":
     """Return such a figure with one set of axes."""
     figure = empty(size)
     return figure, figure.add_subplot()
+
+
+def series(place: int) -> dict[str, Any]:
+    """Return colour and dashes of a curve by its place: no two of the first 28 look the same."""
+    return {
+        "color": OTHERS[place % len(OTHERS)], "linestyle": DASHES[place // len(OTHERS) % len(DASHES)],
+    }  # fmt: skip
+
+
+def marked(place: int, mark: str = "") -> dict[str, Any]:
+    """Return colour and mark of a curve whose dashes say something else; ``mark``: of the first ones."""
+    return {
+        "color": OTHERS[place % len(OTHERS)],
+        "marker": _MARKS[place // len(OTHERS) % len(_MARKS)] or mark,
+    }
+
+
+def coincident(place: int, count: int) -> dict[str, Any]:
+    """Return colour, dashes and width of a curve out of ``count`` that may lie on each other.
+
+    Microphones at mirrored places have one curve: each is narrower than the one below, and dashed in turn.
+    """
+    share = place / max(count - 1, 1)
+    width = _WIDEST + (_NARROWEST - _WIDEST) * share
+    return series(place) | {"linestyle": DASHES[place % len(DASHES)], "linewidth": width}
+
+
+def free_heights(
+    places: Sequence[Iterable[float]], base: Sequence[float], widths: Sequence[float], line: float, top: float
+) -> list[float | None]:
+    """Return a height for each label at which it covers no other; None where it has no room.
+
+    Parameters
+    ----------
+    places : sequence of iterable of float
+        Middle of each label along the axis, pixels, the most important label first; several where the same
+        labels are shown on several axes.
+    base : sequence of float
+        Lowest height of each label, pixels.
+    widths : sequence of float
+        Of the labels.
+    line, top : float
+        Height of a label, and that of the picture.
+    """
+    taken: list[tuple[list[float], float, float]] = []
+    found: list[float | None] = []
+    for middles, low, wide in zip(places, base, widths, strict=True):
+        own = list(middles)
+        free = None
+        for height in (low + k * line for k in range(_HEIGHTS)):
+            if height + line <= top and not any(
+                abs(height - other) < line
+                and any(abs(a - b) < 0.5 * (wide + width) for a, b in zip(own, those, strict=True))
+                for those, other, width in taken
+            ):
+                free = height
+                taken.append((own, height, wide))
+                break
+        found.append(free)
+    return found
 
 
 def mark_excitation(ax: "Axes", end: float | None, place: float | None = None, whose: str = "") -> None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.results.picture_parts import OTHERS, empty, label, mark_excitation
+from fmu_bearing.results.picture_parts import coincident, empty, label, mark_excitation, series
 from fmu_bearing.results.table import number
 
 if TYPE_CHECKING:
@@ -107,8 +107,10 @@ class Spectrum:
         for ax, (unit, rows) in zip(axes, panels.items(), strict=True):
             for k, row in enumerate(rows):
                 # without the first bin, which is the mean's
-                ax.plot(self.frequency[1:], self.values[row, 1:], color=OTHERS[k % len(OTHERS)],
-                        linewidth=0.8, label=self.names[row])  # fmt: skip
+                style = series(k) | {"linewidth": 0.8}
+                if self.kind == MICROPHONE:
+                    style = coincident(k, len(rows))
+                ax.plot(self.frequency[1:], self.values[row, 1:], **style, label=self.names[row])
             label(ax, "", "level, dB re 20 uPa" if self.kind == MICROPHONE else f"rms, {unit or '1'}", "")
             if unit != "dB" and (self.values[rows, 1:] > 0.0).any():
                 ax.set_yscale("log")

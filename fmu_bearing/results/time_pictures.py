@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.results.levels import present
-from fmu_bearing.results.picture_parts import OTHERS, empty, label, save
+from fmu_bearing.results.picture_parts import coincident, empty, label, save, series
 from fmu_bearing.results.series import Series
 from fmu_bearing.results.variable_names import unit_of
 
@@ -32,8 +32,8 @@ _FINE = 5e-5
 # dB below its median: a level there at the beginning is what filters let through before sound arrives
 _STARTING = 40.0
 _MICROPHONE = re.compile(r"mic\[(\d+)\]\.")
+_WEIGHTED = (".spl_a", ".leq_a", ".spl_fast_a", ".spl_slow_a")
 _WIDTHS = (1.2, 0.7)
-_STYLES = ("-", "--", ":", "-.")
 
 
 def time_picture(run: Series, patterns: Sequence[str] | None = None, title: str = "") -> "Figure":
@@ -80,12 +80,14 @@ def _panel(ax: "Axes", run: Series, unit: str, members: Sequence[str]) -> None:
         drawn |= not np.isnan(values).all()
         points = step > _FINE and (".velocity." in name or ".flexure." in name or name.endswith(".pressure"))
         folded |= points
-        style = "." if points else _STYLES[k // len(OTHERS) % len(_STYLES)]
-        ax.plot(
-            run.time, values, style, color=OTHERS[k % len(OTHERS)], linewidth=width, markersize=2.5,
-            label=spoken(name, run),
-        )  # fmt: skip
-    label(ax, "", shown, "")
+        style = series(k) | {"linewidth": width}
+        if unit == "dB" and _MICROPHONE.match(name):
+            style = coincident(k, len(members))
+        if points:
+            style |= {"linestyle": "", "marker": "."}
+        silence = ": -" if unit == "dB" and np.isnan(values).all() else ""
+        ax.plot(run.time, values, **style, markersize=2.5, label=spoken(name, run) + silence)
+    label(ax, "", _unit(shown, members), "")
     if folded:
         words = (
             f"points every {1e3 * step:g} ms, too far apart for a curve: run with --step {_FINE:g} or less"
@@ -99,6 +101,14 @@ def _panel(ax: "Axes", run: Series, unit: str, members: Sequence[str]) -> None:
         frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
         ncols=math.ceil(len(members) / _MOST),
     )  # fmt: skip
+
+
+def _unit(unit: str, members: Sequence[str]) -> str:
+    """Return the unit of an axis: of levels dB(A) where all are A-weighted, both units where some are."""
+    if unit != "dB":
+        return unit
+    weighted = [name.endswith(_WEIGHTED) for name in members]
+    return "dB(A)" if all(weighted) else "dB, dB(A)" if any(weighted) else unit
 
 
 def settled(values: NDArray[np.float64]) -> NDArray[np.float64]:

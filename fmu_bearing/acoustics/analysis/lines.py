@@ -1,7 +1,7 @@
 """Lines in spectra: where the kinematics expect them, which exceed their surroundings, what explains them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,12 +30,22 @@ class Line:
     """A line of a spectrum: frequency (Hz), level (dB), and what explains it, if anything.
 
     ``name`` is empty for an unexplained line; ``off`` is its distance (Hz) from the kinematic frequency.
+    ``nearest`` names the nearest kinematic line of an unexplained one, ``nearest_off`` is its distance (Hz).
     """
 
     frequency: float
     level: float
     name: str = ""
     off: float = float("nan")
+    nearest: str = ""
+    nearest_off: float = float("nan")
+
+    @property
+    def explanation(self) -> str:
+        """What explains it; else what is nearest, with a question mark and the distance; empty: nothing."""
+        if self.name or not self.nearest:
+            return self.name
+        return f"{self.nearest}? {self.nearest_off:+.0f} Hz"
 
 
 def kinematic_lines(
@@ -86,6 +96,11 @@ def explain(frequency: float, lines: Sequence[KinematicLine], tolerance: float) 
     )
 
 
+def nearest_line(frequency: float, lines: Sequence[KinematicLine]) -> KinematicLine | None:
+    """Return the line nearest to a frequency (Hz), the simplest of equally near ones; None without lines."""
+    return min(lines, key=lambda one: (abs(one.frequency - frequency), one.rank), default=None)
+
+
 def strongest_lines(
     frequency: ArrayLike,
     levels: ArrayLike,
@@ -123,9 +138,17 @@ def strongest_lines(
         below, at, above = value[i - 1 : i + 2]
         curve = below - 2.0 * at + above
         place = f[i] + (0.5 * (below - above) / curve * bin_width if curve < 0.0 else 0.0)
-        best = explain(float(place), kinematic, max(bin_width, slip * float(place)))
-        if best is None:
-            found.append(Line(float(place), float(at)))
-        else:
-            found.append(Line(float(place), float(at), best.name, float(place) - best.frequency))
-    return sorted(found, key=lambda line: -line.level)[:count]
+        found.append(Line(float(place), float(at)))
+    found = sorted(found, key=lambda line: -line.level)[:count]
+    return [_explained(line, kinematic, max(bin_width, slip * line.frequency)) for line in found]
+
+
+def _explained(line: Line, kinematic: Sequence[KinematicLine], tolerance: float) -> Line:
+    """Return a line with what explains it within ``tolerance`` (Hz), else with what is nearest."""
+    best = explain(line.frequency, kinematic, tolerance)
+    if best is not None:
+        return replace(line, name=best.name, off=line.frequency - best.frequency)
+    near = nearest_line(line.frequency, kinematic)
+    if near is None:
+        return line
+    return replace(line, nearest=near.name, nearest_off=line.frequency - near.frequency)

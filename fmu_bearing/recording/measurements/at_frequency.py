@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, kinematic_lines
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, kinematic_lines, nearest_line
 from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.measurements.measure import strongest
@@ -140,7 +140,7 @@ def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) 
         line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)
         about = frequency if line is None else line.frequency
         known = kinematic_lines(recording.kinematics(), float(found.frequency[-1]))
-        nearest = min(known, key=lambda one: (abs(one.frequency - about), one.rank), default=None)
+        nearest = nearest_line(about, known)
     return NoiseAt(
         frequency, nominal_frequency(centre), found.names, levels, line, nearest, recording.excitation_end
     )

@@ -15,7 +15,7 @@ Examples
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,11 +77,17 @@ _FINE = 5.0  # Hz: separates neighbouring lines
 
 @dataclass(frozen=True)
 class Round:
-    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), and their directivity."""
+    """Levels (dB) at ``angles`` (rad) round a circle, shape (points,), their directivity and weighting."""
 
     angles: NDArray[np.float64]
     levels: NDArray[np.float64]
     directivity: Directivity
+    weighting: str = "Z"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the levels: dB, or that with the weighting: dB(A)."""
+        return "dB" if self.weighting == "Z" else f"dB({self.weighting})"
 
 
 @dataclass(frozen=True)
@@ -161,7 +167,7 @@ def strongest(
     end = math.inf if recording.excitation_end is None else recording.excitation_end
     known = kinematic_lines(recording.kinematics(), min(float(frequency[-1]), end))
     found = strongest_lines(frequency, levels, count, known)
-    return [replace(line, name=BEYOND, off=math.nan) if line.frequency > end else line for line in found]
+    return [Line(line.frequency, line.level, BEYOND) if line.frequency > end else line for line in found]
 
 
 @renamed.arguments
@@ -179,7 +185,7 @@ def circle(
     levels = recording.levels(
         list(circle_points(radius, axial, count)), radiation_model, weighting, resolution
     )
-    return Round(angles, levels, directivity(angles, levels))
+    return Round(angles, levels, directivity(angles, levels), weighting)
 
 
 @renamed.arguments
@@ -197,7 +203,7 @@ def planes(
     points = [point for plane in PLANES for point in plane_points(plane, radius, count)]
     together = recording.levels(points, radiation_model, weighting, resolution).reshape(len(PLANES), count)
     return {
-        plane: Round(angles, levels, directivity(angles, levels))
+        plane: Round(angles, levels, directivity(angles, levels), weighting)
         for plane, levels in zip(PLANES, together, strict=True)
     }
 

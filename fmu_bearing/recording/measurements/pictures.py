@@ -9,16 +9,30 @@ Examples
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
-from fmu_bearing.results.picture_parts import COLOURS, OTHERS, empty, label, mark_excitation, save, single
+from fmu_bearing.results.levels import present
+from fmu_bearing.results.picture_parts import (
+    COLOURS,
+    DASHES,
+    OTHERS,
+    coincident,
+    empty,
+    free_heights,
+    label,
+    mark_excitation,
+    save,
+    series,
+    single,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,6 +51,11 @@ __all__ = [
 ]
 
 _RANGE = 70.0  # dB shown below the highest level
+_ROOM = 34.0  # dB above the highest level for names of lines
+_NAME_ROOM = 0.035  # of an axis: what the name of a frequency takes
+_NAMES_TO = 0.2  # of the height: the rows of those names, from the top
+_GAP = 2.0  # pixels between texts
+_HATCHES = ("", "///", "...", "xxx")  # of bars, where all colours are taken
 _HARMONICS = 3  # of each kinematic frequency that are marked
 
 
@@ -46,26 +65,37 @@ def spectrum_picture(
     kinematics: KinematicFrequencies | None = None,
     title: str = "",
     excitation_end: float | Mapping[str, float] | None = None,
+    lines: Sequence[Line] = (),
 ) -> "Figure":
     """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked.
 
-    ``excitation_end``: frequency (Hz) where the excitation ends (``Recording.excitation_end``), or several by
-    name.
+    Parameters
+    ----------
+    frequency, spectra, kinematics, title
+    excitation_end : float or mapping, optional
+        Frequency (Hz) where the excitation ends (``Recording.excitation_end``), or several by name.
+    lines : sequence of Line
+        Strongest lines, strongest first, as `measure.strongest` gives them: as many are named at their peaks
+        as have room. One that no kinematic line explains has the nearest with a question mark and its
+        distance.
+
+    A silent component has a dash behind its name and no curve.
     """
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
-    for name, colour in _coloured(spectra).items():
-        width = 1.4 if name == "total" else 0.8
-        ax.plot(f, np.asarray(spectra[name]), color=colour, linewidth=width, label=_words(name))
+    for name, style in _styles(spectra).items():
+        values = present(spectra[name], "dB")
+        ax.plot(f, values, **style, label=_entry(name, values))
     top = max(float(np.max(np.asarray(levels)[1:])) for levels in spectra.values())
-    ax.set_ylim(top - _RANGE, top + 12.0)
+    ax.set_ylim(top - _RANGE, top + (_ROOM if lines else 12.0))
     ax.set_xlim(0.0, float(f[-1]))
-    if kinematics is not None:
-        _mark(ax, kinematics, float(f[-1]))
     for whose, end in _ends(excitation_end):
         mark_excitation(ax, end, whose=whose)
     label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0 if not title else 1.05))
+    if kinematics is not None:
+        _mark(ax, kinematics, float(f[-1]))
+    _name_lines(ax, [line for line in lines if line.frequency <= f[-1]])
     return figure
 
 
@@ -78,9 +108,12 @@ def third_octave_picture(
     bands = np.arange(len(np.asarray(centres)))
     width = 0.8 / len(levels)
     top = max(float(np.max(np.asarray(values))) for values in levels.values())
-    for k, (name, colour) in enumerate(_coloured(levels).items()):
-        height = np.maximum(np.asarray(levels[name], dtype=float) - (top - _RANGE), 0.0)
-        ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=colour, label=_words(name))
+    for k, (name, style) in enumerate(_styles(levels).items()):
+        values = present(levels[name], "dB")
+        height = np.maximum(values - (top - _RANGE), 0.0)
+        hatch = _HATCHES[k // len(OTHERS) % len(_HATCHES)]
+        ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=style["color"],
+               hatch=hatch, edgecolor="white", linewidth=0.0, label=_entry(name, values))  # fmt: skip
     ax.set_xlim(-0.6, len(bands) - 0.4)
     for whose, end in _ends(excitation_end):
         mark_excitation(ax, end, band_place(centres, end), whose)
@@ -127,18 +160,19 @@ def waterfall_picture(
 
 
 def circle_picture(circles: Mapping[str, Round], title: str = "") -> "Figure":
-    """Draw levels (dB) round one or more circles, as seen from +X, with 12 o'clock on top."""
+    """Draw levels, in the unit of their weighting, round circles as seen from +X, with 12 o'clock on top."""
     figure = empty((6.5, 6.5))
-    _polar(figure.add_subplot(projection="polar"), circles, "N", title)
+    units = ", ".join(dict.fromkeys(each.unit for each in circles.values()))
+    _polar(figure.add_subplot(projection="polar"), circles, "N", title, units)
     return figure
 
 
 def planes_picture(found: Mapping[str, Round], title: str = "") -> "Figure":
-    """Draw levels (dB) in three planes; 0 deg is 12 o'clock in YZ and +X in the others."""
+    """Draw levels in three planes in their unit; 0 deg is 12 o'clock in YZ and +X in the others."""
     figure = empty((13.0, 4.8))
     for k, (name, each) in enumerate(found.items()):
         ax = figure.add_subplot(1, len(found), k + 1, projection="polar")
-        _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}")
+        _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}, {each.unit}")
     figure.suptitle(title)
     return figure
 
@@ -147,13 +181,13 @@ def sweep_picture(found: Sweep, title: str = "") -> "Figure":
     """Draw largest level, DL and DV over the radial distance, one curve per axial distance."""
     figure = empty((13.0, 4.2))
     axes = figure.subplots(1, 3)
+    unit = found.circles[0][0].unit
     for ax, (name, words) in zip(
-        axes, (("highest", "largest level, dB"), ("dl", "DL"), ("dv", "DV, dB")), strict=True
+        axes, (("highest", f"largest level, {unit}"), ("dl", "DL"), ("dv", "DV, dB")), strict=True
     ):
         for k, x in enumerate(found.axials):
             values = [getattr(row[k].directivity, name) for row in found.circles]
-            colour = OTHERS[k % len(OTHERS)]
-            ax.plot(1e3 * found.radii, values, marker="o", color=colour, label=f"l = {1e3 * x:g} mm")
+            ax.plot(1e3 * found.radii, values, marker="o", **series(k), label=f"l = {1e3 * x:g} mm")
         label(ax, "r, mm", words, "")
     axes[0].legend(frameon=False)
     figure.suptitle(title)
@@ -189,23 +223,73 @@ def _words(name: str) -> str:
     return name.replace("_", " ") if name in COLOURS else name
 
 
-def _coloured(names: Mapping[str, object]) -> dict[str, str]:
-    """Colour of each name; components keep theirs."""
-    return {name: COLOURS.get(name, OTHERS[k % len(OTHERS)]) for k, name in enumerate(names)}
+def _entry(name: str, values: NDArray[np.float64]) -> str:
+    """Return the legend's entry: a name in words, with a dash where the curve has no level."""
+    return f"{_words(name)}: -" if np.isnan(values).all() else _words(name)
+
+
+def _styles(names: Mapping[str, object]) -> dict[str, dict[str, Any]]:
+    """Return colour, dashes and width of each name: components keep their colours, others may coincide."""
+    return {
+        name: {"color": COLOURS[name], "linewidth": 1.4 if name == "total" else 0.8}
+        if name in COLOURS
+        else coincident(k, len(names))
+        for k, name in enumerate(names)
+    }
+
+
+def _name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
+    """Write at peaks what explains them, the strongest first, as far as no text covers another."""
+    named = [line for line in lines if line.explanation]
+    if not named:
+        return
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()  # type: ignore[attr-defined]  # places the axes
+    peaks = ax.transData.transform([(line.frequency, line.level) for line in named])
+    texts = [
+        ax.text(line.frequency, line.level, line.explanation, fontsize=7, ha="center", va="bottom",
+                gid="line-name", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.5, "linewidth": 0.0})
+        for line in named
+    ]  # fmt: skip
+    boxes = [text.get_window_extent() for text in texts]
+    high = max(box.height for box in boxes) + _GAP
+    inside = ax.get_window_extent()
+    # the frequencies' names have their own rows on top
+    top = inside.y1 - (_NAMES_TO * inside.height if any(t.get_gid() == "mark" for t in ax.texts) else 0.0)
+    middles = [
+        min(max(x, inside.x0 + 0.5 * box.width), inside.x1 - 0.5 * box.width)
+        for (x, _), box in zip(peaks, boxes, strict=True)
+    ]
+    heights = free_heights(
+        [[x] for x in middles], [y + _GAP for _, y in peaks], [box.width + _GAP for box in boxes], high, top
+    )
+    back = ax.transData.inverted()
+    for text, x, height in zip(texts, middles, heights, strict=True):
+        if height is None:
+            text.remove()
+        else:
+            across, level = back.transform((x, height))
+            text.set_position((float(across), float(level)))
 
 
 def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
     """Upright lines at the kinematic frequencies and their harmonics, named on top."""
     low, high = ax.get_ylim()
+    left, right = ax.get_xlim()
     for k, (name, base) in enumerate(zip(kinematics._fields, kinematics, strict=True)):
+        last = -math.inf
         for n in range(1, _HARMONICS + 1):
             if n * base > highest:
                 break
             ax.axvline(n * base, color=colour, linewidth=0.5, linestyle=":", alpha=0.6)
             words = f"${name[0]}_{name[2]}$" if n == 1 else f"${n}{name[0]}_{name[2]}$"
-            # five heights, so that neighbours do not hide each other
+            # five heights, so that neighbours do not hide each other; on one height they need room
+            if n * base - last < _NAME_ROOM * (right - left):
+                continue
+            last = n * base
             height = high - (high - low) * (0.02 + 0.035 * k)
-            ax.text(n * base, height, words, fontsize=7, ha="center", va="top", color=colour)
+            ax.text(n * base, height, words, fontsize=7, ha="center", va="top", color=colour, gid="mark")
 
 
 def _end_line(ax: "Axes", place: NDArray[np.float64], along: NDArray[np.float64]) -> None:
@@ -229,19 +313,21 @@ def _colour_map(
     figure.colorbar(drawn, ax=ax, label="level, dB re 20 uPa")
 
 
-def _polar(ax: "Axes", circles: Mapping[str, Round], zero: str, title: str) -> None:
+def _polar(ax: "Axes", circles: Mapping[str, Round], zero: str, title: str, unit: str = "") -> None:
     """Levels round a circle; the largest one's direction is marked."""
     low = min(float(each.levels.min()) for each in circles.values())
     high = max(float(each.levels.max()) for each in circles.values())
     for k, (name, each) in enumerate(circles.items()):
         colour = OTHERS[k % len(OTHERS)]
         angles, levels = np.append(each.angles, each.angles[0]), np.append(each.levels, each.levels[0])
+        dashes = DASHES[k // len(OTHERS) % len(DASHES)]
         marker = "o" if len(each.levels) <= 36 else ""
-        ax.plot(angles, levels, color=colour, marker=marker, markersize=3, label=name)
+        ax.plot(angles, levels, color=colour, linestyle=dashes, marker=marker, markersize=3,
+                label=name)  # fmt: skip
         ax.plot([each.directivity.da], [each.directivity.highest], color=colour, marker="*", markersize=10)
     # seen from +X, positive rotation runs anticlockwise: as polar axes do
     ax.set_theta_zero_location(zero)  # type: ignore[attr-defined]
     ax.set_ylim(5.0 * math.floor((low - 3.0) / 5.0), high + 1.0)
-    ax.set_title(title)
+    ax.set_title(", ".join(filter(None, (title, unit))))
     if len(circles) > 1:
         ax.legend(frameon=False, loc="lower right", bbox_to_anchor=(1.1, -0.05))

@@ -23,6 +23,7 @@ from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure, tables
+from fmu_bearing.results.levels import decibels
 from fmu_bearing.results.table import markdown, write_csv
 
 if TYPE_CHECKING:
@@ -73,9 +74,9 @@ class SoundAnalysis:
     positions: tuple[Position, ...]
 
     def rows(self) -> tuple[list[str], list[list[str]]]:
-        """Columns and rows of a table of levels."""
+        """Columns and rows of a table of levels; a dash for a component that is silent."""
         rows = [
-            [name, f"{z:.1f}", f"{a:.1f}", *(f"{values[k]:.1f}" for values in self.parts.values())]
+            [name, *(decibels(float(value)) for value in (z, a, *(part[k] for part in self.parts.values())))]
             for k, (name, (z, a)) in enumerate(zip(self.names, self.levels, strict=True))
         ]
         return ["microphone", "Leq, dB", "LAeq, dB(A)", *(f"{name}, dB(A)" for name in self.parts)], rows
@@ -242,7 +243,7 @@ def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure"
     kinematics = None if recording.scene is None else recording.kinematics()
     shown = {name: levels[0][audible] for name, levels in found.spectra.items()}
     frequency, end = found.frequency[audible], recording.excitation_end
-    return pictures.spectrum_picture(frequency, shown, kinematics, found.names[0], end)
+    return pictures.spectrum_picture(frequency, shown, kinematics, found.names[0], end, found.lines)
 
 
 def _sounds(
@@ -301,6 +302,6 @@ def _directivity(
     write_csv(folder / "planes.csv", *tables.round_table(planes))
     if not drawn:
         return ["planes.csv"]
-    title = f"dB(A) at {1e3 * radius:.0f} mm"
+    title = f"at {1e3 * radius:.0f} mm"
     pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")
     return ["planes.csv", "planes.png"]

@@ -21,6 +21,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap
 from fmu_bearing.acoustics.analysis.power import Power
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
+from fmu_bearing.results.levels import decibels
 from fmu_bearing.results.table import markdown, write_csv
 
 __all__ = [
@@ -42,24 +43,21 @@ Table = tuple[list[str], list[list[str]]]
 
 
 def lines_table(lines: Sequence[Line]) -> Table:
-    """Strongest lines and what explains them."""
-    rows = [
-        [
-            f"{line.frequency:.1f}",
-            f"{line.level:.1f}",
-            line.name or "none",
-            "" if math.isnan(line.off) else f"{line.off:+.1f}",
-        ]
-        for line in lines
-    ]
+    """Strongest lines and what explains them; of one that nothing explains, what is nearest."""
+    rows = []
+    for line in lines:
+        name, off = (line.name, line.off) if line.name else ("none", line.nearest_off)
+        words = f"{name}; nearest {line.nearest}" if line.nearest else name
+        distance = "" if math.isnan(off) else f"{off:+.1f}"
+        rows.append([f"{line.frequency:.1f}", f"{line.level:.1f}", words, distance])
     return ["frequency, Hz", "level, dB", "explained by", "off by, Hz"], rows
 
 
 def spectrum_table(frequency: ArrayLike, spectra: Mapping[str, ArrayLike], unit: str = "Hz") -> Table:
-    """Levels (dB) over frequency or order, one column each."""
+    """Levels (dB) over frequency or order, one column each; a dash where there is silence."""
     columns = [f"frequency, {unit}" if unit == "Hz" else unit, *(f"{name}, dB" for name in spectra)]
     values = np.column_stack([np.asarray(frequency, dtype=float), *(np.asarray(v) for v in spectra.values())])
-    return columns, [[f"{row[0]:.6g}", *(f"{value:.2f}" for value in row[1:])] for row in values]
+    return columns, [[f"{row[0]:.6g}", *(decibels(value, 2) for value in row[1:])] for row in values]
 
 
 def third_octave_table(centres: ArrayLike, levels: Mapping[str, ArrayLike]) -> Table:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
-from fmu_bearing.results.picture_parts import OTHERS, empty, label
+from fmu_bearing.results.picture_parts import empty, label, marked
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import Scene
 from fmu_bearing.steady.impedance import FREEDOMS
@@ -93,15 +93,15 @@ class NoseStiffness:
         figure = empty((9.0, 6.2))
         panels = figure.subplots(2, _PANELS // 2, sharex=True).ravel()
         krpm = 1e-3 * self.speeds
-        dots = "o" if len(krpm) == 1 else None
+        dots = "o" if len(krpm) == 1 else ""
         for ax, (words, attribute, shown, factor) in zip(panels, NAMED[:_PANELS], strict=True):
             for k, preload in enumerate(self.preloads):
-                colour = OTHERS[k % len(OTHERS)]
+                style = marked(k, dots)
                 curve = factor * self.named(attribute)[:, k]
-                ax.plot(krpm, curve, color=colour, marker=dots, label=f"{preload:g} N")
+                ax.plot(krpm, curve, **style, label=f"{preload:g} N")
                 if attribute == "nose_stiffness":
                     bent = factor * self.named("nose_stiffness_bending")[:, k]
-                    ax.plot(krpm, bent, color=colour, marker=dots, ls="--", lw=1.0)
+                    ax.plot(krpm, bent, **style, ls="--", lw=1.0)
             label(ax, "speed, 1000 r/min" if ax in panels[-2:] else "", shown, f"K {words}")
             ax.set_ylim(0.0, None)
         handles, labels = panels[0].get_legend_handles_labels()

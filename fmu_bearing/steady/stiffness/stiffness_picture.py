@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fmu_bearing.results.picture_parts import OTHERS, empty, label
+from fmu_bearing.results.picture_parts import empty, label, marked
 from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
@@ -26,17 +26,15 @@ def picture(found: StiffnessTable, frequency: float | None = None) -> "Figure":
     figure = empty((11.0, 6.2))
     panels = figure.subplots(2, len(_PANELS), sharex=True)
     krpm = 1e-3 * found.speeds
-    dots = "o" if len(krpm) == 1 else None
+    dots = "o" if len(krpm) == 1 else ""
     for column, (title, freedom, stiff, damped) in enumerate(_PANELS):
         i = FREEDOMS.index(freedom)
         above, below = panels[:, column]
         for k, preload in enumerate(found.preloads):
-            colour = OTHERS[k % len(OTHERS)]
-            above.plot(
-                krpm, stiff[1] * found.K[:, k, at, i, i], color=colour, marker=dots, label=f"{preload:g} N"
-            )
-            above.plot(krpm, stiff[1] * found.static[:, k, i, i], color=colour, ls="--", lw=1.0)
-            below.plot(krpm, damped[1] * found.C[:, k, at, i, i], color=colour, marker=dots)
+            style = marked(k, dots)
+            above.plot(krpm, stiff[1] * found.K[:, k, at, i, i], **style, label=f"{preload:g} N")
+            above.plot(krpm, stiff[1] * found.static[:, k, i, i], color=style["color"], ls="--", lw=1.0)
+            below.plot(krpm, damped[1] * found.C[:, k, at, i, i], **style)
         label(above, "", stiff[0], f"K {title}")
         label(below, "speed, 1000 r/min", damped[0], f"C {title}")
         for ax in (above, below):

@@ -105,7 +105,7 @@ def report(
     if as_json:
         print_json({
             "path": made.path, "bytes": made.size, "figures": made.figures, "missing": missing,
-            "sections": list(made.sections), "warnings": made.warnings,
+            "sections": list(made.sections), "warnings": made.warnings, "verdict": made.verdict,
         })  # fmt: skip
         return
     for key, reason in missing.items():

@@ -1,11 +1,15 @@
 """A verdict: figure, limit, source of the limit, judgement, way out."""
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from fmu_bearing.formulas import iso281
 
 Judgement = Literal["good", "watch", "change", "not judged"]
+
+#: From the gravest on.
+JUDGEMENTS: tuple[Judgement, ...] = ("change", "watch", "good", "not judged")
 
 #: h: life that is asked for where the scene asks for none: assumed, as machine tools are often laid out.
 ASSUMED_LIFE = 20_000.0
@@ -49,6 +53,11 @@ class Verdict:
     def as_dict(self) -> dict[str, Any]:
         """Return the verdict by name, for machines."""
         return asdict(self)
+
+
+def overall(found: Iterable[Verdict]) -> Judgement:
+    """Return the gravest of the judgements; ``not judged`` where no figure has a limit."""
+    return min((one.judgement for one in found), key=JUDGEMENTS.index, default="not judged")
 
 
 def unjudged(key: str, label: str, why: str, value: float | None = None, text: str = "-") -> Verdict:

@@ -22,7 +22,7 @@ from fmu_bearing.reports.modes.modes_section import section as what_vibrates
 from fmu_bearing.reports.page.blocks import Absent, Section
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections import ball_contacts, conditions, friction, ring_motion, summary
-from fmu_bearing.reports.sections.verdict_table import verdict_table
+from fmu_bearing.reports.sections.verdict_table import judged, overall_of
 from fmu_bearing.reports.sections.what_to_change import section as what_to_change
 from fmu_bearing.reports.set_page import set_page
 from fmu_bearing.reports.sound import directivity_balloon, levels_and_spectra, playback, waterfall
@@ -55,6 +55,8 @@ class Report:
     warnings : list of str
     recording : Recording, optional
         The recording that the page shows; None for a set of bearings, whose report is made of statics.
+    verdict : str
+        The gravest of all verdicts; empty where there is no scene to judge.
     """
 
     path: pathlib.Path
@@ -63,6 +65,7 @@ class Report:
     figures: dict[str, float]
     warnings: list[str]
     recording: Recording | None
+    verdict: str
 
 
 @renamed.arguments
@@ -77,7 +80,7 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     >>> from fmu_bearing.reports import report
     >>> bearing = Bearing("examples/scenes/7003C-bare.toml", fidelity="rings")
     >>> page = report(bearing.scene, "report.html", duration=0.05, radiation_model="compact", changes=False)
-    >>> page.name, 5e6 < page.stat().st_size < 8e6
+    >>> page.name, 2e6 < page.stat().st_size < 3e6
     ('report.html', True)
     """
     return make(source, output, **options).path
@@ -166,19 +169,22 @@ def make(
     notes = summary.warnings_of(subject)
     sure = _spread(subject, microphones, tell)
     shown = summary.tiles(subject, microphones, sure)
-    judged = verdict_table(subject)
+    verdicts = judged(subject)
+    overall = None if verdicts is None else overall_of(verdicts.found)
     scene = subject.recording.scene
     heading = title or ("Recording" if scene is None else scene.name)
     tell("writing the page")
     text = render(
         heading, conditions.source_words(subject), subject.source, sections, shown,
-        summary.sentences(subject, microphones, sure), notes, judged,
+        summary.sentences(subject, microphones, sure), notes, None if verdicts is None else verdicts.table,
+        overall=overall,
     )  # fmt: skip
     data = text.encode("utf-8")
     write_whole(path, data)
     return Report(
         path, len(data), {section.key: section.missing for section in sections},
         {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
+        "" if overall is None else overall.judgement,
     )  # fmt: skip
 
 
@@ -249,7 +255,7 @@ def _of_set(
     page = set_page(scene, title, tell)
     data = page.text.encode("utf-8")
     write_whole(path, data)
-    return Report(path, len(data), page.sections, page.figures, page.warnings, None)
+    return Report(path, len(data), page.sections, page.figures, page.warnings, None, page.verdict)
 
 
 def _spread(subject: Subject, microphones: Microphones | None, tell: Tell) -> Spread | None:

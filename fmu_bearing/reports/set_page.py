@@ -7,17 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from fmu_bearing.design.heat import heat_table
-from fmu_bearing.design.operating_point import OperatingPoint, operating_point
-from fmu_bearing.design.verdict import Verdict, shown_hours
+from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
+from fmu_bearing.design.verdict import Verdict, overall, shown_hours
 from fmu_bearing.design.verdicts import cautions, side_by_side, verdicts
 from fmu_bearing.engine.layout import SP
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Table
+from fmu_bearing.reports.page.blocks import Absent, Block, Card, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.summary import Tile, tile
+from fmu_bearing.reports.sections.verdict_table import overall_of
 from fmu_bearing.results.table import tenths
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
@@ -28,7 +29,6 @@ from fmu_bearing.steady.statics import Statics
 _STEPS = 13  # loads of the curve
 _BEYOND = 1.2  # of the load that unloads a bearing: as far as the curve goes
 _WARMER = (0.0, 5.0, 10.0, 15.0, 20.0)  # K
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#000000")
 
 
 @dataclass(frozen=True)
@@ -44,12 +44,15 @@ class SetPage:
     figures : dict
         The figures at the top, by name.
     warnings : list of str
+    verdict : str
+        The gravest of all verdicts.
     """
 
     text: str
     sections: dict[str, str]
     figures: dict[str, float]
     warnings: list[str]
+    verdict: str
 
 
 def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
@@ -65,12 +68,12 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     found, judged = point.statics, verdicts(point)
     warnings = cautions(point, judged)
     plan: tuple[tuple[str, str, Callable[[], list[Block]]], ...] = (
+        ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
         ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
         ("balls", "Ball loads", lambda: [_balls(point)]),
         ("heat", "Friction and heat", lambda: [_heat(point)]),
         ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
         ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
-        ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
     )
     sections = []
     for key, heading, blocks in plan:
@@ -78,24 +81,33 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             sections.append(Section(key, heading, blocks()))
         except Absent as problem:
             sections.append(Section(key, heading, [], str(problem)))
-    tiles = _tiles(point)
+    tiles, cards = _tiles(point), [_card(point, k) for k in range(len(point.bearings))]
+    whole = overall_of(judged, several=True)
     subtitle = (
         f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
         f"{scene.operation.speed_rpm:,.0f} r/min"
     )
     text = render(
         title or scene.name, subtitle, "statics of the set: perfect bearings, no run", sections, tiles,
-        [], warnings, kind="Spindle report",
+        [], warnings, kind="Spindle report", overall=whole,
+        cards=[_shown(number, card, judged) for number, card in enumerate(cards, start=1)],
     )  # fmt: skip
     missing = {section.key: section.missing for section in sections}
-    return SetPage(text, missing, {one["key"]: one["value"] for one in tiles}, warnings)
+    figures = {one["key"]: one["value"] for one in tiles}
+    for number, card in enumerate(cards, start=1):
+        figures |= {f"bearing[{number}].{one['key']}": one["value"] for one in card}
+    return SetPage(text, missing, figures, warnings, whole.judgement)
 
 
 def _tiles(point: OperatingPoint) -> list[Tile]:
     """Return the figures at the top."""
     found, life = point.statics, point.life
     lowest = min(found.bearings, key=lambda one: one.axial)
-    tiles = [
+    tiles = []
+    if found.preloads:
+        preload = found.preloads["running"][0]
+        tiles.append(tile("preload_N", "preload of bearing 1 at speed, without load", preload, "N", ".1f"))
+    tiles += [
         tile("axial_stiffness", "axial stiffness of the shaft", 1e-6 * found.axial_stiffness, "N/um", ".1f"),
         tile("nose_stiffness", "radial stiffness at the nose", 1e-6 * found.nose_stiffness, "N/um", ".1f"),
         tile("least_axial_N", f"least axial load, bearing {lowest.number}", lowest.axial, "N", ".1f"),
@@ -109,6 +121,36 @@ def _tiles(point: OperatingPoint) -> list[Tile]:
         shown = tile("life_h", "L10r of all bearings together", life, "h", ",.0f")
         tiles.append(shown | {"text": shown_hours(life)})
     return tiles
+
+
+def _card(point: OperatingPoint, place: int) -> list[Tile]:
+    """Return the figures of one bearing."""
+    one, preloads = point.bearings[place], point.statics.preloads
+    stiffness = 1e-6 * one.stiffness
+    radial = 0.5 * (stiffness[1, 1] + stiffness[2, 2])
+    found = [
+        tile("axial_N", "axial load", one.axial, "N", ".1f"),
+        tile("radial_N", "radial load", one.radial, "N", ".1f"),
+    ]
+    if preloads:
+        found.append(tile("preload_N", "preload at speed", preloads["running"][place], "N", ".1f"))
+    pressure = max(one.contacts[ring]["pressure_max"] for ring in RINGS)
+    found += [
+        tile("pressure_GPa", "contact pressure", 1e-9 * pressure, "GPa", ".2f"),
+        tile("heat_W", "friction heat", one.heat.total, "W", ".1f"),
+        tile("axial_stiffness", "axial stiffness", stiffness[0, 0], "N/um", ".1f"),
+        tile("radial_stiffness", "radial stiffness", radial, "N/um", ".1f"),
+    ]
+    if one.life is not None and math.isfinite(one.life):
+        life = tile("life_h", "L10r", one.life, "h", ",.0f")
+        found.append(life | {"text": shown_hours(one.life)})
+    return found
+
+
+def _shown(number: int, card: list[Tile], judged: tuple[Verdict, ...]) -> Card:
+    """Return the card of a bearing with the gravest verdict on it."""
+    rows = [(one["label"], one["text"], one["unit"]) for one in card]
+    return Card(f"Bearing {number}", overall(one for one in judged if one.bearing == number), rows)
 
 
 def _drawing(scene: Scene) -> Chart:
@@ -183,7 +225,7 @@ def _balls(point: OperatingPoint) -> Chart:
         angles = 360.0 * np.arange(len(loads)) / len(loads)
         figure.add_scatterpolar(
             r=[*loads, loads[0]], theta=[*angles, 360.0], name=f"bearing {number}", mode="lines+markers",
-            line={"color": _COLOURS[(number - 1) % len(_COLOURS)]},
+            line=look.series(number - 1),
         )  # fmt: skip
     words = "Load of each ball at the inner race over its place, 12 o'clock on top, seen from the rear"
     return Chart("ball_loads", "Loads of the balls at the inner races", figure, words)
@@ -216,7 +258,7 @@ def _axial(scene: Scene, found: Statics, tell: Tell) -> Chart:
     figure = look.figure(380)
     for k, curve in enumerate(np.array(shares).T):
         figure.add_scatter(
-            x=loads, y=curve, name=f"bearing {k + 1}", line={"color": _COLOURS[k % len(_COLOURS)]},
+            x=loads, y=curve, name=f"bearing {k + 1}", line=look.series(k),
         )  # fmt: skip
     figure.add_scatter(
         x=loads, y=places, name="nose, um", yaxis="y2", line={"color": "#7F7F7F", "dash": "dash"}
@@ -285,7 +327,7 @@ def _together(judged: tuple[Verdict, ...]) -> Block:
         [one.label, one.text, one.judgement, one.limit, one.source] for one in judged if one.bearing is None
     ]
     columns = ("", "value", "verdict", "limit", "source of the limit")
-    return Table("Verdicts on the set", columns, rows)
+    return Table("Verdicts on the set", columns, rows, stacked=True)
 
 
 def _verdicts(judged: tuple[Verdict, ...]) -> Block:
@@ -296,4 +338,4 @@ def _verdicts(judged: tuple[Verdict, ...]) -> Block:
         cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
         rows.append([first.key.replace("_", " "), *cells, first.limit, first.source])
     columns = ("", *(f"bearing {k + 1}" for k in range(len(rows[0]) - 3)), "limit", "source of the limit")
-    return Table("Verdicts on each bearing from its own loads", columns, rows)
+    return Table("Verdicts on each bearing from its own loads", columns, rows, stacked=True)

@@ -1,19 +1,34 @@
 """Reads a report as a machine would: its tables, its figures, what it refers to."""
 
 import base64
+import gzip
 import json
+import struct
 from html.parser import HTMLParser
 
 import numpy as np
 
 
 def numbers(value):
-    """An array out of a figure, however Plotly packed it."""
-    if isinstance(value, dict):
-        found = np.frombuffer(base64.b64decode(value["bdata"]), dtype=np.dtype(value["dtype"]))
-        shape = str(value.get("shape", "")).split(",")
-        return found.reshape([int(n) for n in shape]) if shape != [""] else found
+    """An array out of a figure, as the page packs it or as a list."""
     return np.asarray(value, dtype=float)
+
+
+def restored(text):
+    """Figures by key out of a page's compressed text."""
+    data = gzip.decompress(base64.b64decode(text))
+    (size,) = struct.unpack("<I", data[:4])
+    arrays = np.frombuffer(data[4 + size :], np.uint8)
+
+    def array(found):
+        if "packed" not in found:
+            return found
+        kind, place, count, shape = found["packed"]
+        wide = np.dtype(kind).itemsize
+        flat = np.ascontiguousarray(arrays[place : place + count * wide].reshape(wide, count).T)
+        return flat.view(kind).reshape(shape)
+
+    return json.loads(data[4 : 4 + size], object_hook=array)
 
 
 class Page(HTMLParser):
@@ -23,7 +38,7 @@ class Page(HTMLParser):
         super().__init__()
         self.text = path.read_text("utf-8")
         self.tables, self.figures, self.paragraphs, self.addresses, self.sounds = {}, {}, [], [], []
-        self.sections, self.headings, self.ids = {}, [], []
+        self.sections, self.headings, self.ids, self.libraries = {}, [], [], []
         self._tag, self._words, self._rows, self._script = "", "", [], ""
         self.feed(self.text)
 
@@ -37,7 +52,7 @@ class Page(HTMLParser):
         if tag == "audio":
             self.sounds.append(base64.b64decode(found["src"].split(",", 1)[1]))
         if tag == "script":
-            self._script = found.get("id", "") if found.get("class") == "figure" else ""
+            self._script = found.get("id", "")
         if tag == "table":
             self._rows = []
         if tag == "tr":
@@ -47,8 +62,11 @@ class Page(HTMLParser):
         self._tag = tag
 
     def handle_data(self, data):
-        if self._tag == "script" and self._script:
-            self.figures[self._script.removeprefix("figure-")] = json.loads(data)
+        if self._tag == "script" and self._script in ("figures", "library"):
+            if self._script == "figures":
+                self.figures = restored(data)
+            else:
+                self.libraries.append(gzip.decompress(base64.b64decode(data)).decode("utf-8"))
             self._script = ""
         elif self._tag not in ("script", "style"):
             self._words += data

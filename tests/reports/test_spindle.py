@@ -18,7 +18,7 @@ PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 
 def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     made = make(PAIR, tmp_path / "pair.html")
-    assert list(made.sections) == ["arrangement", "balls", "heat", "axial", "warmth", "verdicts"]
+    assert list(made.sections) == ["verdicts", "arrangement", "balls", "heat", "axial", "warmth"]
     assert not any(made.sections.values()) and made.recording is None
     text = made.path.read_text(encoding="utf-8")
     assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())

@@ -9,7 +9,7 @@ from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.sections.summary import tiles
-from fmu_bearing.reports.sections.verdict_table import verdict_table
+from fmu_bearing.reports.sections.verdict_table import judged
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def test_rows_are_those_of_the_run_that_the_table_heads(subject):
         bearing.contacts[ring]["pressure_max"] = subject.output(f"contact.{ring}.pressure_max").max()
         bearing.contacts[ring]["shoulder_margin"] = subject.output(f"contact.{ring}.shoulder_margin").min()
     point = replace(point, bearings=(replace(bearing, film=subject.output("film.lambda_min").min()),))
-    table = verdict_table(subject)
+    table = judged(subject).table
     assert table.rows == [[v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point)]
     assert f"{rpm:,.0f} r/min" in table.caption
     for one in verdicts(point):
@@ -41,7 +41,7 @@ def test_the_table_judges_the_pressure_of_the_card_above_it(rings):
     """2.0 GPa marks races: the perfect bearing has 1.89, this run more."""
     run = Subject(rings, rings.radiation_model, "test")
     (card,) = [one for one in tiles(run, None) if one["key"] == "pressure_GPa"]
-    (row,) = [row for row in verdict_table(run).rows if row[0].startswith("pressure")]
+    (row,) = [row for row in judged(run).table.rows if row[0].startswith("pressure")]
     assert row[1] == f"{card['value']:.2f}" and card["value"] > 2.0
     assert row[2] == "change"
 
@@ -50,7 +50,7 @@ def test_a_recording_without_these_outputs_is_judged_as_the_perfect_bearing(subj
     recording = subject.recording
     kept, recording.outputs = recording.outputs, {}
     try:
-        table = verdict_table(subject)
+        table = judged(subject).table
     finally:
         recording.outputs = kept
     assert table.rows == [
@@ -63,7 +63,7 @@ def test_a_recording_without_scene_has_none(subject):
     recording = subject.recording
     scene, recording.scene = recording.scene, None
     try:
-        assert verdict_table(subject) is None
+        assert judged(subject) is None
     finally:
         recording.scene = scene
 

@@ -9,6 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+#: dB: step of levels in charts.
+DECIBELS = 1.0 / 64.0
+#: Half of the last of the 15 binary digits that `small` keeps: five decimal ones.
+_HALF = np.uint32(1 << 7)
+
 
 class Absent(ValueError):
     """A section, or part of one, cannot be made of this recording; the message says why."""
@@ -25,14 +30,27 @@ class Words:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of texts under a caption; cells that look like numbers are set to the right."""
+    """Rows of texts under a caption; cells that look like numbers have digits of one width.
+
+    ``stacked``: on a narrow page each row is a block, its cells under each other with their columns' names.
+    """
 
     caption: str
     columns: Sequence[str]
     rows: Sequence[Sequence[str]]
     note: str = ""
     folded: bool = False
+    stacked: bool = False
     sort: str = "table"
+
+
+@dataclass(frozen=True)
+class Card:
+    """Figures of one thing on the first screen: a title, its judgement, rows of name, value and unit."""
+
+    title: str
+    judgement: str
+    rows: Sequence[tuple[str, str, str]]
 
 
 @dataclass(frozen=True)
@@ -76,11 +94,6 @@ class Chart:
     def height(self) -> int:
         """Of the figure, in CSS pixels."""
         return int(self.figure.layout.height)
-
-    @property
-    def json(self) -> str:
-        """The figure for a ``<script>`` element."""
-        return for_script(self.figure.to_json())
 
 
 @dataclass(frozen=True)
@@ -146,9 +159,15 @@ def packed(data: Any) -> str:
     return for_script(json.dumps(data))
 
 
-def small(values: Any) -> NDArray[np.float32]:
-    """Numbers for a chart as 32-bit floats: seven digits are more than a screen shows."""
-    return np.asarray(values, dtype=np.float32)
+def small(values: Any, step: float = 0.0) -> NDArray[np.float32]:
+    """Numbers for a chart as 32-bit floats of five digits, or in multiples of ``step``: they pack better.
+
+    ``step`` is a power of two, so that its multiples end in zeros.
+    """
+    if step > 0.0:
+        return (step * np.round(np.asarray(values, dtype=float) / step)).astype(np.float32)
+    bits = np.ascontiguousarray(values, dtype=np.float32).view(np.uint32)
+    return ((bits + _HALF) & ~(2 * _HALF - np.uint32(1))).view(np.float32)
 
 
 def thinned(values: ArrayLike, most: int = 6000) -> tuple[NDArray[np.float64], float]:

@@ -3,7 +3,7 @@
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.recording.measurements.pictures import COLOURS
+from fmu_bearing.results.picture_parts import COLOURS, coincident, series as drawn
 
 #: Colours of things that are no component of sound.
 FURTHER = {
@@ -26,6 +26,8 @@ ON_DARK = {
     "#B8860B": "#E0B84A",
     "#00806B": "#2FB8A0",
 }
+_DASHES = {"-": "solid", "--": "dash", "-.": "dashdot", ":": "dot"}
+_TOOLS = 44  # px: the toolbar's width, so that it covers neither curves nor the legend
 _FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 
 
@@ -39,6 +41,21 @@ def faint(name: str, alpha: float = 0.18) -> str:
     text = colour(name).lstrip("#")
     red, green, blue = (int(text[k : k + 2], 16) for k in (0, 2, 4))
     return f"rgba({red},{green},{blue},{alpha})"
+
+
+def series(place: int) -> dict[str, Any]:
+    """Return colour and dashes of a curve by its place, dashed where all colours are taken."""
+    return _plotly(drawn(place))
+
+
+def microphone(place: int, count: int) -> dict[str, Any]:
+    """Return colour, dashes and width of one of ``count`` microphones, whose curves may coincide."""
+    return _plotly(coincident(place, count))
+
+
+def _plotly(style: dict[str, Any]) -> dict[str, Any]:
+    found = {"color": style["color"], "dash": _DASHES[style["linestyle"]]}
+    return found | ({"width": style["linewidth"]} if "linewidth" in style else {})
 
 
 def words(name: str) -> str:
@@ -70,10 +87,11 @@ def _style(ink: str, grid: str, line: str, ground: str, panel: str) -> dict[str,
 
 
 def figure(height: int = 380, **layout: Any) -> Any:
-    """Return an empty Plotly figure with room for axes, its legend above."""
+    """Return an empty Plotly figure: room for axes, its legend above, the toolbar upright to the right."""
     go = need("plotly.graph_objects", "a report")
     base = {
-        "template": {}, "height": height, "margin": {"l": 62, "r": 16, "t": 36, "b": 52},
+        "template": {}, "height": height, "margin": {"l": 62, "r": _TOOLS, "t": 36, "b": 52},
+        "modebar": {"orientation": "v"},
         "legend": {"orientation": "h", "x": 0.0, "y": 1.0, "xanchor": "left", "yanchor": "bottom"},
         "hovermode": "closest",
     }  # fmt: skip
@@ -83,15 +101,20 @@ def figure(height: int = 380, **layout: Any) -> Any:
 def polar(height: int, radial: dict[str, Any] | None = None) -> Any:
     """Return an empty polar figure as seen from +X: 12 o'clock on top, positive rotation anticlockwise."""
     return figure(
-        height, margin={"l": 40, "r": 40, "t": 30, "b": 70},
+        height, margin={"l": _TOOLS, "r": _TOOLS, "t": 30, "b": 70},
         legend={"orientation": "h", "x": 0.5, "y": -0.1, "xanchor": "center", "yanchor": "top"},
         polar={
             "angularaxis": {
                 "rotation": 90, "direction": "counterclockwise", "dtick": 30, "ticksuffix": "\u00b0",
             },
-            "radialaxis": {"angle": 15, "tickangle": 15} | (radial or {}),
+            "radialaxis": radial_axis(radial or {}),
         },
     )  # fmt: skip
+
+
+def radial_axis(more: dict[str, Any]) -> dict[str, Any]:
+    """Return the radial axis of a polar figure."""
+    return {"angle": 15, "tickangle": 15} | more
 
 
 def bar(title: str, length: float = 1.0) -> dict[str, Any]:

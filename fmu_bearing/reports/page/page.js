@@ -4,21 +4,47 @@
   const styles = JSON.parse(document.getElementById("styles").textContent);
   const PRINT_WIDTH = 690; // CSS pixels between the margins of A4
   const PRINT_SCALE = 0.78; // of a figure's height: two fit on a page
-  const figures = new Map();
-  for (const node of document.querySelectorAll("script.figure")) {
-    figures.set(node.id.slice("figure-".length), JSON.parse(node.textContent));
-  }
+  let figures = new Map();
   const plots = [...document.querySelectorAll(".plot")];
   const wide = { displaylogo: false, responsive: true, showSendToCloud: false, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
   let theme = "light";
   let printing = false;
+
+  // Library and figures are compressed; arrays follow the figures' JSON, bytes of equal weight side by side.
+  const unpacked = async (id) => {
+    const text = atob(document.getElementById(id).textContent);
+    const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  };
+  const KINDS = { f8: Float64Array, f4: Float32Array, i4: Int32Array, i2: Int16Array, i1: Int8Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array };
+  const loaded = async () => {
+    const [library, packed] = await Promise.all(["library", "figures"].map(unpacked));
+    const script = document.createElement("script");
+    script.textContent = new TextDecoder().decode(library);
+    document.head.append(script);
+    const size = new DataView(packed).getUint32(0, true);
+    const arrays = new Uint8Array(packed, 4 + size);
+    const shaped = (flat, [first, ...rest]) => {
+      if (!rest.length) return flat;
+      const each = flat.length / first;
+      return Array.from({ length: first }, (_, k) => shaped(flat.subarray(k * each, (k + 1) * each), rest));
+    };
+    const restored = (key, value) => {
+      if (!value?.packed) return value;
+      const [kind, place, count, shape] = value.packed;
+      const wide = KINDS[kind].BYTES_PER_ELEMENT;
+      const bytes = new Uint8Array(count * wide);
+      for (let k = 0; k < count; k++) for (let b = 0; b < wide; b++) bytes[k * wide + b] = arrays[place + b * count + k];
+      return shaped(new KINDS[kind](bytes.buffer), shape);
+    };
+    figures = new Map(Object.entries(JSON.parse(new TextDecoder().decode(new Uint8Array(packed, 4, size)), restored)));
+  };
 
   // Colours of the light page exchanged for colours of the dark one, through all of a figure.
   const tinted = (value, table) => {
     if (typeof value === "string") return table[value] ?? value;
     if (Array.isArray(value)) return value.map((item) => tinted(item, table));
     if (value && typeof value === "object" && !ArrayBuffer.isView(value)) {
-      if ("bdata" in value) return value;
       return Object.fromEntries(Object.entries(value).map(([key, item]) => [key, tinted(item, table)]));
     }
     return value;
@@ -70,6 +96,7 @@
   };
 
   const draw = (plot) => {
+    if (!figures.has(plot.dataset.chart)) return undefined; // not unpacked yet
     const style = printing ? "light" : theme;
     const width = printing ? PRINT_WIDTH : plot.clientWidth;
     const { data, layout } = prepared(plot.dataset.chart, style, width);
@@ -81,7 +108,8 @@
     plot.style.height = `${layout.height}px`;
     const camera = plot._fullLayout?.scene?.camera;
     if (camera && layout.scene) layout.scene.camera = structuredClone(camera);
-    return Plotly.react(plot, data, layout, wide);
+    // on a narrow page there is no room beside a figure, and fingers zoom
+    return Plotly.react(plot, data, layout, { ...wide, displayModeBar: width < 560 ? false : "hover" });
   };
 
   // Print and browsers without WebGL get a picture of what is turned by hand.
@@ -170,6 +198,12 @@
 
   // One figure after the other, so that the page answers while it is drawn.
   (async () => {
+    try {
+      if (plots.length) await loaded();
+    } catch (problem) {
+      document.getElementById("old-browser").hidden = false;
+      throw problem;
+    }
     for (const plot of plots) {
       await draw(plot);
       if (plot.closest(".solid")) plot.on("plotly_relayout", pictures);

@@ -2,12 +2,15 @@
 
 import datetime
 import platform
+from collections.abc import Sequence
 from importlib import metadata, resources
 from typing import Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.reports.page.blocks import Chart, Section, Shapes, Table, packed
+from fmu_bearing.reports.page import packing
+from fmu_bearing.reports.page.blocks import Card, Chart, Section, Shapes, Table, packed
 from fmu_bearing.reports.page.look import styles
+from fmu_bearing.reports.sections.verdict_table import Overall
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
 POLICY = (
@@ -27,7 +30,8 @@ def version() -> str:
 def render(
     title: str, subtitle: str, source: str, sections: list[Section], tiles: list[dict[str, Any]],
     sentences: list[str], warnings: list[str], verdicts: Table | None = None,
-    made: datetime.datetime | None = None, kind: str = "Bearing report",
+    made: datetime.datetime | None = None, kind: str = "Bearing report", overall: Overall | None = None,
+    cards: Sequence[Card] = (),
 ) -> str:  # fmt: skip
     """Return the page as text.
 
@@ -39,11 +43,15 @@ def render(
     tiles, sentences, warnings
         As ``summary`` makes them.
     verdicts : Table, optional
-        As ``verdicts`` makes it.
+        As `judged` makes it.
     made : datetime, optional
         Default: now.
     kind : str
         Text above the title.
+    overall : Overall, optional
+        As `overall_of` makes it: the first thing on the page.
+    cards : sequence of Card
+        One for each bearing of a set.
 
     Raises
     ------
@@ -57,18 +65,20 @@ def render(
     template = environment.from_string(files.joinpath("page.html.j2").read_text("utf-8"))
     made = made or datetime.datetime.now(datetime.UTC)
     blocks = [block for section in sections for block in section.blocks]
+    charts = {block.key: block.figure for block in blocks if isinstance(block, Chart)}
     versions = f"fmu-bearing {version()}, Python {platform.python_version()}".replace(" ,", ",")
     return str(
         template.render(
             title=title, subtitle=subtitle, source=source, sections=sections, tiles=tiles,
-            sentences=sentences, warnings=warnings, verdicts=verdicts, policy=POLICY,
+            overall=overall, cards=cards, sentences=sentences, warnings=warnings, verdicts=verdicts,
+            policy=POLICY,
             made=f"{made:%d %B %Y, %H:%M} UTC", versions=versions,
-            charts=[block for block in blocks if isinstance(block, Chart)], kind=kind,
+            figures=packing.text_of(packing.figures(charts)) if charts else "", kind=kind,
             shapes=[block for block in blocks if isinstance(block, Shapes)],
             styles=packed(styles()),
             css=files.joinpath("page.css").read_text("utf-8"),
             script=files.joinpath("page.js").read_text("utf-8"),
             shapes_script=files.joinpath("shapes.js").read_text("utf-8"),
-            library=library,
+            library=packing.text_of(library.encode("utf-8")) if charts else "",
         )
     )  # fmt: skip

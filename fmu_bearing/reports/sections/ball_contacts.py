@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
+from fmu_bearing.reports.data.curves import curve, curve_words
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import (
@@ -19,7 +20,6 @@ from fmu_bearing.reports.page.blocks import (
     Table,
     Words,
     small,
-    thinned,
 )
 from fmu_bearing.run.balls import RACES, name_of
 
@@ -184,17 +184,18 @@ def _over_time(subject: Subject) -> Chart:
         for what, dash in (("load_mean", "solid"), ("load_max", "dot")):
             if not subject.has(f"contact.{race}.{what}"):
                 continue
-            values, span = thinned(subject.output(f"contact.{race}.{what}"))
-            figure.add_scatter(
-                x0=float(subject.time[0]), dx=span * subject.step, y=small(values), mode="lines",
-                name=f"{race} race, {'mean' if what == 'load_mean' else 'largest'}",
-                line={"color": look.colour(race), "width": 1.2, "dash": dash},
-            )  # fmt: skip
+            name = f"{race} race, {'mean' if what == 'load_mean' else 'largest'}"
+            for part in curve(subject, subject.output(f"contact.{race}.{what}"), name):
+                figure.add_scatter(**part, line={"color": look.colour(race), "width": 1.2, "dash": dash})
     figure.update_layout(
         xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("load of a ball, N")
     )
     return Chart(
-        "contacts-time", "Loads over time", figure, "Mean load of the balls at both races over time."
+        "contacts-time",
+        "Loads over time",
+        figure,
+        "Mean load of the balls at both races over time.",
+        note=curve_words(subject),
     )
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 
 from fmu_bearing.design.heat import ARISES, GOES
+from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words, small, thinned
-from fmu_bearing.reports.sections.ring_motion import last_turns
+from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words
 
 _SHARES = {
     "contacts": (ARISES["sliding"], "inner_ring"),
@@ -45,11 +45,8 @@ def _curves(subject: Subject, names: dict[str, tuple[str, str]], factor: float) 
     for name, (words, tint) in names.items():
         if not subject.has(name):
             continue
-        values, span = thinned(factor * subject.output(name), 8000)
-        traces.append({
-            "x0": float(subject.time[0]), "dx": span * subject.step, "y": small(values), "mode": "lines",
-            "name": words, "line": {"color": look.colour(tint), "width": 1.3},
-        })  # fmt: skip
+        line = {"color": look.colour(tint), "width": 1.3}
+        traces += [part | {"line": line} for part in curve(subject, factor * subject.output(name), words)]
     return traces
 
 
@@ -72,7 +69,7 @@ def _torque(subject: Subject) -> Chart:
         (window,),
         note="A share is the power lost there over the shaft speed. The torque taken from the shaft also "
         "stores and gives "
-        "back energy, so it varies about the shares' sum.",
+        f"back energy, so it varies about the shares' sum. {curve_words(subject)}",
     )  # fmt: skip
 
 
@@ -92,7 +89,7 @@ def _heats(subject: Subject) -> Chart:
         f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
         (window,),
         note="Means over each communication step. Half of what a contact loses heats its ring, all else "
-        "goes to oil and balls.",
+        f"goes to oil and balls. {curve_words(subject)}",
     )  # fmt: skip
 
 

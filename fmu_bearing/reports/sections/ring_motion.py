@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, power_spectral_density
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import (
@@ -19,7 +20,6 @@ from fmu_bearing.reports.page.blocks import (
     Table,
     Words,
     small,
-    thinned,
 )
 from fmu_bearing.reports.sections.kinematic_marks import end_words, mark_kinematics
 
@@ -29,9 +29,9 @@ _AXIS_WORDS = {"x": "x, along the axis", "y": "y, horizontal", "z": "z, upwards"
 BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
 _LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
 _LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
-_POINTS = 14_000  # of a curve: half a second as it is
+_CELLS = 160  # of an orbit's picture to either side: two pixels each
 _ORBIT_TURNS = 5.0
-_SHOWN_TURNS = 10.0  # at first: one sees the shaft's turns
+_GREY = [[0.0, "rgba(127,127,127,0)"], [1.0 / 255.0, "rgba(127,127,127,0.2)"], [1.0, "rgba(127,127,127,0.9)"]]
 
 
 def bodies_of(subject: Subject) -> list[str]:
@@ -73,13 +73,13 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
     rpm = abs(subject.speed) / RPM
     for body in bodies:
         for axis in AXES:
-            values, span = thinned(1e3 * subject.output(f"{body}.velocity.{axis}"), _POINTS)
-            figure.add_scatter(
-                x0=float(subject.time[0]), dx=span * subject.step, y=small(values), mode="lines",
-                name=_AXIS_WORDS[axis], meta={"body": body}, visible=body == bodies[0],
-                line={"color": look.colour(axis), "width": 1.2},
-                hovertemplate="%{x:.5f} s: %{y:.3f} mm/s<extra>" + axis + "</extra>",
-            )  # fmt: skip
+            velocity = 1e3 * subject.output(f"{body}.velocity.{axis}")
+            for part in curve(subject, velocity, _AXIS_WORDS[axis]):
+                figure.add_scatter(
+                    **part, meta={"body": body}, visible=body == bodies[0],
+                    line={"color": look.colour(axis), "width": 1.2},
+                    hovertemplate="%{x:.5f} s: %{y:.3f} mm/s<extra>" + axis + "</extra>",
+                )  # fmt: skip
     window = last_turns(subject)
     figure.update_layout(
         xaxis=look.axis("time after initialisation, s", range=window.options[0].layout["xaxis.range"]),
@@ -94,25 +94,8 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
             Choice("body", "Body", [Option(look.words(body), body) for body in bodies]),
             window,
         ),
-        note=f"Instantaneous values every {1e6 * subject.step:.4g} us; where a long run has more points "
-        f"than a screen, "
-        "smallest and largest of each span. Drag to zoom, double-click to see all.",
+        note=f"Instantaneous values. {curve_words(subject)} Drag to zoom, double-click to see all.",
     )
-
-
-def last_turns(subject: Subject) -> Choice:
-    """Choose how much of the time is shown, in turns of the shaft; few at first."""
-    first, last = float(subject.time[0]), float(subject.time[-1])
-    spans = [("all", last - first)]
-    spans += [(f"{n:g} turns", n * subject.turn) for n in (100.0, 30.0, _SHOWN_TURNS, 3.0)]
-    options = [
-        Option(text, text, {"xaxis.range": [max(first, last - span), last], "yaxis.autorange": True})
-        for text, span in spans
-        if text == "all" or span < 0.9 * (last - first)
-    ]
-    # the first of the list is what is shown at first
-    options.sort(key=lambda option: option.text != f"{_SHOWN_TURNS:g} turns")
-    return Choice("window", "Show the last", options)
 
 
 def _rms_table(subject: Subject, bodies: list[str]) -> Table:
@@ -249,18 +232,16 @@ def _orbits(subject: Subject) -> Chart:
             bins[k * 100] + (0.07 if count > 1 else 0.25),
             bins[(k + 1) * 100] - (0.01 if count > 1 else 0.25),
         )
-        for part, window, width, opacity in (
-            ("whole run", slice(None), 0.7, 0.35),
-            (f"last {turns:.3g} turns", slice(-last, None), 1.6, 1.0),
-        ):
-            step = max(1, len(y[window]) // 8000)
-            figure.add_scatter(
-                x=small(y[window][::step]), y=small(z[window][::step]), mode="lines", opacity=opacity,
-                name=f"{look.words(body)}, {part}", xaxis=f"x{number}", yaxis=f"y{number}",
-                meta={"orbit": body},
-                line={"color": look.colour(body if part != "whole run" else "grey"), "width": width},
-                hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
-            )  # fmt: skip
+        figure.add_heatmap(
+            **_places(y, z, reach), xaxis=f"x{number}", yaxis=f"y{number}", meta={"orbit": body},
+            colorscale=_GREY, zmin=0, zmax=255, zsmooth=False, showscale=False, hoverinfo="skip",
+        )  # fmt: skip
+        figure.add_scatter(
+            x=small(y[-last:]), y=small(z[-last:]), mode="lines", xaxis=f"x{number}", yaxis=f"y{number}",
+            name=f"{look.words(body)}, last {turns:.3g} turns", meta={"orbit": body},
+            line={"color": look.colour(body), "width": 1.6},
+            hovertemplate="y %{x:.3f} um, z %{y:.3f} um<extra>" + look.words(body) + "</extra>",
+        )  # fmt: skip
         # on a narrow page one above the other
         low = 1.0 - (k + 0.78) / count
         narrow |= {
@@ -291,11 +272,21 @@ def _orbits(subject: Subject) -> Chart:
         + " in the plane across the axis, in micrometres: "
         + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in found.items()),
         note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: "
-        f"the whole recording, "
-        f"in colour its last {turns:.3g} turns. "
+        f"places of the whole recording in squares of 1/{_CELLS} of a picture, the darker the oftener; "
+        f"in colour every value of its last {turns:.3g} turns. "
         + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in found.items())
         + ".",
     )
+
+
+def _places(y: NDArray[np.float64], z: NDArray[np.float64], reach: float) -> dict[str, Any]:
+    """Return a heatmap of how often a centre was in each square: the logarithm, 0 to 255."""
+    counts, _, _ = np.histogram2d(z, y, _CELLS, [[-reach, reach], [-reach, reach]])
+    tones = np.log1p(counts)
+    cell = 2.0 * reach / _CELLS
+    middle = 0.5 * cell - reach
+    shown = np.ceil(255.0 * tones / max(float(tones.max()), 1e-9)).astype(np.uint8)
+    return {"x0": middle, "dx": cell, "y0": middle, "dy": cell, "z": shown}
 
 
 def _extent(y: NDArray[np.float64], z: NDArray[np.float64]) -> str:

@@ -103,6 +103,8 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
         if lines:
             line = lines[0]
             why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
+            if line.nearest:
+                why += f" (the nearest, {line.nearest}, is {abs(line.nearest_off):.0f} Hz off)"
             text = f"Its strongest line is at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}"
             if sure is not None:
                 kept, drawn = sure.stays

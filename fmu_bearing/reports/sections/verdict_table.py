@@ -1,11 +1,12 @@
-"""The table of verdicts on the first screen."""
+"""The verdicts on the first screen: the overall one, and the table of all."""
 
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
-from fmu_bearing.design.verdict import Verdict
+from fmu_bearing.design.verdict import Judgement, Verdict, overall
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
@@ -19,7 +20,42 @@ _COLUMNS = ("", "value", "verdict", "limit", "source of the limit")
 _EXTREMES = {"pressure_max": np.max, "shoulder_margin": np.min}
 
 
-def verdict_table(subject: Subject) -> Table | None:
+@dataclass(frozen=True)
+class Overall:
+    """The gravest judgement, how many figures have it, and which figures exceed a limit, gravest first."""
+
+    judgement: Judgement
+    words: str
+    beyond: Sequence[str]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """All verdicts on a run, and their table."""
+
+    found: tuple[Verdict, ...]
+    table: Table
+
+
+def overall_of(found: Iterable[Verdict], several: bool = False) -> Overall:
+    """Return the overall verdict; ``several``: figures of several bearings are named by bearing."""
+    verdicts_ = list(found)
+    judged = [one for one in verdicts_ if one.judgement != "not judged"]
+    beyond = {
+        which: [one for one in judged if one.judgement == which] for which in ("change", "watch")
+    }  # fmt: skip
+    count = ", ".join(f"{len(those)} to {which}" for which, those in beyond.items() if those)
+    words = f"of {len(judged)} figures with a limit {count or 'all are within it'}"
+    lines = [
+        f"{f'bearing {one.bearing}: ' if several and one.bearing is not None else ''}{one.label} {one.text}, "
+        f"limit {one.limit} ({which})"
+        for which, those in beyond.items()
+        for one in those
+    ]
+    return Overall(overall(verdicts_), words, lines)
+
+
+def judged(subject: Subject) -> Judged | None:
     """Return the verdicts on the run; None without scene or equilibrium.
 
     Pressure, film and shoulder are judged by the run's extremes, all else at the scene's loads and the mean
@@ -37,7 +73,7 @@ def verdict_table(subject: Subject) -> Table | None:
     found = verdicts(point)
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
     caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its steady state"
-    return Table(caption, _COLUMNS, rows, note=_note(point, found))
+    return Judged(found, Table(caption, _COLUMNS, rows, note=_note(point, found), stacked=True))
 
 
 def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, str]:

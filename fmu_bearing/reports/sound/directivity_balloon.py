@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +12,13 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
 from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, small
+from fmu_bearing.reports.page.blocks import DECIBELS, Absent, Block, Chart, Choice, Option, Section, small
 
 _LATITUDES, _AROUND = 31, 36  # every 6 and 10 deg, so that the three planes are among the points
 _CIRCLE = 72
 _RESOLUTION = 20.0  # Hz
 _RANGE = 30.0  # dB below the loudest direction that the balloon's radius shows
+_PLACE = 1.0 / 1024.0  # of the largest radius: a third of a pixel
 _OCTAVES = (125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)
 _PLANES = {"YZ, bearing plane": "x", "XY, horizontal": "y", "XZ, upright": "z"}  # and the colour of each
 
@@ -54,6 +56,10 @@ def _bands(frequency: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         name = f"octave {centre:g} Hz" if centre < 1000.0 else f"octave {centre / 1e3:g} kHz"
         found[name] = inside.astype(float)
     return found
+
+
+def _unit(band: str) -> str:
+    return "dB(A)" if band == "A-weighted" else "dB"
 
 
 def sphere(subject: Subject) -> Sphere:
@@ -113,11 +119,11 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
         radius = np.maximum(whole - (top - _RANGE), 0.0) / _RANGE
         x, y, z = (radius * closed[..., axis] for axis in range(3))
         figure.add_surface(
-            x=small(x), y=small(y), z=small(z), surfacecolor=small(whole),
+            x=small(x, _PLACE), y=small(y, _PLACE), z=small(z, _PLACE), surfacecolor=small(whole, DECIBELS),
             cmin=max(top - _RANGE, float(values.min()) - 0.05),
             cmax=top, colorscale="Viridis", meta={"band": name}, visible=k == 0, customdata=spots,
-            colorbar=look.bar("dB", 0.75),
-            hovertemplate="%{surfacecolor:.1f} dB at %{customdata[0]:.0f} deg from +X, "
+            colorbar=look.bar(_unit(name), 0.75),
+            hovertemplate="%{surfacecolor:.1f} " + _unit(name) + " at %{customdata[0]:.0f} deg from +X, "
             "%{customdata[1]:.0f} deg from 12 o'clock<extra></extra>",
             lighting={"ambient": 0.75, "diffuse": 0.5, "specular": 0.1}, showscale=True,
         )  # fmt: skip
@@ -136,8 +142,8 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     a = found.levels["A-weighted"]
     return Chart(
         "balloon", f"Level over direction at {subject.radius:g} m", figure,
-        f"Three-dimensional directivity at {subject.radius:g} m: A-weighted levels from {a.min():.1f} to "
-        f"{a.max():.1f} dB.",
+        f"Three-dimensional directivity at {subject.radius:g} m: levels from {a.min():.1f} to {a.max():.1f} "
+        "dB(A).",
         (_choice(found, "Level"),), solid=True,
         note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
         f"centre is "
@@ -173,19 +179,23 @@ def _scale(values: NDArray[np.float64]) -> tuple[float, float]:
     return max(min(5.0 * math.floor((float(values.min()) - 1.0) / 5.0), high - 10.0), high - 40.0), high
 
 
+def _radial(band: str, values: NDArray[np.float64]) -> dict[str, Any]:
+    """Return what a polar chart's radial axis shows: the range of a band's levels, and their unit."""
+    return {"range": list(_scale(values)), "title": {"text": _unit(band)}}
+
+
 def _planes(subject: Subject, found: Sphere) -> Chart:
     choices = []
-    figure = look.polar(520, {"range": list(_scale(found.levels["A-weighted"]))})
+    figure = look.polar(520, _radial("A-weighted", found.levels["A-weighted"]))
     for k, (name, values) in enumerate(found.levels.items()):
         for plane, row in _rounds(values).items():
             figure.add_scatterpolar(
-                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row), mode="lines", name=plane,
-                meta={"band": name},
-                visible=k == 0,
+                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row, DECIBELS), mode="lines",
+                name=plane, meta={"band": name}, visible=k == 0,
                 line={"color": look.colour(_PLANES[plane]), "width": 2},
-                hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra>" + plane + "</extra>",
+                hovertemplate="%{theta:.0f} deg: %{r:.1f} " + _unit(name) + "<extra>" + plane + "</extra>",
             )  # fmt: skip
-        choices.append(Option(name, name, {"polar.radialaxis.range": list(_scale(values))}))
+        choices.append(Option(name, name, {"polar.radialaxis": look.radial_axis(_radial(name, values))}))
     return Chart(
         "planes", f"Level in three planes at {subject.radius:g} m", figure,
         "Polar chart of the level in the bearing plane, the horizontal and the upright plane through the "
@@ -205,17 +215,17 @@ def _circle(subject: Subject, microphones: Microphones) -> Chart | None:
     points = list(circle_points(radius, axial, _CIRCLE))
     frequency, squares = subject.recording.mean_squares(points, subject.radiation_model, _resolution(subject))
     found = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
-    figure = look.polar(480, {"range": list(_scale(found["A-weighted"]))})
+    figure = look.polar(480, _radial("A-weighted", found["A-weighted"]))
     angle = np.linspace(0.0, 360.0, _CIRCLE + 1)
     choices = []
     for k, (name, values) in enumerate(found.items()):
         figure.add_scatterpolar(
-            theta=small(angle), r=small(np.append(values, values[0])), mode="lines", name=name,
+            theta=small(angle), r=small(np.append(values, values[0]), DECIBELS), mode="lines", name=name,
             meta={"band": name},
             visible=k == 0, line={"color": look.colour("outer_ring"), "width": 2}, showlegend=False,
-            hovertemplate="%{theta:.0f} deg: %{r:.1f} dB<extra></extra>",
+            hovertemplate="%{theta:.0f} deg: %{r:.1f} " + _unit(name) + "<extra></extra>",
         )  # fmt: skip
-        choices.append(Option(name, name, {"polar.radialaxis.range": list(_scale(values))}))
+        choices.append(Option(name, name, {"polar.radialaxis": look.radial_axis(_radial(name, values))}))
     where = f"r = {1e3 * radius:g} mm, l = {1e3 * axial:g} mm"
     return Chart(
         "circle", f"Level round the axis at {where}", figure,

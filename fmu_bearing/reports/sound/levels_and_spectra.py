@@ -1,9 +1,13 @@
 """Levels, spectra, third octaves, ranking of components and strongest lines."""
 
 import math
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fmu_bearing.acoustics.analysis.lines import Line, strongest_lines
 from fmu_bearing.acoustics.analysis.third_octave import spread
 from fmu_bearing.recording.measurements.measure import BEYOND, strongest
 from fmu_bearing.recording.measurements.pictures import band_place
@@ -11,13 +15,29 @@ from fmu_bearing.recording.measurements.tables import lines_table
 from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.reports.page.blocks import (
+    DECIBELS,
+    Block,
+    Chart,
+    Choice,
+    Option,
+    Section,
+    Table,
+    Words,
+    small,
+)
 from fmu_bearing.reports.sections.kinematic_marks import END, end_words, mark_kinematics
 from fmu_bearing.reports.sections.ring_motion import reach
+from fmu_bearing.results.levels import decibels
+from fmu_bearing.results.picture_parts import free_heights
 
 _RANGE = 70.0  # dB shown below the highest line
 _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level
 _LINES = 12
+_ABOVE = 20.0  # dB above the highest line, for names
+#: Pixels of the spectrum's axes on a page of the usual width, and of names in it.
+_PLOT_WIDTH, _PLOT_HEIGHT = 800.0, 310.0
+_LETTER, _LINE_HEIGHT, _LEAST_RISE = 6.5, 16.0, 8.0
 
 
 def levels(subject: Subject, microphones: Microphones) -> Section:
@@ -43,11 +63,12 @@ def spectra(subject: Subject, microphones: Microphones) -> Section:
 
 def _level_table(microphones: Microphones) -> Table:
     rows = []
-    names = microphones.components
+    levels, silent = microphones.levels, len(microphones.names) * [-math.inf]
+    names = ["total", *microphones.parts]
     for k, (name, place) in enumerate(zip(microphones.names, microphones.positions, strict=True)):
         where = ", ".join("?" if math.isnan(v) else f"{1e3 * v:.4g}" for v in place)
-        cells = [f"{microphones.levels['A'][c][k]:.1f}" for c in names]
-        rows.append([name, where, f"{microphones.levels['Z']['total'][k]:.1f}", *cells])
+        cells = [decibels(levels["A"].get(c, silent)[k]) for c in names]
+        rows.append([name, where, decibels(levels["Z"]["total"][k]), *cells])
     parts = [f"{look.words(c)}, dB(A)" for c in names[1:]]
     duration = microphones.subject.recording.size / microphones.rate
     return Table(
@@ -55,7 +76,7 @@ def _level_table(microphones: Microphones) -> Table:
         ["microphone", "x, y, z, mm", "Leq, dB", "LAeq, dB(A)", *parts],
         rows,
         note=f"Over {duration:.3g} s. Pressures of components add with their phases, so their levels need "
-        f"not sum to the total.",
+        f"not sum to the total. A dash: silent.",
         folded=len(rows) > 8,
     )
 
@@ -66,13 +87,13 @@ def _ranking(microphones: Microphones) -> Chart:
         height=max(320, 90 + 44 * min(len(microphones.names), 8)) if len(microphones.names) <= 8 else 380
     )
     level = "LAeq, dB(A)"
-    for weighting in ("A", "Z"):
+    for weighting, unit in (("A", "dB(A)"), ("Z", "dB")):
         for name in names:
             values = microphones.levels[weighting][name]
             figure.add_bar(
                 x=small(values), y=microphones.names, orientation="h", name=look.words(name),
                 marker={"color": look.colour(name)}, meta={"weighting": weighting}, visible=weighting == "A",
-                hovertemplate="%{y}: %{x:.1f} dB<extra>" + look.words(name) + "</extra>",
+                hovertemplate="%{y}: %{x:.1f} " + unit + "<extra>" + look.words(name) + "</extra>",
             )  # fmt: skip
     if len(microphones.names) > 8:  # a circle of microphones: upright
         for trace in figure.data:
@@ -133,7 +154,7 @@ def _microphone_choice(microphones: Microphones) -> Choice:
 
 def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     figure = look.figure(height=470)
-    choice = _microphone_choice(microphones)
+    choice = _named(subject, microphones, _microphone_choice(microphones))
     first = choice.options[0].value
     top = -math.inf
     # the total is drawn first, below the others
@@ -143,7 +164,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
             top = max(top, float(values[keep].max()))
             figure.add_scatter(
                 x0=float(frequency[keep][0]), dx=float(frequency[1] - frequency[0]),
-                y=small(values[keep]), mode="lines",
+                y=small(values[keep], DECIBELS), mode="lines",
                 name=look.words(name), meta={"mic": str(k), "component": name},
                 visible=str(k) == first,
                 line={"color": look.colour(name), "width": 2.4 if name == "total" else 1.1},
@@ -152,7 +173,9 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     mark_kinematics(figure, subject)
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, 10_000.0]),
-        yaxis=look.axis("level, dB re 20 uPa", range=[top - _RANGE, top + 5.0]),
+        yaxis=look.axis("level, dB re 20 uPa", range=[top - _RANGE, top + _ABOVE]),
+        annotations=choice.options[0].layout["annotations"],
+        meta={"narrow": {"annotations": []}},  # no room: the table has them
     )
     return Chart(
         "spectrum", "Spectrum, whole and by component", figure,
@@ -162,8 +185,53 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
         note=f"{microphones.resolution:.3g} Hz between lines, flat-top window: a line's level is right "
         f"within 0.1 dB. Dotted: "
         "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
-        "to show or hide." + end_words(subject),
+        "to show or hide. The strongest lines are named as far as there is room, one that nothing explains "
+        "by the nearest kinematic line with a question mark and its distance." + end_words(subject),
     )  # fmt: skip
+
+
+def _named(subject: Subject, microphones: Microphones, choice: Choice) -> Choice:
+    """Return the choice of a microphone with the names of its strongest lines at their peaks."""
+    spectra = [microphones.spectra["total"][int(option.value)] for option in choice.options]
+    top = max(float(values[(f >= 20.0) & (f <= 20_000.0)].max()) for f, values in spectra)
+    options = [
+        replace(option, layout={"annotations": _labels(_lines(subject, *spectrum), top)})
+        for option, spectrum in zip(choice.options, spectra, strict=True)
+    ]
+    return replace(choice, options=options)
+
+
+def _labels(lines: list[Line], top: float) -> list[dict[str, Any]]:
+    """Return names above peaks, the strongest first, of which none covers another.
+
+    They are placed for the chart at its usual width, with 20 kHz linear and logarithmic; closer up there is
+    more room.
+    """
+    named = [line for line in lines if line.explanation and 20.0 < line.frequency < 20_000.0]
+    scale = _PLOT_HEIGHT / (_RANGE + _ABOVE)
+    places = [
+        (_PLOT_WIDTH * line.frequency / 20e3, _PLOT_WIDTH * math.log(line.frequency / 20.0) / math.log(1e3))
+        for line in named
+    ]
+    base = [_PLOT_HEIGHT - scale * (top + _ABOVE - line.level) + _LEAST_RISE for line in named]
+    widths = [_LETTER * len(line.explanation) + _LETTER for line in named]
+    heights = free_heights(places, base, widths, _LINE_HEIGHT, _PLOT_HEIGHT)
+    return [
+        {
+            "x": line.frequency, "y": line.level, "text": line.explanation, "font": {"size": 11},
+            "ax": 0, "ay": low - _LEAST_RISE - height, "arrowhead": 0, "arrowwidth": 0.8, "yanchor": "bottom",
+            "arrowcolor": look.colour("grey"),
+        }
+        for line, low, height in zip(named, base, heights, strict=True)
+        if height is not None
+    ]  # fmt: skip
+
+
+def _lines(subject: Subject, frequency: NDArray[np.float64], values: NDArray[np.float64]) -> list[Line]:
+    """Return the strongest lines of a spectrum, explained where the bearing is known."""
+    if subject.recording.scene is None:
+        return strongest_lines(frequency, values, _LINES)
+    return strongest(subject.recording, frequency, values, _LINES)
 
 
 def _line_table(subject: Subject, microphones: Microphones) -> Table:
@@ -171,12 +239,7 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
         range(len(microphones.shown)), key=lambda k: microphones.levels["A"]["total"][microphones.shown[k]]
     )
     frequency, values = microphones.spectra["total"][place]
-    if subject.recording.scene is None:
-        from fmu_bearing.acoustics.analysis.lines import strongest_lines
-
-        found = strongest_lines(frequency, values, _LINES)
-    else:
-        found = strongest(subject.recording, frequency, values, _LINES)
+    found = _lines(subject, frequency, values)
     columns, rows = lines_table(found)
     end = subject.recording.excitation_end
     for row, line in zip(rows, found, strict=True):
@@ -191,7 +254,7 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
         rows,
         note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % "
         "of sliding and at "
-        "least one spectral line allowed.",
+        "least one spectral line allowed; where none fits, the nearest is named with its distance.",
     )
 
 

@@ -17,6 +17,7 @@ from fmu_bearing.reports.sections.kinematic_marks import END
 
 _HIGHEST = 8000.0  # Hz
 _RANGE = 70.0  # dB
+_STEP = 1.0 / 16.0  # dB: of the colours
 _ROWS = 160  # at most
 _LINES = ("f_r", "f_c", "f_i", "f_o")
 
@@ -76,9 +77,8 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
     unit = "r/min" if over_speed else "s"
     figure.add_heatmap(
         x0=float(found.frequency[0]), dx=float(found.frequency[1] - found.frequency[0]), y=small(y[order]),
-        z=small(np.round(found.levels[order], 2)), zmin=top - _RANGE, zmax=top, zsmooth=False,
-        colorscale="Magma",
-        colorbar=look.bar("dB"),
+        z=small(np.maximum(found.levels[order], top - _RANGE), _STEP), zmin=top - _RANGE, zmax=top,
+        zsmooth=False, colorscale="Magma", colorbar=look.bar("dB"),
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip
     if over_speed:
@@ -104,7 +104,8 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
         note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, "
         f"flat-top window."
         + (" Dotted: kinematic frequencies." if over_speed else "")
-        + " Dashed: end of the excitation, where it lies within the picture.",
+        + " Dashed: end of the excitation, where it lies within the picture. Levels below the scale are "
+        "drawn at its lower end.",
     )  # fmt: skip
 
 
@@ -135,13 +136,12 @@ def _over_speed(microphones: Microphones) -> Chart:
     span = max(64, recording.size // 80)
     blocks = recording.size // span
     rpm = recording.speed[: blocks * span].reshape(blocks, span).mean(axis=1) / RPM
-    tints = ("inner_ring", "outer_ring", "cage", "balls", "first", "second")
-    for k in microphones.shown:
+    for place, k in enumerate(microphones.shown):
         weighted = _weighted(microphones, k)[: blocks * span].reshape(blocks, span)
         figure.add_scatter(
             x=small(rpm), y=small(level(np.mean(weighted**2, axis=1))), mode="lines",
             name=microphones.names[k],
-            line={"color": look.colour(tints[k % len(tints)])},
+            line=look.microphone(place, len(microphones.shown)),
             hovertemplate="%{x:.0f} r/min: %{y:.1f} dB(A)<extra>" + microphones.names[k] + "</extra>",
         )  # fmt: skip
     figure.update_layout(

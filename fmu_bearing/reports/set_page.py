@@ -19,6 +19,7 @@ from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.reports.sections.verdict_table import overall_of
+from fmu_bearing.reports.sound.set_sound import sound_of_set
 from fmu_bearing.results.table import tenths
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
@@ -81,16 +82,25 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             sections.append(Section(key, heading, blocks()))
         except Absent as problem:
             sections.append(Section(key, heading, [], str(problem)))
-    tiles, cards = _tiles(point), [_card(point, k) for k in range(len(point.bearings))]
+    loudest: list[Tile] = []
+    try:
+        sounding, microphones = sound_of_set(scene, found, tell)
+        sections += sounding
+        level = float(microphones.levels["A"]["total"][microphones.loudest])
+        label = f"loudest, at {microphones.names[microphones.loudest]}"
+        loudest.append(tile("laeq_dB", label, level, "dB(A)", ".1f"))
+    except (Absent, ValueError) as problem:
+        sections.append(Section("levels", "Levels and sources", [], str(problem)))
+    tiles, cards = _tiles(point) + loudest, [_card(point, k) for k in range(len(point.bearings))]
     whole = overall_of(judged, several=True)
     subtitle = (
         f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
         f"{scene.operation.speed_rpm:,.0f} r/min"
     )
+    source = "statics of the set, perfect bearings; sound by a short run"
     text = render(
-        title or scene.name, subtitle, "statics of the set: perfect bearings, no run", sections, tiles,
-        [], warnings, kind="Spindle report", overall=whole,
-        cards=[_shown(number, card, judged) for number, card in enumerate(cards, start=1)],
+        title or scene.name, subtitle, source, sections, tiles, [], warnings, kind="Spindle report",
+        overall=whole, cards=[_shown(number, card, judged) for number, card in enumerate(cards, start=1)],
     )  # fmt: skip
     missing = {section.key: section.missing for section in sections}
     figures = {one["key"]: one["value"] for one in tiles}

@@ -223,8 +223,8 @@ EXCLUSIONS = (
     Exclusion(
         _SET,
         {"run report": "a report of a run"},
-        "its report is made from statics, without a run",
-        "give the scene itself, without options that need a run",
+        "its report is made from statics, with a short run of its own for the sound",
+        "give the scene itself, without options of a run",
     ),
     Exclusion(
         _SET,

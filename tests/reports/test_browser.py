@@ -1,5 +1,6 @@
 """The page in headless Chromium: drawn, quiet, offline, light and dark, narrow, printed, played."""
 
+import itertools
 import re
 import shutil
 
@@ -126,6 +127,55 @@ def test_a_narrow_page_does_not_scroll_sideways(shown):
     )
     assert widest <= 400
     shown.set_viewport_size({"width": 1280, "height": 900})
+
+
+def test_verdicts_are_read_at_390_pixels_without_scrolling(shown):
+    """Each row a block of its own width: name, then value, verdict, limit and source under each other."""
+    shown.set_viewport_size({"width": 390, "height": 844})
+    try:
+        table, around = shown.eval_on_selector(
+            "#summary table.stacked", "t => [t.scrollWidth, t.closest('.scroll').clientWidth]"
+        )
+        assert table <= around <= 390
+        cells = shown.eval_on_selector_all(
+            "#summary table.stacked tbody tr:first-child > *",
+            "nodes => nodes.map(n => { const b = n.getBoundingClientRect(); "
+            "return [b.left, b.right, b.top, b.bottom, n.dataset.column ?? '']; })",
+        )
+        assert [cell[4] for cell in cells] == ["", "value", "verdict", "limit", "source of the limit"]
+        assert all(right <= 390 for _, right, *_ in cells)
+        assert all(upper[3] <= lower[2] + 0.5 for upper, lower in zip(cells, cells[1:], strict=False))
+        top = shown.eval_on_selector("#overall", "n => n.getBoundingClientRect().bottom + scrollY")
+        assert top < 844  # on the first screen
+    finally:
+        shown.set_viewport_size({"width": 1280, "height": 900})
+
+
+def test_the_toolbar_covers_no_legend_and_no_name_another(shown):
+    """Boxes on the screen: toolbar beside legend and axes; names of lines apart from each other."""
+    found = shown.eval_on_selector_all(
+        ".plot",
+        """nodes => nodes.map(plot => {
+            const box = (node) => (({ left, right, top, bottom }) => [left, right, top, bottom])(
+                node.getBoundingClientRect());
+            const all = (selector) => [...plot.querySelectorAll(selector)].map(box);
+            return [plot.dataset.chart, all('.modebar')[0], all('.legend .bg'), all('.annotation-text-g')];
+        })""",
+    )
+
+    def meet(one, other):
+        return (
+            min(one[1], other[1]) - max(one[0], other[0]) > 0.5
+            and min(one[3], other[3]) - max(one[2], other[2]) > 0.5
+        )
+
+    legends = {key: boxes for key, _, boxes, _ in found if boxes}
+    assert len(legends) >= 6
+    for key, bar, boxes, _ in found:
+        assert bar[1] > bar[0] and not any(meet(bar, box) for box in boxes), key
+    (names,) = [names for key, _, _, names in found if key == "spectrum"]
+    assert len(names) >= 3
+    assert not any(meet(a, b) for a, b in itertools.combinations(names, 2))
 
 
 def test_it_prints(shown):

@@ -1,25 +1,34 @@
 """The page about a set of bearings: sections, figures, what it refuses."""
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import operating_point, statics
 from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
+from fmu_bearing.design.verdict import overall
+from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.progress import silent
+from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports import make
+from fmu_bearing.reports.page import look
 from fmu_bearing.reports.set_page import _warmth
+from fmu_bearing.reports.sound import set_sound
+from fmu_bearing.run.simulate import simulate
+from fmu_bearing.scene import Scene
 from tests.conftest import ROOT
 from tests.reports.reading import Page
-from tests.spindle.sets import scene
+from tests.spindle.sets import scene, tables
 
 PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 
 
 def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     made = make(PAIR, tmp_path / "pair.html")
-    assert list(made.sections) == ["verdicts", "arrangement", "balls", "heat", "axial", "warmth"]
-    assert not any(made.sections.values()) and made.recording is None
+    assert list(made.sections) == ["verdicts", "arrangement", "balls", "heat", "axial", "warmth", "levels"]
+    assert [key for key, why in made.sections.items() if why] == ["levels"]  # it has no microphones
+    assert made.recording is None
     text = made.path.read_text(encoding="utf-8")
     assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
     found = statics(PAIR)
@@ -31,6 +40,77 @@ def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     _, *rows = Page(made.path).tables["Friction and heat of the settled bearings, without waviness"]
     assert rows == heat_table(point.bearings)[1]
     assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
+
+
+def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_bearing(tmp_path):
+    """Cards hold the operating point's own figures; the overall verdict is the gravest of the library's."""
+    made = make(PAIR, tmp_path / "pair.html")
+    point = operating_point(PAIR)
+    found = verdicts(point)
+    gravest = next(one for one in ("change", "watch", "good") if any(v.judgement == one for v in found))
+    assert made.verdict == overall(found) == gravest == "watch"
+    page = Page(made.path)
+    summary = page.sections["summary"]
+    judged = [one for one in found if one.judgement != "not judged"]
+    assert f"Overall verdict: {gravest}; of {len(judged)} figures with a limit" in summary
+    assert (
+        summary.index("Overall verdict") < summary.index("preload of bearing 1") < summary.index("Bearing 1 ")
+    )
+    for number, one in enumerate(point.bearings, start=1):
+        own = {
+            key.split(".")[1]: v for key, v in made.figures.items() if key.startswith(f"bearing[{number}]")
+        }
+        radial = 0.5 * (one.stiffness[1, 1] + one.stiffness[2, 2])
+        assert own == pytest.approx({
+            "axial_N": one.axial, "radial_N": one.radial,
+            "preload_N": point.statics.preloads["running"][number - 1],
+            "pressure_GPa": 1e-9 * max(one.contacts[ring]["pressure_max"] for ring in ("inner", "outer")),
+            "heat_W": one.heat.total, "axial_stiffness": 1e-6 * one.stiffness[0, 0],
+            "radial_stiffness": 1e-6 * radial, "life_h": one.life,
+        }, rel=1e-9)  # fmt: skip
+        assert f"Bearing {number} {overall(v for v in found if v.bearing == number)}" in summary
+        for text in (f"{one.axial:.1f} N", f"{one.heat.total:.1f} W", f"{1e-6 * radial:.1f} N/um"):
+            assert text in summary
+    assert made.size < 2.2e6 and len(page.libraries) == 1
+
+
+def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
+    """Levels of pressures, levels of parts at the end, and the loudest microphone on the first screen."""
+    monkeypatch.setattr(set_sound, "DURATION", 0.06)
+    monkeypatch.setattr(set_sound, "SETTLE", 0.02)
+    places = [
+        {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0},
+        {"name": "P2", "x_mm": -100.0, "y_mm": 0.0, "z_mm": 0.0},
+    ]
+    given = Scene.from_dict(tables(rpm=15e3) | {
+        "sound": {"radiation_model": "compact", "microphone": places},
+        "imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.0},
+    })  # fmt: skip
+    made = make(given, tmp_path / "set.html")
+    page = Page(made.path)
+    assert [key for key, why in made.sections.items() if not why][-3:] == ["levels", "spectra", "audio"]
+    run = simulate(given, 0.08, step=Recording.PRESSURE_STEP, outputs=["mic[*].pressure", "mic[*].spl_*"])
+    head, *rows = page.tables["Equivalent levels re 20 uPa"]
+    first = int(np.searchsorted(run.time, 0.02 - 1e-9))
+    for k, row in enumerate(rows, start=1):
+        square = np.mean(run[f"mic[{k}].pressure"][first:] ** 2)
+        assert float(row[head.index("Leq, dB")]) == pytest.approx(10.0 * np.log10(square / 4e-10), abs=0.06)
+    assert made.figures["laeq_dB"] == pytest.approx(max(float(row[3]) for row in rows), abs=0.06)
+    head, *rows = page.tables["Levels of parts alone at the end of the run, dB"]
+    for k, row in enumerate(rows, start=1):
+        for name, part in (("bearing 1", "bearing[1]"), ("bearing 2", "bearing[2]"), ("balls", "balls")):
+            wanted = run[f"mic[{k}].spl_{part}"][-1]
+            assert float(row[head.index(name)]) == pytest.approx(wanted, abs=0.051)
+    # outer rings in a housing at rest make no sound
+    assert {row[head.index("outer ring")] for row in rows} == {"-"}
+    assert len(page.sounds) == 2 and made.size < 2.5e6
+
+
+def test_nine_bearings_have_nine_curves():
+    """More bearings than colours: dashes."""
+    lines = [look.series(k) for k in range(9)]
+    assert len({(one["color"], one["dash"]) for one in lines}) == 9
+    assert {one["dash"] for one in lines[:7]} == {"solid"} and lines[7]["dash"] == "dash"
 
 
 def test_page_of_a_tandem_says_what_it_lacks(tmp_path):

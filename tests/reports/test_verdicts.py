@@ -5,11 +5,12 @@ from dataclasses import replace
 import pytest
 
 from fmu_bearing.design.operating_point import operating_point
+from fmu_bearing.design.verdict import overall
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.sections.summary import tiles
-from fmu_bearing.reports.sections.verdict_table import judged
+from fmu_bearing.reports.sections.verdict_table import judged, overall_of
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +58,24 @@ def test_a_recording_without_these_outputs_is_judged_as_the_perfect_bearing(subj
         [v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point_of(subject))
     ]
     assert table.caption.endswith("r/min: perfect bearing in its steady state")
+
+
+def test_the_overall_verdict_is_the_gravest(subject, full_report, full_page):
+    found = judged(subject).found
+    order = ("change", "watch", "good", "not judged")
+    gravest = order[min(order.index(one.judgement) for one in found)]
+    assert full_report.verdict == overall(found) == gravest != "good"
+    shown = overall_of(found)
+    beyond = [one for one in found if one.judgement in ("change", "watch")]
+    assert len(shown.beyond) == len(beyond) and shown.beyond[0].endswith(f"({gravest})")
+    begin = full_page.text.index('id="overall"')
+    assert begin < full_page.text.index('class="tiles"')
+    assert f"Overall verdict: {gravest}" in full_page.sections["summary"]
+    for one in beyond:
+        assert f"{one.label} {one.text}, limit {one.limit} ({one.judgement})" in shown.beyond
+    assert overall([]) == "not judged"
+    good = [one for one in found if one.judgement == "good"]
+    assert overall(good) == "good" and overall_of(good).words.endswith("all are within it")
 
 
 def test_a_recording_without_scene_has_none(subject):

@@ -45,6 +45,15 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Overall:
+    """The gravest judgement, how many figures have it, and which figures exceed a limit, gravest first."""
+
+    judgement: str
+    words: str
+    beyond: Sequence[str]
+
+
+@dataclass(frozen=True)
 class Card:
     """Figures of one thing on the first screen: a title, its judgement, rows of name, value and unit."""
 

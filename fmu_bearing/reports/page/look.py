@@ -25,7 +25,10 @@ ON_DARK = {
     "#8C2D04": "#E08A5F",
     "#B8860B": "#E0B84A",
     "#00806B": "#2FB8A0",
+    "rgba(255,255,255,0.75)": "rgba(27,33,40,0.75)",
 }
+#: Ground of names that lie on curves.
+BEHIND = "rgba(255,255,255,0.75)"
 _DASHES = {"-": "solid", "--": "dash", "-.": "dashdot", ":": "dot"}
 _TOOLS = 44  # px: the toolbar's width, so that it covers neither curves nor the legend
 _FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"

@@ -8,9 +8,8 @@ from typing import Any
 
 from fmu_bearing.extras import need
 from fmu_bearing.reports.page import packing
-from fmu_bearing.reports.page.blocks import Card, Chart, Section, Shapes, Table, packed
+from fmu_bearing.reports.page.blocks import Card, Chart, Overall, Section, Shapes, Table, packed
 from fmu_bearing.reports.page.look import styles
-from fmu_bearing.reports.sections.verdict_table import Overall
 
 #: Content security policy: the page loads nothing from outside. Plotly generates code for its 3-D drawing.
 POLICY = (

@@ -272,7 +272,7 @@ def _orbits(subject: Subject) -> Chart:
         + " in the plane across the axis, in micrometres: "
         + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in found.items()),
         note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: "
-        f"places of the whole recording in squares of 1/{_CELLS} of a picture, the darker the oftener; "
+        f"places of the whole recording in squares of 1/{_CELLS} of a picture, the more often, the darker; "
         f"in colour every value of its last {turns:.3g} turns. "
         + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in found.items())
         + ".",

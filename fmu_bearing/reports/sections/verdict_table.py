@@ -1,32 +1,23 @@
 """The verdicts on the first screen: the overall one, and the table of all."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
-from fmu_bearing.design.verdict import Judgement, Verdict, overall
+from fmu_bearing.design.verdict import Verdict, overall
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.subject import Subject
-from fmu_bearing.reports.page.blocks import Table
+from fmu_bearing.reports.page.blocks import Overall, Table
 
 _COLUMNS = ("", "value", "verdict", "limit", "source of the limit")
 
 
 #: What the run itself is judged by, where it was kept: its extremes, as the figures above the table.
 _EXTREMES = {"pressure_max": np.max, "shoulder_margin": np.min}
-
-
-@dataclass(frozen=True)
-class Overall:
-    """The gravest judgement, how many figures have it, and which figures exceed a limit, gravest first."""
-
-    judgement: Judgement
-    words: str
-    beyond: Sequence[str]
 
 
 @dataclass(frozen=True)

@@ -220,7 +220,7 @@ def _labels(lines: list[Line], top: float) -> list[dict[str, Any]]:
         {
             "x": line.frequency, "y": line.level, "text": line.explanation, "font": {"size": 11},
             "ax": 0, "ay": low - _LEAST_RISE - height, "arrowhead": 0, "arrowwidth": 0.8, "yanchor": "bottom",
-            "arrowcolor": look.colour("grey"),
+            "arrowcolor": look.colour("grey"), "bgcolor": look.BEHIND, "borderpad": 1,
         }
         for line, low, height in zip(named, base, heights, strict=True)
         if height is not None

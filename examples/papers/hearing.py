@@ -27,7 +27,7 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest
 from fmu_bearing.files import own_folder, read_own, write_whole
-from fmu_bearing.recording.channels.channel_history import air_of
+from fmu_bearing.recording.channels.sources import air_of
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import Scene
 

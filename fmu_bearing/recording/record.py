@@ -1,4 +1,4 @@
-"""One run from a scene's quasi-static state with the engine's channel history kept."""
+"""One run from a scene's steady state with the engine's channel history kept."""
 
 import math
 import os
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.engine.layout import SD, P, S
+from fmu_bearing.engine.layout import SD, SP, P, S, Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
+from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.prepare.sound import from_lines
 from fmu_bearing.progress import work
@@ -80,7 +81,8 @@ def record(
         In place of the scene's ``sound.radiation_model`` (``compact`` without sound). Each radiation model of
         the papers needs its own channels and must be chosen here; all others share one set of channels.
     outputs : iterable of str
-        Variables kept at the communication points.
+        Variables kept at the communication points; of a set ``contact.inner.load_mean`` and so on for each
+        of its bearings.
     microphones : bool
         Compute the scene's own microphones during the run, so that variables such as ``mic[1].leq`` can be
         kept. Without them the engine computes a single far microphone and runs faster.
@@ -138,13 +140,13 @@ def record(
     bearing.initialise()
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
-    kept = _Readings(bearing, tuple(outputs), first + size + TAIL, watch)
+    kept = _Readings(bearing, variables_of(scene, outputs), first + size + TAIL, watch)
     _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
     return Recording(
         scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),
         {name: np.array(values) for name, values in kept.outputs.items()}, kept.rows,
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
-        harmonics=int(kept.sound[SD.H_HARMONICS]),
+        harmonics=kept.histories[0].harmonics,
     )  # fmt: skip
 
 
@@ -171,6 +173,20 @@ def recording_of(source: RecordingSource, duration: float = DURATION, **options:
     return record(source, duration, **options)
 
 
+def variables_of(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Return names of variables of one bearing as a scene has them: of a set one for each bearing.
+
+    Names that a set has as a whole (``friction_torque``), or that name a bearing, stay.
+    """
+    if scene.spindle is None:
+        return tuple(names)
+    own = set(Z.BEARING_OUTPUTS) - set(SP.OUTPUTS)
+    prefixes = [one.prefix for one in scene.bearings()]
+    return tuple(
+        full for name in names for full in ([head + name for head in prefixes] if name in own else [name])
+    )
+
+
 def _doubt(scene: Scene, drives: Mapping[str, Signal]) -> str:
     """Return why figures are in doubt, at inputs that do not change; "" where the speed does."""
     if callable(drives.get("shaft_speed")):
@@ -194,23 +210,44 @@ def with_far_microphone(scene: Scene, radiation_model: str) -> Scene:
     return scene.model_copy(update={"sound": sound})
 
 
+class _History:
+    """The channel history of one bearing in the state.
+
+    ``p``: its parameters; ``part``: its place in the state.
+    """
+
+    def __init__(self, p: NDArray[np.float64], part: slice) -> None:
+        block = int(p[P.AT_SOUND])
+        if block == 0:
+            raise ValueError("the model has no sound: give the scene, or leave microphones=False")
+        sound: NDArray[np.float64] = p[block : block + int(p[P.SOUND_SIZE])]
+        self.depth, self.harmonics = int(sound[SD.H_ROWS]), int(sound[SD.H_HARMONICS])
+        lanes, channels = int(sound[SD.H_AT_LANES]), int(sound[SD.H_CHANNELS])
+        self.lanes = sound[lanes : lanes + channels].astype(int)
+        self._part, self._first = part, int(sound[SD.H_S_CHANNELS])
+
+    def count(self, state: NDArray[np.float64]) -> int:
+        """Return how many rows the engine has written since initialisation."""
+        return int(state[self._part][S.SOUND + SD.SS_COUNT])
+
+    def rows(self, state: NDArray[np.float64], which: NDArray[np.int_]) -> NDArray[np.float64]:
+        """Return rows by their numbers from initialisation on, shape (rows, channels)."""
+        first, channels = S.SOUND + self._first, len(self.lanes)
+        ring = state[self._part][first : first + channels * self.depth].reshape(self.depth, channels)
+        return ring[which % self.depth][:, self.lanes]
+
+
 class _Readings:
     """Values read at communication points: rows of the engine's channel history, speed, outputs."""
 
     def __init__(
         self, bearing: Instance, outputs: tuple[str, ...], rows: int, watch: Callable[[Instance], None] | None
     ) -> None:
-        p = bearing.p
-        block = int(p[P.AT_SOUND])
-        if block == 0:
-            raise ValueError("the model has no sound: give the scene, or leave microphones=False")
         self.bearing = bearing
         self.watch = watch
-        self.sound: NDArray[np.float64] = p[block : block + int(p[P.SOUND_SIZE])]
-        self.depth = int(self.sound[SD.H_ROWS])
-        lanes, channels = int(self.sound[SD.H_AT_LANES]), int(self.sound[SD.H_CHANNELS])
-        self.lanes = self.sound[lanes : lanes + channels].astype(int)
-        self.rows = np.zeros((rows, channels))
+        self.histories = [_History(bearing.p[at_p], at_s) for at_p, at_s in parts_of(bearing.p)]
+        self.depth = min(one.depth for one in self.histories)
+        self.rows = np.zeros((rows, sum(len(one.lanes) for one in self.histories)))
         self.count = 0
         self.time: list[float] = []
         self.speed: list[float] = []
@@ -228,15 +265,11 @@ class _Readings:
             values.append(self.bearing.get(name))
         if self.watch is not None:
             self.watch(self.bearing)
-        state = self.bearing.s[S.SOUND :]
-        channels = self.rows.shape[1]
-        first = int(self.sound[SD.H_S_CHANNELS])
-        ring = state[first : first + channels * self.depth].reshape(self.depth, channels)
-        count = int(state[SD.SS_COUNT])
+        count = self.histories[0].count(self.bearing.s)
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
-        self.rows[new] = ring[new % self.depth][:, self.lanes]
+        self.rows[new] = np.hstack([one.rows(self.bearing.s, new) for one in self.histories])
         self.count = count
 
 

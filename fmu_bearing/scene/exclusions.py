@@ -200,25 +200,9 @@ PAPER_RUNS = Exclusion(
 EXCLUSIONS = (
     Exclusion(
         _SET,
-        {
-            "recording": "a recording of sound channels",
-            "measurement": "a measurement of sound",
-            "comparison": "a comparison by new runs",
-            "identification": "an identification",
-        },
-        "the channels of several bearings are not recorded yet",
-        "read levels and pressures at microphones from `simulate` or `sweep`, or record one bearing with "
-        "`[mounting]`",
-    ),
-    Exclusion(
-        _SET,
-        {
-            "changes": "a study of changes",
-            "tradeoff": "a trade-off study",
-            "sensitivity": "a sensitivity study",
-        },
-        "these studies are built for one bearing on its mounting so far",
-        "vary keys of the set by `sweep`; `choose` compares fidelities",
+        {"identification": "an identification"},
+        "its search and its sensors are built for one bearing on its mounting so far",
+        "vary keys of the set by `sweep`, or identify one bearing with `[mounting]`",
     ),
     Exclusion(
         _SET,
@@ -298,6 +282,19 @@ EXCLUSIONS = (
         "it is not computed for bearings on another model's shaft yet",
         f"leave `[sound]` out, or {_OWN_SHAFT}",
         _sound,
+    ),
+    Exclusion(
+        _PORT,
+        {
+            "recording": "a recording of sound channels",
+            "measurement": "a measurement of sound",
+            "comparison": "a comparison by new runs",
+            "changes": "a study of changes",
+            "tradeoff": "a trade-off study",
+            "sensitivity": "a sensitivity study",
+        },
+        "another model moves the shaft, and these run the bearings without it",
+        _OWN_SHAFT,
     ),
     Exclusion(
         _PORT,

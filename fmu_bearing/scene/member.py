@@ -128,20 +128,34 @@ def still_of(scene: Given) -> Given:
     return scene.model_copy(update=changes)
 
 
+def own_mm(spindle: Spindle, number: int, along: float) -> float:
+    """Return a place along the shaft (m from the nose) in the axes of one bearing, from 0, in mm."""
+    one = spindle.bearing[number]
+    # rounded below a nanometre: places that are mirror images share their filters
+    return round(1e3 * one.sign * (along - 1e-3 * one.position_mm), 7) + 0.0
+
+
+def radiating(scene: Given, number: int) -> Given:
+    """Return the scene of one bearing of a set, from 0, as its body radiates, bare and without microphones.
+
+    A rotor without mass replaces the shaft, and fills its bore.
+    """
+    alone = one_of(scene, number)
+    shaft = Rotor(mass_kg=0.0, length_mm=set_of(scene).shaft.length_mm, diameter_mm=scene.bearing.bore_mm)
+    return alone.model_copy(update={"mounting": alone.mounted.model_copy(update={"rotor": shaft})})
+
+
 def sound_scene(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, with microphones at their places in its own axes.
 
-    For its sound alone: a rotor without mass replaces the shaft, and fills its bore. It is bare: a
-    housing of the set that radiates is `acoustics.filters.design.housing_of_set`.
+    For its sound alone, see `radiating`. It is bare: a housing of the set that radiates is
+    `acoustics.filters.design.housing_of_set`.
     """
     spindle, sound = set_of(scene), scene.sound
     assert sound is not None, "a set without sound"
-    one = spindle.bearing[number]
-    centre = 1e-3 * one.position_mm
 
     def own(along: float) -> float:
-        # rounded below a nanometre: places that are mirror images share their filters
-        return round(1e3 * one.sign * (along - centre), 7) + 0.0
+        return own_mm(spindle, number, along)
 
     microphones = tuple(
         Microphone(name=place.name, x_mm=own(x), y_mm=1e3 * y, z_mm=1e3 * z)
@@ -155,7 +169,4 @@ def sound_scene(scene: Given, number: int) -> Given:
         "reflecting_plane_mm": None if plane is None else own(1e-3 * plane),
         "radiator": "bare",
     }
-    alone = one_of(scene, number)
-    shaft = Rotor(mass_kg=0.0, length_mm=spindle.shaft.length_mm, diameter_mm=scene.bearing.bore_mm)
-    mounting = alone.mounted.model_copy(update={"rotor": shaft})
-    return alone.model_copy(update={"sound": sound.model_copy(update=moved), "mounting": mounting})
+    return radiating(scene, number).model_copy(update={"sound": sound.model_copy(update=moved)})

@@ -8,7 +8,7 @@ between its tabulated frequencies.
 """
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -70,9 +70,40 @@ def circles(
     """
     if model == "table":
         raise ValueError(f'sound.radiation_model = "table" {TABLE_CHANNELS.words()}')
-    radiation = Radiation(model, radiators, air, harmonics, **options)
-    for members in radiation.circles(positions):
-        yield Circle(tuple(members), tuple(radiation.paths(positions, members)))
+    yield from joined([(Radiation(model, radiators, air, harmonics, **options), positions)])
+
+
+def joined(sources: Sequence[tuple[Radiation, Sequence[Position]]]) -> Iterator[Circle]:
+    """Yield the paths from the channels of several bearings to microphones, circle by circle.
+
+    Parameters
+    ----------
+    sources
+        Of each bearing what radiates, and the places in m in its own axes, in one order. Its channels follow
+        those of the bearings before it.
+
+    Raises
+    ------
+    ValueError
+        For a microphone inside a body.
+    """
+    shared: dict[tuple[int, ...], list[int]] = {}
+    groups = [
+        {i: k for k, members in enumerate(radiation.circles(places)) for i in members}
+        for radiation, places in sources
+    ]
+    for i in range(len(sources[0][1])):
+        shared.setdefault(tuple(group[i] for group in groups), []).append(i)
+    for members in shared.values():
+        paths: list[Path] = []
+        first = 0
+        for number, (radiation, places) in enumerate(sources):
+            paths += [
+                replace(path, channel=first + path.channel, bearing=number)
+                for path in radiation.paths(places, members)
+            ]
+            first += radiation.channels
+        yield Circle(tuple(members), tuple(paths))
 
 
 def form_of(model: str) -> ChannelForm:

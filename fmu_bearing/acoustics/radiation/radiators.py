@@ -71,7 +71,7 @@ class Path:
 
     ``response`` is pressure per channel at `fit_frequencies`, flight time included; ``flight`` the time in s
     to take out before the fit; ``weights`` one factor per microphone; ``kind`` the source type, a place in
-    ``engine.layout.sound.KINDS``.
+    ``engine.layout.sound.KINDS``; ``bearing`` which one of a set radiates, from 0.
     """
 
     component: int
@@ -80,3 +80,4 @@ class Path:
     response: NDArray[np.complex128]
     weights: NDArray[np.float64]
     kind: int = SD.RADIAL
+    bearing: int = 0

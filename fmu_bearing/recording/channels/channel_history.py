@@ -6,7 +6,7 @@ The motion does not depend on the microphones, so the channels give the pressure
 
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,20 +15,24 @@ import scipy
 from numpy.typing import NDArray
 
 from fmu_bearing import renamed
-from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, circles, form_of, kind_of
+from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, form_of, joined, kind_of
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
-from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
-from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.elastic.modes import ring_modes
+from fmu_bearing.acoustics.radiation.radiators import Path
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare.imperfections import excitation_end
 from fmu_bearing.recording.channels.microphone_places import Places, named_places
+from fmu_bearing.recording.channels.sources import air_of, sources_of
 from fmu_bearing.scene import Scene, si
 
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
 _FLIGHT = 0.1  # s: room for microphones to 34 m without another transform
 _TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
+_SPLIT: dict[str, Callable[[Path], str]] = {
+    "component": lambda path: SD.COMPONENTS[path.component],
+    "kind": kind_of,
+    "bearing": lambda path: f"bearing[{path.bearing + 1}]",
+}
 _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 
@@ -55,7 +59,8 @@ class ChannelHistory:
     outputs : dict
         Other variables at `output_time`, by name, SI units.
     history : ndarray, shape (rows, channels)
-        Channels from initialisation on, beyond the last sample; empty where only pressures were recorded.
+        Channels from initialisation on, beyond the last sample, of a set those of its bearings one after the
+        other; empty where only pressures were recorded.
     recorded : ndarray, shape (mics, size)
         Pressures (Pa) where only they were recorded, else empty.
     microphones : tuple of (name, (x, y, z))
@@ -134,8 +139,8 @@ class ChannelHistory:
         speed : float, optional
             Shaft speed (rad/s); default: mean of the recording.
         contact_angle : float, optional
-            In rad; default: mean over the run of the computed angles at both races where these were kept
-            among the outputs, else the nominal one.
+            In rad; default: mean over the run of the computed angles at both races, of all bearings of a set,
+            where these were kept among the outputs, else the nominal one.
 
         Raises
         ------
@@ -148,7 +153,7 @@ class ChannelHistory:
             )
         bearing = si(self.scene.bearing)
         if contact_angle is None:
-            kept = [self.outputs[name] for name in _ANGLES if name in self.outputs]
+            kept = [values for name, values in self.outputs.items() if name.endswith(_ANGLES)]
             contact_angle = float(np.mean(kept)) if kept else float(bearing.contact_angle)
         w = float(np.mean(self.speed)) if speed is None else speed
         return kinematic_frequencies(
@@ -162,8 +167,8 @@ class ChannelHistory:
         Parameters
         ----------
         positions : sequence of (x, y, z) or str, or str, optional
-            Places in m, bearing centre at the origin, or names of the scene's microphones; default: all of
-            these.
+            Places in m, bearing centre at the origin (of a set the shaft's nose), or names of the scene's
+            microphones; default: all of these.
         radiation_model : str, optional
             In place of the recording's own.
 
@@ -204,21 +209,22 @@ class ChannelHistory:
         positions, radiation_model
             As for `pressure`.
         by : str
-            ``"component"`` (inner_ring, outer_ring, cage, balls) or ``"kind"`` of source (radial, axial ...).
+            ``"component"`` (inner_ring, outer_ring, cage, balls), ``"kind"`` of source (radial, axial ...) or
+            ``"bearing"`` (bearing[1] and so on of a set; a single one is bearing[1]).
 
         Raises
         ------
         ValueError
             As `pressure`; also for a recording of pressures, which has no components.
         """
-        if by not in ("component", "kind"):
-            raise ValueError(f'by = "{by}": sources are split by "component" or by "kind"')
+        if by not in _SPLIT:
+            raise ValueError(f'by = "{by}": sources are split by "component", "kind" or "bearing"')
         places = self.places(positions)
         found: dict[str, NDArray[np.float64]] = {}
         for circle, parts in self._pressures_by_circle(
             places,
             radiation_model,
-            lambda path: SD.COMPONENTS[path.component] if by == "component" else kind_of(path),
+            _SPLIT[by],
         ):
             for name, part in parts.items():
                 total = found.setdefault(name, np.zeros((len(places), self.size)))
@@ -325,7 +331,9 @@ class ChannelHistory:
     def _prepare(self, places: list[Position]) -> None:
         """Spectra of the channels, with room for the longest flight; a warning where it exceeds the start."""
         assert self.scene is not None
-        longest = max(math.hypot(*place) for place in places) / air_of(self.scene).sound_speed
+        ends = [one.position for one in self.scene.bearings()]
+        longest = max(math.dist(place, (end, 0.0, 0.0)) for place in places for end in ends)
+        longest /= air_of(self.scene).sound_speed
         if longest > self.start:
             warnings.warn(
                 f"sound takes {longest:.3g} s to the farthest place, but the recording starts "
@@ -357,8 +365,7 @@ class ChannelHistory:
                 f'radiation_model = "{radiation_model}" needs other channels than '
                 f'"{self.radiation_model}": record with radiation_model="{radiation_model}"'
             )
-        radiators, air = radiators_of(self.scene), air_of(self.scene)
-        return circles(radiation_model, radiators, air, places, self.harmonics, **_options(self.scene))
+        return joined(sources_of(self.scene, radiation_model, places, self.harmonics))
 
     def named(self, positions: Places = None) -> list[tuple[str, Position]]:
         """Names and places (m) of microphones, given as for `pressure`; a mere place is named in mm.
@@ -387,20 +394,3 @@ class ChannelHistory:
                 )
             rows.append(names.index(name) if name in names else near[0])
         return rows
-
-
-def _options(scene: Scene) -> dict[str, Any]:
-    """Return further arguments of the paths, if the scene has them: reflecting plane (m), modes."""
-    found: dict[str, Any] = {}
-    if scene.sound is not None and scene.sound.reflecting_plane_mm is not None:
-        found["plane"] = si(scene.sound).reflecting_plane
-    found["modes"] = ring_modes(scene)
-    return found
-
-
-def air_of(scene: Scene) -> Air:
-    """Return the scene's air, or that of the papers where the scene has no sound."""
-    if scene.sound is None:
-        return Air()
-    sound = si(scene.sound)
-    return Air(sound.air_density, sound.sound_speed)

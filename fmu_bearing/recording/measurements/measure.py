@@ -48,7 +48,9 @@ from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
-from fmu_bearing.recording.channels.channel_history import ChannelHistory, air_of
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.recording.channels.sources import air_of, bodies_of, centre_of
+from fmu_bearing.scene import si
 
 __all__ = [
     "MotionPower",
@@ -197,10 +199,14 @@ def planes(
     resolution: float | None = RESOLUTION,
     radiation_model: str | None = None,
 ) -> dict[str, Round]:
-    """Levels round the bearing centre at ``radius`` (m) in the planes YZ, XY and XZ, by plane."""
+    """Levels round the bearing centre at ``radius`` (m) in the planes YZ, XY and XZ, by plane.
+
+    Of a set round the middle between its first and its last bearing.
+    """
     angles = circle_angles(count)
+    centre = np.array([centre_of(recording.scene), 0.0, 0.0])
     # all at once: planes through the axis meet the same circles about it
-    points = [point for plane in PLANES for point in plane_points(plane, radius, count)]
+    points = [centre + point for plane in PLANES for point in plane_points(plane, radius, count)]
     together = recording.levels(points, radiation_model, weighting, resolution).reshape(len(PLANES), count)
     return {
         plane: Round(angles, levels, directivity(angles, levels), weighting)
@@ -249,8 +255,8 @@ def sound_power(
     Parameters
     ----------
     radius : float
-        Of the measurement surface (m). In the open a dipole's near field adds 1 + 1/(kr)^2: 0.2 dB at 250 Hz
-        and 1 m.
+        Of the measurement surface (m), about the bearing's centre, of a set the middle between its first and
+        its last bearing. In the open a dipole's near field adds 1 + 1/(kr)^2: 0.2 dB at 250 Hz and 1 m.
     plane : float, optional
         Place along the axis (m) of a rigid plane behind the bearing (-X): the points are then on a
         hemisphere about the plane's centre. Its reflection is added as the pressures at the
@@ -267,13 +273,15 @@ def sound_power(
         raise ValueError("sound power needs a recording with its scene and channels: fmu_bearing.record")
     air = air_of(recording.scene)
     if plane is None:
-        points = sphere_points(radius, many)
+        points = sphere_points(radius, many) + np.array([centre_of(recording.scene), 0.0, 0.0])
         squares = _squares(recording.levels(list(points), radiation_model, weighting, resolution))
         return power_from_pressure(squares, radius, air)
-    radiators = radiators_of(recording.scene)
-    rear = -radiators.outer_ring.width / 2
-    if radiators.housing is not None:
-        rear = min(rear, radiators.housing.centre - radiators.housing.length / 2)
+    bearings = recording.scene.bearings()
+    rear = bearings[0].position - 0.5 * si(recording.scene.bearing).width
+    for number, body in bodies_of(recording.scene):
+        if body.housing is not None:
+            one = bearings[number]
+            rear = min(rear, one.position + one.sign * body.housing.centre - body.housing.length / 2)
     if plane > rear:
         raise ValueError(f"plane = {plane:g} m cuts the bearing: give at most {rear:g} m, its rear")
     points = hemisphere_points(radius, many) + np.array([plane, 0.0, 0.0])
@@ -297,8 +305,13 @@ def motion_power(
     Raises
     ------
     ValueError
-        For a recording without channels of accelerations.
+        For a recording without channels of accelerations; for a set.
     """
+    if recording.scene is not None and recording.scene.spindle is not None:
+        raise ValueError(
+            "power from motion takes all bodies as one compact source, and the bearings of a set are apart: "
+            "use sound_power"
+        )
     if recording.scene is None or not recording.history.size or recording.radiation_model.startswith("paper"):
         raise ValueError(
             "power from motion needs accelerations: record with a radiation model that is not a paper's"

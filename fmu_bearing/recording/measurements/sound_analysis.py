@@ -22,6 +22,7 @@ from fmu_bearing.extras import available, need
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
+from fmu_bearing.recording.channels.sources import centre_of
 from fmu_bearing.recording.measurements import measure, tables
 from fmu_bearing.results.levels import decibels
 from fmu_bearing.results.table import markdown, write_csv
@@ -288,7 +289,8 @@ def _directivity(
     """
     from fmu_bearing.recording.measurements import pictures
 
-    for radius in (min(math.hypot(*place) for place in found.positions), 1.0):
+    middle = (centre_of(recording.scene), 0.0, 0.0)
+    for radius in (min(math.dist(place, middle) for place in found.positions), 1.0):
         try:
             planes = measure.planes(
                 recording, radius, count=36, weighting="A", radiation_model=radiation_model

@@ -21,6 +21,7 @@ from fmu_bearing.recording.studies.comparison_data import (
     FIGURES,
     RECORDED,
     ComparisonData,
+    figure_of,
     of_recording,
     of_run,
 )
@@ -102,10 +103,9 @@ class Comparison:
     def figures_table(self) -> Table:
         """Means of contact loads, contact angles and friction torque, with differences."""
         rows = []
-        for name, (unit, factor) in FIGURES.items():
+        for name in self.a.figures | self.b.figures:
+            unit, factor = FIGURES[figure_of(name)]
             a, b = (side.figures.get(name) for side in (self.a, self.b))
-            if a is None and b is None:
-                continue
             values = [None if value is None else factor * value for value in (a, b)]
             change = share = _BLANK
             if a is not None and b is not None:

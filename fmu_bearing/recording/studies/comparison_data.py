@@ -1,6 +1,7 @@
 """What a comparison reads of a run: levels, spectra, third octaves, loads, angles, torque."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,7 @@ FIGURES = {
 }
 #: Variables that a recording for a comparison keeps.
 RECORDED = tuple(dict.fromkeys((*OUTPUTS, *FIGURES)))
+_BEARING = re.compile(r"^bearing\[\d+\]\.")
 _PRESSURE = "mic[1].pressure"
 _METER = re.compile(r"mic\[(\d+)\]\.(leq|leq_a|third_octave\[(\d+)\])")
 _FAST = 40_000.0  # Hz: pressures that reach to 20 kHz
@@ -49,7 +51,7 @@ class ComparisonData:
     spectrum : Spectrum or None
         Levels over frequency at the microphones.
     figures : dict
-        Means of the variables of `FIGURES` that were kept, SI units.
+        Means of the variables of `FIGURES` that were kept, SI units; of a set for each bearing too.
     excitation_end : float, optional
         Hz: up to where surfaces excite it; None: not known.
     doubt : str
@@ -71,11 +73,26 @@ class ComparisonData:
     radiation_model: str = ""
 
 
+def figure_of(name: str) -> str:
+    """Return the key in `FIGURES` of a variable, which may be that of one bearing of a set."""
+    return _BEARING.sub("", name)
+
+
+def _figures(columns: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
+    """Return means of the variables of `FIGURES`, in its order."""
+    return {
+        key: float(np.mean(values))
+        for figure in FIGURES
+        for key, values in columns.items()
+        if figure_of(key) == figure
+    }
+
+
 def of_recording(recording: Recording, name: str = "", radiation_model: str | None = None) -> ComparisonData:
     """Measure a recording at its scene's microphones, in its radiation model unless another one is named."""
     own = name or ("recording" if recording.scene is None else recording.scene.name)
     kept = recording.within()
-    figures = {key: float(np.mean(kept[key])) for key in FIGURES if key in kept}
+    figures = _figures(kept)
     fidelity = _fidelity(recording.scene)
     if not recording.microphones:
         return ComparisonData(
@@ -115,7 +132,7 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Compa
         left_out = settle if times[-1] - times[0] > settle else 0.0
         return of_recording(Recording.from_fmu(run.table, run.scene, left_out), run.name)
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
-    figures = {key: float(np.mean(run[key][after])) for key in FIGURES if key in run.names}
+    figures = _figures({key: run[key][after] for key in run.names})
     levels, thirds = _meters(run)
     sound = None if run.scene is None else run.scene.sound
     return ComparisonData(

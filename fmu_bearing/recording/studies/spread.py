@@ -284,11 +284,13 @@ def _shares(
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
     there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
+    heavy = scene.spindle is not None and bool(scene.spindle.shaft.unbalance)
     energies = {}
-    for name in there:
+    for name in (*there, *(["unbalance"] if heavy else [])):
         gone = [key for other, keys in there.items() if other != name for key in keys]
         others = {key: () if key.endswith("_harmonic") else 0.0 for key in gone}
-        alone = _drawn(scene, flaws.model_copy(update=others), fidelity)
+        own = scene.replace({"spindle.shaft.unbalance": []}) if heavy and name != "unbalance" else scene
+        alone = _drawn(own, flaws.model_copy(update=others), fidelity)
         energies[name] = estimator.spectrum(alone).sum(axis=1)
     whole = sum(energies.values(), np.full(len(estimator.places), 1e-30))
     return {name: energy / whole for name, energy in energies.items()}

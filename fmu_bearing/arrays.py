@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.compiled import Calls
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
-from fmu_bearing.engine.layout import P, Q, S, U, Y
+from fmu_bearing.engine.layout import SP, P, Q, S, U, Y
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import reasons
 from fmu_bearing.interface.table import input_values
@@ -101,12 +101,23 @@ class Arrays:
             self.step(h)
 
     def rings(self, duration: float, sample: float) -> NDArray[np.float64]:
-        """Ring velocities (m/s), six columns, after each of the communication steps ``sample`` (s)."""
-        rows = np.empty((round(duration / sample), 6))
+        """Ring velocities (m/s) after each of the communication steps ``sample`` (s).
+
+        Six columns, of a set six for each bearing.
+        """
+        places = np.concatenate([first + np.arange(RINGS.size) for first in self.outputs_of_bearings])
+        rows = np.empty((round(duration / sample), places.size))
         for row in rows:
             self.step(sample)
-            row[:] = self.z[:6]
+            row[:] = self.z[places]
         return rows
+
+    @property
+    def outputs_of_bearings(self) -> list[int]:
+        """Where the outputs of each bearing begin in ``z``."""
+        p = self.p
+        first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
+        return [int(p[first + b * SP.ROW + SP.ROW_Z]) for b in range(count)]
 
     def with_parameters(self, **parameters: float) -> "Arrays":
         """Copy with other parameters and the same inputs and state; it works on its own arrays."""

@@ -5,7 +5,9 @@ from typing import Any, NamedTuple
 
 from fmu_bearing.design.rating import preload_classes
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.preload import CLASS, preload
 from fmu_bearing.scene.read import catalogue
+from fmu_bearing.scene.values import value_at
 
 _PRELOADS = (0.7, 1.4)
 _WARMER = 10.0  # K
@@ -50,16 +52,30 @@ def alternatives(scene: Scene) -> list[Alternative]:
     return found
 
 
+def preload_key(scene: Scene) -> str:
+    """Return the dotted key of the preload in newtons, of a set of its spacers or springs; "" without one."""
+    if scene.spindle is None:
+        return "mounting.preload_N"
+    if scene.spindle.preload is None:
+        return ""
+    return f"spindle.preload.{'force_N' if scene.spindle.preload.kind == 'spring' else 'preload_N'}"
+
+
 def _preload(scene: Scene) -> Iterator[Alternative]:
-    now = scene.mounted.preload_N
+    key = preload_key(scene)
+    if not key:
+        return
+    now = value_at(scene, key) or 0.0
     wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
-    found = preload_classes(scene)
-    wanted += [(force, f" {name}") for name, force in found.loads.items()] if found else []
+    found = None if key.endswith("force_N") else preload_classes(scene)  # springs have no offset of faces
+    signs = [] if scene.spindle is None else [one.carries for one in scene.spindle.bearing]
+    for name in found.loads if found else ():
+        made = preload({CLASS: name}, scene.bearing, scene.materials, signs)
+        if made is not None:
+            wanted.append((made.force, f" {name}"))
     for force, name in wanted:
         if force != now:
-            yield Alternative(
-                "preload", f"preload {now:g} -> {force:g} N{name}", {"mounting.preload_N": force}
-            )
+            yield Alternative("preload", f"preload {now:g} -> {force:g} N{name}", {key: force})
 
 
 def _balls(scene: Scene) -> Iterator[Alternative]:
@@ -161,10 +177,17 @@ def _supports(scene: Scene) -> Iterator[Alternative]:
             yield Alternative(
                 "speed", f"speed {speed:g} -> {changed:g} r/min", {"operation.speed_rpm": changed}
             )
-    stiffness = scene.mounted.pedestal_stiffness_N_m
-    for factor in _PEDESTALS:
+    key = f"{'mounting' if scene.spindle is None else 'spindle.housing'}.pedestal_stiffness_N_m"
+    stiffness = value_at(scene, key)
+    for factor in _PEDESTALS if stiffness else ():  # the housing of a set may be at rest
         words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
-        yield Alternative("pedestal", words, {"mounting.pedestal_stiffness_N_m": factor * stiffness})
+        yield Alternative("pedestal", words, {key: factor * stiffness})
+    spots = () if scene.spindle is None else scene.spindle.shaft.unbalance
+    if spots:
+        lighter = [one.model_dump() | {"amount_g_mm": _BALANCE * one.amount_g_mm} for one in spots]
+        yield Alternative(
+            "balance", f"unbalance of the shaft x{_BALANCE:g}", {"spindle.shaft.unbalance": lighter}
+        )
     flaws = scene.imperfections
     if flaws is not None and flaws.unbalance_um > 0.0:
         changed = _BALANCE * flaws.unbalance_um

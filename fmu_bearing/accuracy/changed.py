@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.accuracy.alternatives import Alternative
+from fmu_bearing.accuracy.alternatives import Alternative, preload_key
 from fmu_bearing.formulas import iso281
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import value_at
@@ -26,7 +26,8 @@ class Point(NamedTuple):
     """Figures of an operating point without a run.
 
     Friction torque (N mm), L10r (h; NaN: not rated), radial stiffness of the bearing (N/um, the mean of y and
-    z), and what the engine warns of.
+    z), and what the engine warns of. Of a set torque and life of all bearings together, and the stiffness of
+    the shaft across at its nose.
     """
 
     torque: float
@@ -187,6 +188,11 @@ class Changes:
         return "" if self.before.torque > FRICTIONLESS else "the scene has no friction"
 
     @property
+    def stiff(self) -> str:
+        """What the stiffness is, in words."""
+        return "radial stiffness" if self.scene.spindle is None else "stiffness across at the nose"
+
+    @property
     def refused(self) -> list[Change]:
         """Choices without figures: the scene does not allow them, or there is no equilibrium."""
         return [each for each in self.changes if each.reason]
@@ -215,7 +221,7 @@ class Changes:
     def resonances(self) -> list[str]:
         """Return topics of which less and more are both quieter: a strong line is near a resonance."""
         found = []
-        for topic, key in (("speed", "operation.speed_rpm"), ("preload", "mounting.preload_N")):
+        for topic, key in (("speed", "operation.speed_rpm"), ("preload", preload_key(self.scene))):
             now = value_at(self.scene, key)
             rows = [e for e in self.changes if e.choice.topic == topic and e.levels.size]
             sides = [
@@ -251,8 +257,9 @@ class Changes:
         h = self.basis
         names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
         there = [text for name, text in names.items() if name in self.figures]
-        words = ", ".join([*there, "radial stiffness"])
-        words = f"{words[0].upper()}{words[1:]}: operating point of the perfect bearing."
+        words = ", ".join([*there, self.stiff])
+        perfect = "the perfect bearing" if self.scene.spindle is None else "perfect bearings, of all together"
+        words = f"{words[0].upper()}{words[1:]}: operating point of {perfect}."
         for name, reason in (("life", self.no_life), ("torque", self.no_torque)):
             words += f" No {name}: {reason}." if reason else ""
         if self.no_level:
@@ -270,7 +277,7 @@ class Changes:
         found = [f"{self.basis.level:.1f} dB(A)"] if "level" in self.figures else []
         found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
         found += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
-        return ", ".join([*found, f"radial stiffness {b.stiffness:.3g} N/um"])
+        return ", ".join([*found, f"{self.stiff} {b.stiffness:.3g} N/um"])
 
     def summary(self) -> dict[str, Any]:
         """Return conditions and changes, ranked by the first figure, for machines."""

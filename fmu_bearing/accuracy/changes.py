@@ -106,11 +106,15 @@ def point(scene: Scene) -> Point:
     found = operating_point(scene, cautions.append)
     cautions += found.remarks
     if found.whirl is not None:
-        cautions.append(whirl_words(*found.whirl, False))
-    (one,) = found.bearings
-    radial = 1e-6 * 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
-    torque = 1e3 * one.friction_torque * math.copysign(1.0, scene.operation.speed_rpm)
-    return Point(torque, math.nan if one.life is None else one.life, radial, tuple(cautions))
+        cautions.append(whirl_words(*found.whirl, scene.spindle is not None))
+    torque = 1e3 * sum(one.friction_torque for one in found.bearings)
+    torque *= math.copysign(1.0, scene.operation.speed_rpm)
+    if scene.spindle is None:
+        (one,) = found.bearings
+        life, stiffness = one.life, 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
+    else:
+        life, stiffness = found.life, found.statics.nose_stiffness
+    return Point(torque, math.nan if life is None else life, 1e-6 * stiffness, tuple(cautions))
 
 
 def _no_life(scene: Scene) -> str:

@@ -130,6 +130,10 @@ ASSUMED: dict[str, Moves] = {
     "operation.inner_ring_temperature_degC": by(20.0),
     "operation.outer_ring_temperature_degC": by(20.0),
 }
+_OF_SET = (
+    " Unchanged figures are of bearing 1, the torque of the whole set; rings, loads and angles are those "
+    "of the bearing where they changed most."
+)
 QUICK = ("bearing.inner_conformity", "lubricant.traction_max", "lubricant.walther_slope")
 
 COLUMNS = (
@@ -143,7 +147,8 @@ class Row:
     """One changed value: the relative changes it causes, or the reason why there are none.
 
     ``changes``: of rms velocity of inner and outer ring, load, angle (rad), torque, cage speed, all but the
-    angle relative, and of the level (dB) at the microphone where it changed most; NaN: does not apply.
+    angle relative, and of the level (dB) at the microphone where it changed most; NaN: does not apply. Of a
+    set each is that of the bearing where it changed most, the cage speed that of the first.
     """
 
     key: str
@@ -193,7 +198,9 @@ class Sensitivity:
             "(both inner race), "
             f"friction torque {1e3 * b.torque:.3g} N mm, cage speed {b.cage_ratio:.4f} of the shaft's"
             + (f", sound {sound} dB(A) at the microphones" if sound else "")
-            + ". The last column is that of the microphone where it changed most.\n\n"
+            + ". The last column is that of the microphone where it changed most."
+            + (_OF_SET if len(b.load) > 2 else "")
+            + "\n\n"
             + markdown(COLUMNS, self.cells())
         )
 
@@ -227,13 +234,13 @@ def sensitivity(
     Refused
         If the engine refuses the unchanged scene.
     SceneError
-        For a set of bearings.
+        For bearings on another model's shaft.
     """
     scene = with_fidelity(source, model="full")
     require(scene, "sensitivity")
     if scene.sound is not None and scene.sound.radiation_model == "bem" and scene.sound.radiator != "baffle":
         scene = scene.replace({"sound.radiation_model": "compact", "sound.reflecting_plane_mm": None})
-    blocks: dict[str, NDArray[np.float64]] = {}
+    blocks: dict[str, list[NDArray[np.float64]]] = {}
     base = measure(scene, _sound(scene, blocks), warm_up, window).figures
     moves = [
         (key, moved)
@@ -260,30 +267,40 @@ def sensitivity(
 
 
 def changes(found: Figures, base: Figures) -> tuple[float, ...]:
-    """Return what ``Row.changes`` holds, from two sets of figures."""
+    """Return what ``Row.changes`` holds, from the figures of two scenes.
+
+    Rings, loads and angles of a set are those of the bearing where they changed most.
+    """
 
     def of(value: float, before: float) -> float:
         return value / before - 1.0 if before else math.nan
 
+    def most(values: Sequence[float], before: Sequence[float], first: int = 0) -> float:
+        """Largest relative change of every second value, inner or outer, of the bearings."""
+        pairs = zip(values[first::2], before[first::2], strict=True)
+        return max((of(*pair) for pair in pairs), key=abs)
+
+    angles = [a - b for a, b in zip(found.angle[::2], base.angle[::2], strict=True)]
+
     sound = [max(a, INAUDIBLE) - max(b, INAUDIBLE) for a, b in zip(found.levels, base.levels, strict=True)]
     return (
-        of(found.ring_rms[0], base.ring_rms[0]),
-        of(found.ring_rms[1], base.ring_rms[1]),
-        of(found.load[0], base.load[0]),
-        found.angle[0] - base.angle[0],
+        most(found.ring_rms, base.ring_rms),
+        most(found.ring_rms, base.ring_rms, 1),
+        most(found.load, base.load),
+        max(angles, key=abs),
         of(found.torque, base.torque),
         of(found.cage_ratio, base.cage_ratio),
         max(sound, key=abs, default=math.nan),
     )
 
 
-def _sound(scene: Scene, blocks: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Sound block of a scene, computed once for all scenes that radiate in the same way."""
+def _sound(scene: Scene, blocks: dict[str, list[NDArray[np.float64]]]) -> list[NDArray[np.float64]]:
+    """Sound blocks of a scene's bearings, computed once for all scenes that radiate in the same way."""
     if scene.sound is None:
-        return np.empty(0)
+        return []
     key = sound_key(scene)
     if key not in blocks:
-        (blocks[key],) = sound_blocks(scene)
+        blocks[key] = sound_blocks(scene)
     return blocks[key]
 
 

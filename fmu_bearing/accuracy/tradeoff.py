@@ -70,8 +70,8 @@ class Row:
     errors : Errors or None
         None where the engine refused or does not have it; ``remark`` then says so.
     trajectory : float
-        Rms difference of the six ring velocities over the rms of their fluctuation. NaN for fidelities other
-        than ``full``, whose phases differ.
+        Rms difference of the six ring velocities of every bearing over the rms of their fluctuation. NaN for
+        fidelities other than ``full``, whose phases differ.
     wall, cpu : float
         Simulated s per s, without sound.
     """
@@ -189,7 +189,7 @@ def tradeoff(
     Refused
         If the engine refuses the reference.
     SceneError
-        For a set of bearings.
+        For bearings on another model's shaft.
     """
     scene = scene_of(source)
     require(scene, "tradeoff")

@@ -184,7 +184,7 @@ def _read(
     bearing: Arrays, window: float, first: float | None = None, last: float = 0.0
 ) -> NDArray[np.float64]:
     """Return the outputs of each bearing every ``SAMPLE``; from ``first`` to ``last`` (rad/s) if given."""
-    places = _places(bearing)
+    places = bearing.outputs_of_bearings
     z = np.empty((len(places), round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
     for k in range(z.shape[1]):
         if first is not None:
@@ -206,13 +206,6 @@ def _figures(z: NDArray[np.float64], levels: tuple[float, ...]) -> Figures:
         float(mean[0, _CAGE]),
         levels,
     )
-
-
-def _places(bearing: Arrays) -> list[int]:
-    """Return where the outputs of each bearing begin in ``z``."""
-    p = bearing.p
-    first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
-    return [int(p[first + b * SP.ROW + SP.ROW_Z]) for b in range(count)]
 
 
 def _levels(

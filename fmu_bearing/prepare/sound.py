@@ -17,7 +17,7 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import sound_scene
 
 if TYPE_CHECKING:
-    from fmu_bearing.acoustics.radiation.radiators import Housing
+    from fmu_bearing.acoustics.radiation.radiators import Radiators
 
 __all__ = ["sound_block", "sound_blocks", "sound_key"]
 
@@ -32,11 +32,11 @@ _LEFT_OUT: Any = {"sound": {"microphone", "circle"}}  # names of microphones
 class Block:
     """Which sound block of a scene is wanted.
 
-    ``housing``: in the place of the scene's; ``lines``: one of lines, with ``bearings`` and ``metered`` as in
-    `acoustics.filters.design.line_parameters`.
+    ``radiators``: in the place of the scene's; ``lines``: one of lines, with ``bearings`` and ``metered`` as
+    in `acoustics.filters.design.line_parameters`.
     """
 
-    housing: "Housing | None" = None
+    radiators: "Radiators | None" = None
     lines: bool = False
     bearings: int = 0
     metered: bool = True
@@ -59,8 +59,10 @@ def sound_parameters(scene: Scene, wanted: Block) -> NDArray[np.float64]:
     from fmu_bearing.acoustics.filters import design as stream
 
     if wanted.lines:
-        return stream.line_parameters(scene, wanted.housing, bearings=wanted.bearings, metered=wanted.metered)
-    return stream.sound_parameters(scene, housing=wanted.housing)
+        return stream.line_parameters(
+            scene, wanted.radiators, bearings=wanted.bearings, metered=wanted.metered
+        )
+    return stream.sound_parameters(scene, radiators=wanted.radiators)
 
 
 def sound_block(scene: Scene, wanted: Block | None = None) -> NDArray[np.float64]:
@@ -98,8 +100,8 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
 
     ``lines``: whether they are of lines or for samples; default: as `from_lines` says.
 
-    A housing that radiates belongs to the first bearing, which it shows; the others are inside and have
-    blocks without sources.
+    A housing that radiates belongs to the first bearing, which it shows, as does a rigid plane; the others
+    are behind and have blocks without sources.
 
     Raises
     ------
@@ -113,12 +115,12 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
     count = len(scene.spindle.bearing)
     alone = [sound_scene(scene, b) for b in range(count)]
     own = [Block(None, lines, count if lines and b == 0 else 0, metered=b == 0) for b in range(count)]
-    if scene.sound.radiator != "housing":
+    if scene.sound.radiator == "bare":
         return [sound_block(one, block) for one, block in zip(alone, own, strict=True)]
-    from fmu_bearing.acoustics.filters.design import housing_of_set, silent_parameters
+    from fmu_bearing.acoustics.filters.design import front_of_set, silent_parameters
 
     first, *inside = alone
-    radiating = sound_block(first, replace(own[0], housing=housing_of_set(scene)))
+    radiating = sound_block(first, replace(own[0], radiators=front_of_set(scene)))
     return [radiating, *(silent_parameters(one, lines=lines) for one in inside)]
 
 
@@ -155,16 +157,15 @@ def sound_key(scene: Scene) -> str:
 
 def _source_key(scene: Scene) -> str:
     """Key of what radiates in a scene with sound, and how."""
-    from fmu_bearing.acoustics.filters.design import housing_of_set, radiators_of
+    from fmu_bearing.acoustics.filters.design import front_of_set, radiators_of
 
     if scene.spindle is not None:
         count = len(scene.spindle.bearing)
-        if scene.sound is None or scene.sound.radiator != "housing":
+        if scene.sound is None or scene.sound.radiator == "bare":
             return repr([_source_key(sound_scene(scene, b)) for b in range(count)])
-        # bearings inside make no sound, they are only counted
-        first, housing = sound_scene(scene, 0), housing_of_set(scene)
-        radiating = (first.sound, radiators_of(first, housing), scene.fidelity.ball_harmonics)
-        return repr((radiating, count))
+        # bearings behind make no sound, they are only counted
+        first, shown = sound_scene(scene, 0), front_of_set(scene)
+        return repr((first.sound, shown, scene.fidelity.ball_harmonics, count))
     flexure = scene.mounted.flexure
     bending = (flexure, scene.materials, scene.bearing) if flexure is not None else ()
     return repr((scene.sound, radiators_of(scene), scene.fidelity.ball_harmonics, bending))

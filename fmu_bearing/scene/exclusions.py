@@ -16,7 +16,6 @@ from fmu_bearing.scene.spindle import Load
 
 #: What can be asked of a scene, or given in its file, and is not to be had of every scene.
 Subject = Literal[
-    "baffle",
     "changes",
     "channels",
     "comparison",
@@ -217,13 +216,6 @@ EXCLUSIONS = (
         "leave the key out and give `[[spindle.shaft.unbalance]]` with `position_mm` and `amount_g_mm` (mass "
         "of the rotor in kg times its eccentricity in um)",
         _set_unbalance,
-    ),
-    Exclusion(
-        _SOUNDING,
-        {"baffle": "a face flush in a rigid plane (radiator baffle)"},
-        "only the face of one bearing is computed so far",
-        'give `sound.radiator` = "bare" or "housing"',
-        _baffle,
     ),
     Exclusion(
         _SOUNDING,

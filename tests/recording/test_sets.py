@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Recording, compare, measure, read_scene, record, simulate, spread, with_fidelity
+from fmu_bearing.acoustics.analysis.field import joined
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.recording.channels.sources import centre_of
+from fmu_bearing.recording.channels.sources import centre_of, sources_of
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.scene import SceneError
 from tests.conftest import ROOT
@@ -15,6 +16,7 @@ from tests.spindle.test_sound import LENGTH, single, sound, sounding
 
 RPM = 20e3
 PLACES = ((-100.0, 0.0, 0.0), (55.0, 105.0, 0.0), (60.0, -20.0, 110.0))
+AHEAD = ((-100.0, 0.0, 0.0), (0.0, 100.0, 40.0))  # of a wall
 STEP = 20 / SD.RATE
 STEPS, BEGIN = 100, 20e-3  # 39 ms, metered from 20 ms on
 HOUSING = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_stiffness_N_m": 1e8}
@@ -23,8 +25,9 @@ HOUSING = {"mass_kg": 2.0, "diameter_mm": 100.0, "length_mm": 160.0, "pedestal_s
 def pair(model="compact", signs="+-", places=(40.0, 70.0), seed=1, **more):
     """A pair with microphones ahead, beside and behind, in fidelity rings."""
     keys = {"housing": HOUSING} if more.get("radiator") == "housing" else {}
+    heard = AHEAD if more.get("radiator") == "baffle" else PLACES
     given = sounding(
-        signs, places, 500.0, RPM, flaws=True, sound_keys=sound(model, *PLACES, **more), **keys,
+        signs, places, 500.0, RPM, flaws=True, sound_keys=sound(model, *heard, **more), **keys,
     )  # fmt: skip
     return given.replace(
         {"fidelity.model": "rings", "sound.metering_start_s": BEGIN, "imperfections.seed": seed}
@@ -44,8 +47,9 @@ def run(scene, **options):
 @pytest.mark.parametrize(
     ("model", "radiator"),
     heavy_but(
-        [("compact", "bare"), ("paper", "bare"), ("bem", "bare"), ("compact", "housing")],
-        0, 1, 3,
+        [("compact", "bare"), ("paper", "bare"), ("bem", "bare"), ("compact", "housing"),
+         ("bem", "baffle")],
+        0, 1, 3, 4,
     ),
 )  # fmt: skip
 def test_a_recording_reads_what_the_meters_of_the_set_read(model, radiator):
@@ -131,6 +135,22 @@ def test_a_mirrored_pair_hears_the_same_of_either_bearing():
     assert alone["bearing[1]"] == pytest.approx(alone["bearing[2]"], abs=1e-12)
     both = level(np.mean(twin.pressure([(0.055, 0.105, 0.0)]) ** 2))
     assert both - level(np.mean(alone["bearing[1]"] ** 2)) == pytest.approx(6.02, abs=0.01)
+
+
+@pytest.mark.parametrize(("axis", "sign"), [(0, -1.0), (1, 1.0), (2, 1.0)])
+def test_a_face_in_a_wall_sounds_the_same_whichever_way_its_bearing_carries(axis, sign):
+    """Own axes of a bearing that carries towards -X are mirrored, and so are its channels along the axis."""
+    found = {}
+    for signs in ("+-", "-+"):
+        given = pair("bem", signs=signs, radiator="baffle")
+        (circle, *_) = joined(
+            sources_of(given, "bem", [place.position_m for place in given.microphones][1:], 4)
+        )
+        channel = SD.c_body(0, axis)
+        paths = [path for path in circle.paths if path.channel == channel]
+        assert {path.bearing for path in circle.paths} == {0}
+        found[signs] = sum(path.response * path.weights[0] for path in paths)
+    assert found["-+"] == pytest.approx(sign * found["+-"], rel=1e-9, abs=1e-12)
 
 
 def test_files_and_analysis(tmp_path):

@@ -332,10 +332,6 @@ def test_a_sweep_hears_the_size_of_the_housing():
         ({"model": "paper"}, "radiator = 'housing' is refused: these models take every body as bare"),
         ({"places": [(60.0, 45.0, 0.0)]}, "lies inside the housing, which reaches to r = 50 mm"),
         ({"model": "bem", "sound_keys": {"reflecting_plane_mm": 165.0}}, "cuts the housing"),
-        (
-            {"sound_keys": {"radiator": "baffle"}, "model": "bem"},
-            'give `sound.radiator` = "bare" or "housing"',
-        ),
     ],
 )
 def test_refusals(changes, words):

@@ -18,13 +18,14 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.housing import middle_mm
-from fmu_bearing.scene.member import set_of
+from fmu_bearing.scene.member import radiating, set_of
 
 __all__ = [
     "FilterError",
     "build",
     "check_table",
     "filter_errors",
+    "front_of_set",
     "housing_of_set",
     "line_parameters",
     "radiation_of",
@@ -85,7 +86,7 @@ class Circle(NamedTuple):
 
 
 def sound_parameters(
-    scene: Scene, modes: Sequence[Any] | None = None, housing: Housing | None = None
+    scene: Scene, modes: Sequence[Any] | None = None, radiators: Radiators | None = None
 ) -> NDArray[np.float64]:
     """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
 
@@ -94,8 +95,8 @@ def sound_parameters(
     modes
         Elastic modes of the rings in the order of the engine's coordinates, two channels each; by default
         the scene's.
-    housing
-        Where it radiates; by default the scene's.
+    radiators
+        What sounds; by default as the scene says.
 
     Raises
     ------
@@ -106,19 +107,19 @@ def sound_parameters(
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
     positions = [position for _, position in scene.microphones]
-    radiation = radiation_of(scene, modes, housing)
+    radiation = radiation_of(scene, modes, radiators)
     return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
 def line_parameters(
-    scene: Scene, housing: Housing | None = None, *, bearings: int = 0, metered: bool = True
+    scene: Scene, radiators: Radiators | None = None, *, bearings: int = 0, metered: bool = True
 ) -> NDArray[np.float64]:
     """Sound block of lines of a scene (fidelity response); empty when the scene has no sound.
 
     Parameters
     ----------
-    housing
-        Where it radiates; by default the scene's.
+    radiators
+        What sounds; by default as the scene says.
     bearings
         Of the set that it belongs to, whose levels alone are kept.
     metered
@@ -131,7 +132,7 @@ def line_parameters(
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
-    radiation = radiation_of(scene, None, housing)
+    radiation = radiation_of(scene, None, radiators)
     sources: list[tuple[int, int]] = []
     rays: list[list[Ray]] = []
     flights: list[float] = []
@@ -196,11 +197,11 @@ def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[Filt
 
 
 def radiation_of(
-    scene: Scene, modes: Sequence[Any] | None = None, housing: Housing | None = None
+    scene: Scene, modes: Sequence[Any] | None = None, radiators: Radiators | None = None
 ) -> Radiation:
     """Return what the paths of a scene with sound depend on besides its microphones.
 
-    ``housing``: where it radiates; by default the scene's.
+    ``radiators``: what sounds; by default as the scene says.
 
     Raises
     ------
@@ -215,7 +216,8 @@ def radiation_of(
         where = f"sound.table_file {scene.sound.table_file}"
         table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
     return Radiation(
-        scene.sound.radiation_model, radiators_of(scene, housing), Air(sound.air_density, sound.sound_speed),
+        scene.sound.radiation_model, radiators or radiators_of(scene),
+        Air(sound.air_density, sound.sound_speed),
         int(scene.fidelity.ball_harmonics), ring_modes(scene) if modes is None else tuple(modes),
         None if scene.sound.reflecting_plane_mm is None else sound.reflecting_plane, table,
     )  # fmt: skip
@@ -248,6 +250,17 @@ def housing_of_set(scene: Scene) -> Housing:
     assert diameter is not None and length is not None, "a housing that radiates moves and has a size"
     centre = first.sign * (middle_mm(spindle) - first.position_mm)
     return Housing(1e-3 * diameter, 1e-3 * length, 1e-3 * centre, turned=first.sign < 0, tilts=True)
+
+
+def front_of_set(scene: Scene) -> Radiators:
+    """Return what a set shows ahead where a housing or a rigid plane covers the rest: its first bearing.
+
+    In the axes of that bearing.
+    """
+    shown = radiators_of(radiating(scene, 0))
+    if scene.sound is not None and scene.sound.radiator == "housing":
+        return replace(shown, housing=housing_of_set(scene))
+    return replace(shown, baffle=True, turned=set_of(scene).bearing[0].sign < 0)
 
 
 def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:

@@ -48,6 +48,7 @@ class Radiators:
     housing: Housing | None = None
     contact_angle: float = np.pi / 12  # rad; only the radiation model paper_contacts asks for it
     baffle: bool = False  # the face at -X lies flush in a rigid plane: only the model bem can
+    turned: bool = False  # that face is the one at +X, as of a mirrored bearing of a set
     shaft: bool = False  # fills the inner ring's bore: only the model bem knows it
 
     @property

@@ -1,11 +1,10 @@
 """What radiates in a scene: its bearing, or every bearing of a set, with places in the axes of each."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from fmu_bearing.acoustics.analysis.field import Position
-from fmu_bearing.acoustics.filters.design import housing_of_set, radiators_of
-from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Radiators
+from fmu_bearing.acoustics.filters.design import front_of_set, radiators_of
+from fmu_bearing.acoustics.radiation.radiators import Air, Radiators
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.scene import Scene, si
@@ -45,8 +44,7 @@ def bodies_of(scene: Scene) -> list[tuple[int, Radiators]]:
     radiator = "bare" if scene.sound is None else scene.sound.radiator
     if radiator == "bare":
         return [(k, radiators_of(radiating(scene, k))) for k in range(len(scene.spindle.bearing))]
-    housing: Housing | None = housing_of_set(scene) if radiator == "housing" else None
-    return [(0, replace(radiators_of(radiating(scene, 0), housing), baffle=radiator == "baffle"))]
+    return [(0, front_of_set(scene))]
 
 
 def sources_of(scene: Scene, model: str, places: Sequence[Position], harmonics: int) -> list[Source]:

@@ -1,6 +1,7 @@
 """Radiation model ``bem``: from a scene's bodies to paths (`radiators.Path`)."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +75,12 @@ def bem_paths(
     ValueError
         When the circle runs through a body or behind the plane, or bodies intersect.
     """
+    if radiators.baffle and radiators.turned:
+        ahead = replace(circle, axial=-circle.axial)
+        found = bem_paths(replace(radiators, turned=False), air, ahead, harmonics, modes)
+        # mirrored along the axis: motion along it and tilts change their sign
+        turned = (SD.AXIAL, SD.ROTATION)
+        return [replace(path, weights=-path.weights) if path.kind in turned else path for path in found]
     task = task_of(radiators, air, harmonics, modes, plane)
     _check_outside(task, circle)
     solved = solution(task)

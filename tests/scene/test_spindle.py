@@ -125,10 +125,6 @@ def changed(path, value, **arguments):
         ),
         (changed(("operation", "lowest_speed_rpm"), 5e3), "lowest_speed_rpm = 5000.0 has no effect"),
         (
-            changed(("sound",), SOUND | {"radiator": "baffle"}),
-            "sound.radiator = 'baffle' is refused: only the face of one bearing is computed so far; give",
-        ),
-        (
             changed(("imperfections",), {"grade": "P4", "seed": 1, "unbalance_um": 0.5}),
             "imperfections.unbalance_um = 0.5 is refused: it is the eccentricity of one rotor",
         ),

@@ -212,7 +212,7 @@ def _check_table(scene: Scene) -> None:
     """Read the transfer functions that the scene brings; `SceneError` where they do not serve."""
     if scene.sound is None or scene.sound.table_file is None:
         return
-    from fmu_bearing.acoustics.filters.design import check_table
+    from fmu_bearing.acoustics.filters.bearings import check_table
 
     try:
         check_table(scene)

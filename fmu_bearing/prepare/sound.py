@@ -18,6 +18,7 @@ from fmu_bearing.scene.member import sound_scene
 
 if TYPE_CHECKING:
     from fmu_bearing.acoustics.radiation.radiators import Radiators
+    from fmu_bearing.acoustics.radiation.table import Table
 
 __all__ = ["sound_block", "sound_blocks", "sound_key"]
 
@@ -32,14 +33,15 @@ _LEFT_OUT: Any = {"sound": {"microphone", "circle"}}  # names of microphones
 class Block:
     """Which sound block of a scene is wanted.
 
-    ``radiators``: in the place of the scene's; ``lines``: one of lines, with ``bearings`` and ``metered`` as
-    in `acoustics.filters.design.line_parameters`.
+    ``radiators``, ``table``: in the place of the scene's; ``lines``: one of lines, with ``bearings`` and
+    ``metered`` as in `acoustics.filters.design.line_parameters`.
     """
 
     radiators: "Radiators | None" = None
     lines: bool = False
     bearings: int = 0
     metered: bool = True
+    table: "Table | None" = None
 
 
 def from_lines(scene: Scene, fidelity: str | None = None) -> bool:
@@ -60,9 +62,9 @@ def sound_parameters(scene: Scene, wanted: Block) -> NDArray[np.float64]:
 
     if wanted.lines:
         return stream.line_parameters(
-            scene, wanted.radiators, bearings=wanted.bearings, metered=wanted.metered
+            scene, wanted.radiators, wanted.table, bearings=wanted.bearings, metered=wanted.metered
         )
-    return stream.sound_parameters(scene, radiators=wanted.radiators)
+    return stream.sound_parameters(scene, radiators=wanted.radiators, table=wanted.table)
 
 
 def sound_block(scene: Scene, wanted: Block | None = None) -> NDArray[np.float64]:
@@ -115,9 +117,14 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
     count = len(scene.spindle.bearing)
     alone = [sound_scene(scene, b) for b in range(count)]
     own = [Block(None, lines, count if lines and b == 0 else 0, metered=b == 0) for b in range(count)]
-    if scene.sound.radiator == "bare":
+    if scene.sound.radiation_model == "table":
+        from fmu_bearing.acoustics.filters.bearings import tables_of
+
+        own = [replace(block, table=table) for block, table in zip(own, tables_of(scene), strict=True)]
+    if scene.sound.radiator == "bare" or own[0].table is not None:
         return [sound_block(one, block) for one, block in zip(alone, own, strict=True)]
-    from fmu_bearing.acoustics.filters.design import front_of_set, silent_parameters
+    from fmu_bearing.acoustics.filters.bearings import front_of_set
+    from fmu_bearing.acoustics.filters.design import silent_parameters
 
     first, *inside = alone
     radiating = sound_block(first, replace(own[0], radiators=front_of_set(scene)))
@@ -157,7 +164,8 @@ def sound_key(scene: Scene) -> str:
 
 def _source_key(scene: Scene) -> str:
     """Key of what radiates in a scene with sound, and how."""
-    from fmu_bearing.acoustics.filters.design import front_of_set, radiators_of
+    from fmu_bearing.acoustics.filters.bearings import front_of_set
+    from fmu_bearing.acoustics.filters.design import radiators_of
 
     if scene.spindle is not None:
         count = len(scene.spindle.bearing)

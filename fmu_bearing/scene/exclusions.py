@@ -34,7 +34,6 @@ Subject = Literal[
     "short runs",
     "sound",
     "statics",
-    "table",
     "tradeoff",
     "unbalance",
 ]
@@ -96,11 +95,6 @@ def _baffle(tables: Tables) -> Keys:
         yield "sound.radiator"
 
 
-def _table(tables: Tables) -> Keys:
-    if tables.sound is not None and tables.sound.radiation_model == "table":
-        yield "sound.radiation_model"
-
-
 def _housing(tables: Tables) -> Keys:
     if tables.sound is not None and tables.sound.radiator == "housing":
         yield "sound.radiator"
@@ -146,7 +140,6 @@ def _sounds(tables: Tables) -> bool:
 
 
 _SET = Kind("a set of bearings (`[spindle]`)", _is_set)
-_SOUNDING = Kind("a set with `[sound]`", _sounds)
 _RESTING = Kind(
     "a set with `[sound]` whose housing does not move",
     lambda one: _sounds(one) and not set_of(one).housing.moves,
@@ -216,13 +209,6 @@ EXCLUSIONS = (
         "leave the key out and give `[[spindle.shaft.unbalance]]` with `position_mm` and `amount_g_mm` (mass "
         "of the rotor in kg times its eccentricity in um)",
         _set_unbalance,
-    ),
-    Exclusion(
-        _SOUNDING,
-        {"table": "the radiation model table"},
-        "its file holds the paths of one bearing, and a set needs the paths of several",
-        'give `sound.radiation_model` = "bem" or "compact"',
-        _table,
     ),
     Exclusion(
         _RESTING,

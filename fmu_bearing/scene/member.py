@@ -149,7 +149,7 @@ def sound_scene(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, with microphones at their places in its own axes.
 
     For its sound alone, see `radiating`. It is bare: a housing of the set that radiates is
-    `acoustics.filters.design.housing_of_set`.
+    `acoustics.filters.bearings.housing_of_set`.
     """
     spindle, sound = set_of(scene), scene.sound
     assert sound is not None, "a set without sound"

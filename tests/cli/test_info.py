@@ -150,8 +150,8 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
         "spindle.preload.kind",
         "spindle.bearing[1].carries",
     }
-    result = run("identify", SET, "--data", out, "--free", "spindle.preload.preload_N")
-    assert result.exit_code == 2 and "7003C-DB: cannot have an identification" in result.stderr
+    result = run("report", SET, "--changes", "-o", tmp_path / "a.html")
+    assert result.exit_code == 2 and "7003C-DB: cannot have a report of a run" in result.stderr
 
 
 def test_a_bearing_of_a_set_without_load_is_shown_and_checked(run, tmp_path):

@@ -81,9 +81,6 @@ DOORS = (
     }),
     (pair(), SINGLE, {"run report": lambda scene, folder: make(scene, folder / "a.html", changes=True)}),
     (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
-    (sounding("bem", pair()), sounding("bem"), {
-        "table": {"sound.radiation_model": "table", "sound.table_file": "a.npz"},
-    }),
     (sounding("compact", pair()), sounding("compact", pair(**SPRINGS)), {"housing": HOUSING}),
     (sounding("compact", pair(**SPRINGS)), sounding("compact", pair()), {"housing": HOUSING}),
     (sounding("paper", pair()), sounding("compact", pair()), {"housing": HOUSING}),

@@ -248,7 +248,6 @@ def test_a_sweep_reads_the_sound_of_a_set():
     "sound_keys, words",
     [
         (sound("bem", (55.0, 105.0, 0.0), radiator="housing"), "only a housing that moves radiates"),
-        (sound("table", (55.0, 105.0, 0.0), table_file="x.npz"), "holds the paths of one bearing"),
         (sound("compact", (70.0, 10.0, 0.0)), "lies inside the bearing 2"),
         (sound("bem", (55.0, 105.0, 0.0), reflecting_plane_mm=72.0), "cuts the bearing 2"),
         (sound("bem", (20.0, 105.0, 0.0), reflecting_plane_mm=55.0), "is between the bearing"),

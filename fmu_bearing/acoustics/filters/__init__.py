@@ -7,5 +7,6 @@
 ``shares``     what the work on a block costs, and which samples do it
 ``pack``       lays everything flat for the engine
 ``design``     from a scene to the engine's block; how well filters follow
+``bearings``   what the bearings of a set radiate
 =============  ==============================================================================
 """

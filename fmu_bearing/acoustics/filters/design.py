@@ -17,21 +17,17 @@ from fmu_bearing.acoustics.registry import Position, Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.housing import middle_mm
-from fmu_bearing.scene.member import radiating, set_of
 
 __all__ = [
     "FilterError",
     "build",
-    "check_table",
     "filter_errors",
-    "front_of_set",
-    "housing_of_set",
     "line_parameters",
     "radiation_of",
     "radiators_of",
     "silent_parameters",
     "sound_parameters",
+    "table_of",
 ]
 
 # Paths this far below their component's strongest one, at all frequencies, are left out.
@@ -86,7 +82,10 @@ class Circle(NamedTuple):
 
 
 def sound_parameters(
-    scene: Scene, modes: Sequence[Any] | None = None, radiators: Radiators | None = None
+    scene: Scene,
+    modes: Sequence[Any] | None = None,
+    radiators: Radiators | None = None,
+    table: Table | None = None,
 ) -> NDArray[np.float64]:
     """Sound block of a scene for the kernels in `engine.sound`; empty when the scene has no sound.
 
@@ -95,8 +94,8 @@ def sound_parameters(
     modes
         Elastic modes of the rings in the order of the engine's coordinates, two channels each; by default
         the scene's.
-    radiators
-        What sounds; by default as the scene says.
+    radiators, table
+        What sounds, transfer functions of a set's bearing; by default as the scene says.
 
     Raises
     ------
@@ -107,19 +106,24 @@ def sound_parameters(
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
     positions = [position for _, position in scene.microphones]
-    radiation = radiation_of(scene, modes, radiators)
+    radiation = radiation_of(scene, modes, radiators, table)
     return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
 def line_parameters(
-    scene: Scene, radiators: Radiators | None = None, *, bearings: int = 0, metered: bool = True
+    scene: Scene,
+    radiators: Radiators | None = None,
+    table: Table | None = None,
+    *,
+    bearings: int = 0,
+    metered: bool = True,
 ) -> NDArray[np.float64]:
     """Sound block of lines of a scene (fidelity response); empty when the scene has no sound.
 
     Parameters
     ----------
-    radiators
-        What sounds; by default as the scene says.
+    radiators, table
+        What sounds, transfer functions of a set's bearing; by default as the scene says.
     bearings
         Of the set that it belongs to, whose levels alone are kept.
     metered
@@ -132,7 +136,7 @@ def line_parameters(
     """
     if scene.sound is None or not scene.microphones:
         return np.zeros(0)
-    radiation = radiation_of(scene, None, radiators)
+    radiation = radiation_of(scene, None, radiators, table)
     sources: list[tuple[int, int]] = []
     rays: list[list[Ray]] = []
     flights: list[float] = []
@@ -197,11 +201,14 @@ def filter_errors(scene: Scene, modes: Sequence[Any] | None = None) -> list[Filt
 
 
 def radiation_of(
-    scene: Scene, modes: Sequence[Any] | None = None, radiators: Radiators | None = None
+    scene: Scene,
+    modes: Sequence[Any] | None = None,
+    radiators: Radiators | None = None,
+    table: Table | None = None,
 ) -> Radiation:
     """Return what the paths of a scene with sound depend on besides its microphones.
 
-    ``radiators``: what sounds; by default as the scene says.
+    ``radiators``, ``table``: what sounds, its transfer functions; by default as the scene says.
 
     Raises
     ------
@@ -211,10 +218,8 @@ def radiation_of(
     if scene.sound is None:
         raise ValueError(f"{scene.name} has no sound: add [sound]")
     sound = si(scene.sound)
-    table = None
-    if scene.sound.radiation_model == "table":
-        where = f"sound.table_file {scene.sound.table_file}"
-        table = select(read_table(str(scene.sound.table_file)), scene.microphones, where)
+    if scene.sound.radiation_model == "table" and table is None:
+        table = table_of(scene)
     return Radiation(
         scene.sound.radiation_model, radiators or radiators_of(scene),
         Air(sound.air_density, sound.sound_speed),
@@ -223,44 +228,11 @@ def radiation_of(
     )  # fmt: skip
 
 
-def check_table(scene: Scene) -> None:
-    """Read the table of transfer functions of a scene, if it has one, as a run does; no filter is fitted.
-
-    Raises
-    ------
-    ValueError
-        When it cannot be read or does not serve.
-    """
-    if scene.sound is not None and scene.sound.radiation_model == "table":
-        radiation = radiation_of(scene)
-        positions = [position for _, position in scene.microphones]
-        for members in radiation.circles(positions):
-            radiation.paths(positions, members)
-
-
-def housing_of_set(scene: Scene) -> Housing:
-    """Return the housing of a set that radiates, in the axes of its first bearing.
-
-    All outer rings on fixed seats move with it as one rigid body, so the first one's motion and tilts give
-    everything that it does.
-    """
-    spindle = set_of(scene)
-    first = spindle.bearing[0]
-    diameter, length = spindle.housing.diameter_mm, spindle.housing.length_mm
-    assert diameter is not None and length is not None, "a housing that radiates moves and has a size"
-    centre = first.sign * (middle_mm(spindle) - first.position_mm)
-    return Housing(1e-3 * diameter, 1e-3 * length, 1e-3 * centre, turned=first.sign < 0, tilts=True)
-
-
-def front_of_set(scene: Scene) -> Radiators:
-    """Return what a set shows ahead where a housing or a rigid plane covers the rest: its first bearing.
-
-    In the axes of that bearing.
-    """
-    shown = radiators_of(radiating(scene, 0))
-    if scene.sound is not None and scene.sound.radiator == "housing":
-        return replace(shown, housing=housing_of_set(scene))
-    return replace(shown, baffle=True, turned=set_of(scene).bearing[0].sign < 0)
+def table_of(scene: Scene) -> Table:
+    """Return the table of a scene, its microphones in the scene's order."""
+    assert scene.sound is not None
+    where = f"sound.table_file {scene.sound.table_file}"
+    return select(read_table(str(scene.sound.table_file)), scene.microphones, where)
 
 
 def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:

@@ -15,9 +15,12 @@ A NumPy archive (``numpy.savez``) with five arrays:
 Inputs are ``<body>.acceleration.<x|y|z>`` and ``<body>.angular_acceleration.<y|z>`` of ``inner_ring``,
 ``outer_ring`` (or ``housing``, which moves with it) and ``cage``; ``balls.acceleration.<x|r|t>.<cos|sin>[m]``
 for the balls' sums over cos(m theta), sin(m theta), theta from 12 o'clock (``cos[0]`` of x and r only); and
-``flexure[i]``, i = 1 .., for flexural coordinates. What a table leaves out is silent.
+``flexure[i]``, i = 1 .., for flexural coordinates. What a table leaves out is silent. In a set each input
+begins with its bearing, ``bearing[2].inner_ring.acceleration.x``; places count from the nose, and all is in
+the axes of the shaft.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path as File
@@ -34,6 +37,8 @@ from fmu_bearing.likeness import nearest
 
 _ARRAYS = ("frequencies", "inputs", "microphones", "positions", "H")
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1, "cage": 2}
+#: Inputs whose sign changes where axes are mirrored along X.
+_MIRRORED = re.compile(r"\.acceleration\.x|\.angular_acceleration\.")
 _APART = 1e-3  # m by which a microphone may be off its place in the scene
 _TURN = 0.5 * np.pi  # rad between neighbouring frequencies: beyond this the curve between them is a guess
 _HEARD = 10 ** (-40 / 20)  # turns count where the magnitude exceeds this share of the largest
@@ -147,6 +152,38 @@ def select(table: Table, microphones: Sequence[tuple[str, Sequence[float]]], whe
     )  # fmt: skip
 
 
+def of_bearing(table: Table, number: int, sign: int, count: int) -> Table:
+    """Return what a table of a set has of one bearing, in that bearing's own axes.
+
+    Parameters
+    ----------
+    table : Table
+        With inputs that begin with ``bearing[1].`` and so on, in the axes of the shaft.
+    number, count : int
+        Of the bearing, from 1, and of all bearings.
+    sign : int
+        1 where it carries force on the shaft towards +X, else -1: then its axes are mirrored along X.
+
+    Raises
+    ------
+    ValueError
+        For an input that names no bearing of the set.
+    """
+    known = [f"bearing[{k}]." for k in range(1, count + 1)]
+    for name in table.inputs:
+        if not name.startswith(tuple(known)):
+            raise ValueError(
+                f"sound.table_file: '{name}' names none of the {count} bearings; an example: "
+                "bearing[1].inner_ring.acceleration.x"
+            )
+    head = known[number - 1]
+    own = [i for i, name in enumerate(table.inputs) if name.startswith(head)]
+    names = tuple(table.inputs[i].removeprefix(head) for i in own)
+    signs = np.array([sign if _MIRRORED.search(name) else 1 for name in names], dtype=float)
+    response = table.response[:, own] * signs[:, None]
+    return Table(table.frequencies, names, table.microphones, table.positions, response)
+
+
 def channels(harmonics: int, bodies_of_flexures: Sequence[int] = ()) -> dict[str, tuple[int, int, int]]:
     """Component, channel and kind of every input that a table may have.
 
@@ -181,6 +218,8 @@ def table_paths(
         On an unknown input, two names for one body, or frequencies too far apart to interpolate.
     """
     known = channels(harmonics, bodies_of_flexures)
+    if not table.inputs:  # of a bearing that is silent
+        return []
     responses = table.response[microphone]
     flight = _flight(table.frequencies, responses)
     f = fit_frequencies()

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from fmu_bearing.acoustics.analysis.field import Position
-from fmu_bearing.acoustics.filters.design import front_of_set, radiators_of
+from fmu_bearing.acoustics.filters.bearings import front_of_set
+from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.radiation.radiators import Air, Radiators
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.elastic.modes import ring_modes

@@ -278,6 +278,23 @@ def coupling():
     yield f"reading 50 outputs takes {cost[0]} us in C and {cost[1]} us through FMPy"
 
 
+def sets():
+    """Fidelities of the example sets, and what `auto` chooses."""
+    for name, words in (("db", "DB, 15,000 r/min"), ("qbc", "QBC, 20,000 r/min")):
+        default = {**_FULL, "strips": "5"}
+        rows = {
+            "`full`": row(f"tradeoff_{name}", **default),
+            "`rings`": row(f"tradeoff_{name}", **{**default, "fidelity": "rings", "method": ""}),
+            "`response`": row(f"tradeoff_{name}", fidelity="response"),
+        }
+        for fidelity, found in rows.items():
+            exact = [*_cells(found).split(" | ")[:-1], rounded(found["dB(A)"]), rounded(found["sim/CPU"])]
+            yield f"| {words}, {fidelity} | {' | '.join(exact)} |"
+        text = (RESULTS / f"tradeoff_{name}.md").read_text("utf-8")
+        chosen = re.search(r"fidelity auto: (\w+) / (\w+)", text)
+        yield f"for the {name.upper()} it takes `{chosen[1]}` by `{chosen[2]}`"
+
+
 def settings():
     """How many settings the tradeoff study has."""
     yield f"Error against speed of {len(table('tradeoff'))} settings"
@@ -298,7 +315,7 @@ def examples():
 PAGES = {
     "../README.md": settings, "examples.md": examples, "gallery.md": gallery,
     "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
-    "spindle.md": spindle, "validation.md": validation,
+    "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
 }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 =====================  ==========================================================================
 ``microphone_places``  microphones by name or by place
+``sources``            what radiates in a scene, bearing by bearing, with places in the axes of each
 ``channel_history``    pressures and levels at any microphone, from recorded channels
 =====================  ==========================================================================
 """

@@ -272,7 +272,7 @@ def _block(
     for k, (p, (mass, _)) in enumerate(zip(bearings, rows, strict=True)):
         row = block[at + k * SP.ROW : at + (k + 1) * SP.ROW]
         outputs = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]))
-        sizes = {"P": p.size, "S": S.size(p), "W": W.size(p), "Z": outputs}
+        sizes = {"P": p.size, "S": S.front(p), "W": W.size(p), "Z": outputs}
         for name, length in sizes.items():
             row[getattr(SP, f"ROW_{name}")] = places[name]
             row[getattr(SP, f"ROW_{name}_SIZE")] = length
@@ -300,7 +300,7 @@ def _block(
     block[SP.UNBALANCED] = bool(tables[SP.AT_UNBALANCE].any())
     block[SP.AT_S], block[SP.AT_W], block[SP.AT_Z] = places["S"], places["W"], places["Z"]
     mics, bands = (int(bearings[0][place]) for place in (P.MICS, P.BANDS))
-    block[SP.SIZE_S] = places["S"] + SP.state_size(count, n, mics, bearings[0][P.FIDELITY] == RESPONSE)
+    block[SP.FRONT] = places["S"] + SP.state_size(count, n, mics, bearings[0][P.FIDELITY] == RESPONSE)
     block[SP.SIZE_W] = places["W"] + SP.work_size(count, n)
     block[SP.SIZE_Z] = places["Z"] + SP.output_size(count, mics, bands)
     block[SP.SIZE_U] = SP.U_BEARINGS + count * SP.U_ROW

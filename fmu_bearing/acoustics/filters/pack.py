@@ -365,7 +365,7 @@ def _place_lines(block: _Block, lines: Lines) -> None:
         (SD.H_W_CHANNELS, 2 * channels + 2),
         (SD.H_W_ROWS, 2 * SL.ROW_ALONE * mics),
         (SD.H_W_PARTS, 2 * most * (SL.ROW_ALONE + bearings) * mics),
-        (SD.H_W_INDEX, SL.INDEX_ROWS * most + SL.HEADS + 1),
+        (SD.H_W_INDEX, SL.INDEX_ROWS * most + SL.HEADS + SL.NOTES),
         (SD.H_W_GAINS, (SL.GAIN_BANDS + bands) * most),
         (SD.H_W_PHASES, 2 * most),
         (SD.H_W_TURNS, SL.TURN),

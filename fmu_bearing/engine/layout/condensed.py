@@ -1,6 +1,6 @@
 """L: what fidelities rings and response keep in the state, from ``S.CONDENSED`` on (``lv`` in kernels)."""
 
-from fmu_bearing.engine.layout import c as C, history as H, q as Q, y as Y
+from fmu_bearing.engine.layout import c as C, history as H, pattern as PT, q as Q, y as Y
 from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
 
 N = Q.RINGS  # coordinates: inner x y z by bz, outer x y z angle by bz
@@ -25,6 +25,7 @@ LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, z
 LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
 LINE_SIZE = _line.next
 
+IDLE, GOING, ENDED = range(3)  # of a search for the operating point; ended: its result is not in use yet
 LOST = 8  # losses: heats of inner ring, outer ring, oil, four by source (W), torque on the outer ring (N m)
 
 _at = Places()
@@ -121,6 +122,17 @@ MORE_TOTAL = _at()  # W: lost with even balls there; 0: nothing was found yet
 MORE_RATIO = _at()  # factor on the orbit speed
 MORE = _at(LOST)  # losses added
 MORE_CONDITIONS = _at(C.SIZE)
+# a search for that, which goes on in pieces
+SEARCH_STATE = _at()  # IDLE, GOING or ENDED
+SEARCH_BEFORE = _at()  # 1: it was going when a renewal of other things began
+SEARCH_SPEED = _at()  # rad/s: of the shaft,
+SEARCH_TURNING = _at()  # and at which the state is found
+SEARCH_HELD = _at()  # see steady/even
+SEARCH_RATIO = _at()  # orbit over shaft speed with even balls
+SEARCH_TOTAL = _at()  # W: lost with even balls,
+SEARCH_LOST = _at(LOST)  # and by losses
+SEARCH_CONDITIONS = _at(C.SIZE)
+SEARCH_KEPT = _at(PT.KEPT_SIZE)
 SIZE = _at.next
 
 HEAT_OUTER = HEAT + 1

@@ -43,4 +43,16 @@ FIRST_STATE = _at(_Y.SIZE)  # quasi-static state that is settled,
 EVEN_STATE = _at(_Y.SIZE)  # state of the even balls,
 REST_STATE = _at(_Y.SIZE)  # of the pattern at rest,
 WHIRL_STATE = _at(_Y.SIZE)  # and of the one that turns with a whirling cage
+STAGE = _at()  # of a search: see steady/point
+WAY = _at()  # of searching with soft pockets, or from where for a whirl
+ROUND = _at()  # rounds made in this stage
+SHARE = _at()  # of the pockets' stiffness
+GROWTH = _at()  # 1/s: eigenvalue that the whirl's is looked for beside
+TURNING = _at()  # rad/s
+FOUND_GROWTH = _at()  # 1/s: the whirl's, so far,
+FOUND_TURNING = _at()  # rad/s
 SIZE = _at.next
+
+# what a search takes from one piece of it to the next: places and lengths
+KEPT = ((UNKNOWNS, MOST), (EIGEN, RIGHT), (FIRST_STATE, SIZE - FIRST_STATE))
+KEPT_SIZE = sum(count for _, count in KEPT)

@@ -64,9 +64,17 @@ SET = _at(_SP.state_size(1, _L.N))  # what a set keeps of its own, where the bea
 SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response)
 
 
-def size(p):
-    """Length of ``s`` for the parameters ``p``."""
+def front(p):
+    """Length of the part of ``s`` that steps go on from, which all of ``s`` is but in fidelity `response`.
+
+    There inputs and a second such part follow, in which what is held is renewed: see ``response/renewal``.
+    """
     if _SP.has_shaft(p):
-        return int(p[int(p[_P.SET]) + _SP.SIZE_S])
+        return int(p[int(p[_P.SET]) + _SP.FRONT])
     lines = _L.MOST_LINES * _L.LINE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
     return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines
+
+
+def size(p):
+    """Length of ``s`` for the parameters ``p``."""
+    return front(p) + (_SP.inputs(p) + front(p) if p[_P.FIDELITY] == RESPONSE else 0)

@@ -58,7 +58,11 @@ INDEX_NEXT = _at()  # next line with the same key
 INDEX_SORTED = _at()  # numbers by frequency
 INDEX_SIZE = _at()  # Pa: root of the weight
 INDEX_ROWS = _at.next
-HEADS = 256  # chains of lines by key, behind these rows
+HEADS = 256  # chains of lines by key, behind these rows,
+_at = Places()
+NOTE_STRONGEST = _at()  # Pa2: behind these the largest weight of a line of the rings,
+NOTE_TOKEN = _at()  # and what the table is of
+NOTES = _at.next
 
 # scratch of beats over a step: rows of the most beats
 _at = Places()

@@ -33,7 +33,7 @@ LINED = _at()  # 1: the state has room for lines (fidelity response)
 AT_S = _at()  # places of the set's own in s, w, z
 AT_W = _at()
 AT_Z = _at()
-SIZE_S = _at()  # lengths of s, w, z with all bearings
+FRONT = _at()  # lengths of s, w, z with all bearings; of s: see the same place in s.py
 SIZE_W = _at()
 SIZE_Z = _at()
 SIZE_U = _at()
@@ -180,6 +180,18 @@ HELD_NOSE = _march(PLANE)  # N, N m: what the bearings' quasi-static points were
 HELD_SPRING = _march()  # N,
 HELD_FEET = _march()  # N/m: and the pedestal
 LINES = _march()  # how many lines there are (fidelity response)
+PIECES = _march()  # of renewals: due and not made yet
+# a renewal that goes on in pieces (fidelity response): see response/renewal
+STAGE = _march()
+MEMBER = _march()  # bearing,
+KIND = _march()  # kind of its lines,
+CURSOR = _march()  # and how many candidates for them were tried
+AIM = _march()  # rad/s: for which all is found
+TURN = _march()  # pieces so far,
+OF_SOUND = _march()  # 1: of sound alone
+MADE = _march()  # of this renewal,
+MADE_LAST = _march(2)  # of the last one, of the last one of sound alone
+TOKEN = _march()  # what the sound in the work space is of
 MARCHED = _march.next
 
 # fidelity response, at the end: lines, each with the complex displacements of the padded coordinates

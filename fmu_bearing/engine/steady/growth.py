@@ -22,7 +22,7 @@ from fmu_bearing.engine.steady.pattern import STENCIL, neighbour, show, slope_we
 _GROWING = 0.15
 _TURNING = 0.45
 _BESIDE = 0.02
-_SHIFTS = 3
+SHIFTS = 3
 _ROUNDS = 8  # with each
 _CLOSE = 1e-4  # of shaft speed: what the last round may change
 
@@ -193,10 +193,36 @@ def right_side(p, c, growth, turning, held, w):
 
 
 @kernel
-def growth_of_whirl(p, c, speed, held, rest, w, jac):
-    """Growth (1/s) of the cage's slowest decaying forward whirl about the pattern ``rest``, and its speed.
+def begin_growth(p, speed, w):
+    """Begin the search for the growth of a whirl with a cage that goes round ahead."""
+    ahead = math.copysign(1.0, speed)
+    last = tail(p)
+    vector = w[W.PATTERN + PT.EIGEN : W.PATTERN + PT.FIRST_STATE]
+    growth = _GROWING * abs(speed)
+    turning = _TURNING * abs(speed)
+    for i in range(PT.RIGHT_IM + PT.MOST):
+        vector[i] = 0.0
+    y = last + Q.CAGE + Q.Y
+    z = last + Q.CAGE + Q.Z
+    # y + i z turns ahead
+    vector[y] = 1.0
+    vector[PT.VECTOR_IM + z] = -ahead
+    for i in (y, z):
+        vector[PT.RATE + i] = growth * vector[i] - turning * vector[PT.VECTOR_IM + i]
+        vector[PT.RATE_IM + i] = growth * vector[PT.VECTOR_IM + i] + turning * vector[i]
+    w[W.PATTERN + PT.GROWTH] = growth
+    w[W.PATTERN + PT.TURNING] = turning
+    w[W.PATTERN + PT.FOUND_GROWTH] = -math.inf
+    w[W.PATTERN + PT.FOUND_TURNING] = turning
 
-    Its speed (rad/s) counts along the shaft's. A growth of minus infinity where none is found.
+
+@kernel
+def growth_beside(p, c, speed, held, rest, w, jac):
+    """Look beside ``PT.GROWTH`` and ``PT.TURNING`` for the cage's slowest decaying forward whirl.
+
+    About the pattern ``rest``. Whether the search has ended; after `SHIFTS` of them it ends in any case.
+    ``PT.FOUND_GROWTH`` (1/s) is minus infinity where there is none, ``PT.FOUND_TURNING`` its speed (rad/s,
+    along the shaft's).
     """
     ahead = math.copysign(1.0, speed)
     last = tail(p)
@@ -212,49 +238,40 @@ def growth_of_whirl(p, c, speed, held, rest, w, jac):
     show(p, ahead, w, rest)
     jacobian(p, c, rest, 0.0, speed, 0.0, w, jac)
     rate_coefficients(p, c, held, ahead, w, jac)
-    growth = _GROWING * abs(speed)
-    turning = _TURNING * abs(speed)
-    for i in range(PT.RIGHT_IM + PT.MOST):
-        vector[i] = 0.0
     y = last + Q.CAGE + Q.Y
     z = last + Q.CAGE + Q.Z
-    # y + i z turns ahead
-    vector[y] = 1.0
-    vector[PT.VECTOR_IM + z] = -ahead
-    for i in (y, z):
-        vector[PT.RATE + i] = growth * vector[i] - turning * vector[PT.VECTOR_IM + i]
-        vector[PT.RATE_IM + i] = growth * vector[PT.VECTOR_IM + i] + turning * vector[i]
-    found_growth = -math.inf
-    found_turning = turning
-    for _ in range(_SHIFTS):
-        derivatives(p, c, rest, held, ahead, False, w, jac)
-        combine(p, c, growth, turning, held, w)
-        if not factor_complex(re, im, size, width, order):
-            break
-        for _ in range(_ROUNDS):
-            right_side(p, c, growth, turning, held, w)
-            solve_factored(re, im, size, width, order, answer_re, answer_im)
-            # how far the cage goes round ahead: this stays 1
-            far_re = 0.5 * (answer_re[y] - ahead * answer_im[z])
-            far_im = 0.5 * (answer_im[y] + ahead * answer_re[z])
-            far = far_re * far_re + far_im * far_im
-            if not (far > 0.0):
-                return -math.inf, found_turning
-            per_re = far_re / far
-            per_im = -far_im / far
-            for i in range(size):
-                # the answer's rates are the vector and lambda times the answer
-                rate_re = vector[i] + growth * answer_re[i] - turning * answer_im[i]
-                rate_im = vector[PT.VECTOR_IM + i] + growth * answer_im[i] + turning * answer_re[i]
-                vector[i] = answer_re[i] * per_re - answer_im[i] * per_im
-                vector[PT.VECTOR_IM + i] = answer_re[i] * per_im + answer_im[i] * per_re
-                vector[PT.RATE + i] = rate_re * per_re - rate_im * per_im
-                vector[PT.RATE_IM + i] = rate_re * per_im + rate_im * per_re
-            moved = abs(growth + per_re - found_growth) + abs(turning + per_im - found_turning)
-            found_growth = growth + per_re
-            found_turning = turning + per_im
-            if moved < _CLOSE * abs(speed):
-                return found_growth, found_turning
-        growth = found_growth + _BESIDE * abs(speed)
-        turning = found_turning
-    return found_growth, found_turning
+    growth = w[W.PATTERN + PT.GROWTH]
+    turning = w[W.PATTERN + PT.TURNING]
+    derivatives(p, c, rest, held, ahead, False, w, jac)
+    combine(p, c, growth, turning, held, w)
+    if not factor_complex(re, im, size, width, order):
+        return True
+    for _ in range(_ROUNDS):
+        right_side(p, c, growth, turning, held, w)
+        solve_factored(re, im, size, width, order, answer_re, answer_im)
+        # how far the cage goes round ahead: this stays 1
+        far_re = 0.5 * (answer_re[y] - ahead * answer_im[z])
+        far_im = 0.5 * (answer_im[y] + ahead * answer_re[z])
+        far = far_re * far_re + far_im * far_im
+        if not (far > 0.0):
+            w[W.PATTERN + PT.FOUND_GROWTH] = -math.inf
+            return True
+        per_re = far_re / far
+        per_im = -far_im / far
+        for i in range(size):
+            # the answer's rates are the vector and lambda times the answer
+            rate_re = vector[i] + growth * answer_re[i] - turning * answer_im[i]
+            rate_im = vector[PT.VECTOR_IM + i] + growth * answer_im[i] + turning * answer_re[i]
+            vector[i] = answer_re[i] * per_re - answer_im[i] * per_im
+            vector[PT.VECTOR_IM + i] = answer_re[i] * per_im + answer_im[i] * per_re
+            vector[PT.RATE + i] = rate_re * per_re - rate_im * per_im
+            vector[PT.RATE_IM + i] = rate_re * per_im + rate_im * per_re
+        moved = abs(growth + per_re - w[W.PATTERN + PT.FOUND_GROWTH])
+        moved += abs(turning + per_im - w[W.PATTERN + PT.FOUND_TURNING])
+        w[W.PATTERN + PT.FOUND_GROWTH] = growth + per_re
+        w[W.PATTERN + PT.FOUND_TURNING] = turning + per_im
+        if moved < _CLOSE * abs(speed):
+            return True
+    w[W.PATTERN + PT.GROWTH] = w[W.PATTERN + PT.FOUND_GROWTH] + _BESIDE * abs(speed)
+    w[W.PATTERN + PT.TURNING] = w[W.PATTERN + PT.FOUND_TURNING]
+    return False

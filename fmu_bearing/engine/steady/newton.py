@@ -9,6 +9,9 @@ from fmu_bearing.engine.newton.jacobian import is_angle, jacobian
 from fmu_bearing.engine.steady.equations import derivatives, out_of_balance, residual
 from fmu_bearing.engine.steady.pattern import show, tail
 
+#: What a round of Newton's method comes to.
+GOES_ON, SETTLED, FAILED = range(3)
+
 _HALVINGS = 6
 # Longest steps: of a ball in its contacts about their approach, along its orbit less than a pocket's
 # clearance, of a body some ten approaches, of a spin and a speed three per cent.
@@ -82,8 +85,8 @@ def move(p, share, w):
 
 
 @kernel
-def settle_pattern(p, c, speed, held, ahead, whirls, reach, rounds, y, w, jac):
-    """Bring the pattern in ``PT.UNKNOWNS`` to its balance; the rounds it took, negative where it fails.
+def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
+    """One round of Newton's method for the pattern in ``PT.UNKNOWNS``: `SETTLED`, `FAILED` or `GOES_ON`.
 
     ``held``: see `equations.is_fixed`; ``ahead``: 1 where balls run to larger phases, -1 to smaller ones;
     ``whirls``: the pattern turns with the cage; ``reach``: how far balls may go along their orbit in a round,
@@ -92,33 +95,30 @@ def settle_pattern(p, c, speed, held, ahead, whirls, reach, rounds, y, w, jac):
     f = w[W.F0 : W.F0 + F.SIZE]
     size = tail(p) + PT.TAIL
     at = W.PATTERN + PT.MATRIX
-    for n in range(rounds):
-        show(p, ahead, w, y)
-        jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
-        before = residual(p, c, y, f, held, ahead, whirls, w)
-        derivatives(p, c, y, held, ahead, whirls, w, jac)
-        for i in range(size):
-            w[at + i * (size + 1) + size] = -w[W.PATTERN + PT.RESIDUAL + i]
-        longest_steps(p, reach, w)
-        most = solve(p, w)
-        if most < 0.0:
-            return -1
-        share = 1.0 / max(most, 1.0)
-        move(p, share, w)
+    show(p, ahead, w, y)
+    jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
+    before = residual(p, c, y, f, held, ahead, whirls, w)
+    derivatives(p, c, y, held, ahead, whirls, w, jac)
+    for i in range(size):
+        w[at + i * (size + 1) + size] = -w[W.PATTERN + PT.RESIDUAL + i]
+    longest_steps(p, reach, w)
+    most = solve(p, w)
+    if most < 0.0:
+        return FAILED
+    share = 1.0 / max(most, 1.0)
+    move(p, share, w)
+    show(p, ahead, w, y)
+    after = out_of_balance(p, c, speed, y, held, ahead, whirls, w, f)
+    if most < _SETTLED and after < _BALANCED:
+        return SETTLED
+    for _ in range(_HALVINGS):
+        if after < before or most < _SETTLED:
+            break
+        share *= 0.5
+        move(p, -share, w)
         show(p, ahead, w, y)
         after = out_of_balance(p, c, speed, y, held, ahead, whirls, w, f)
-        if most < _SETTLED and after < _BALANCED:
-            return n + 1
-        for _ in range(_HALVINGS):
-            if after < before or most < _SETTLED:
-                break
-            share *= 0.5
-            move(p, -share, w)
-            show(p, ahead, w, y)
-            after = out_of_balance(p, c, speed, y, held, ahead, whirls, w, f)
-        if not math.isfinite(after):
-            return -1
-    return -1
+    return GOES_ON if math.isfinite(after) else FAILED
 
 
 @kernel

@@ -5,6 +5,9 @@ axis makes the balls orbit unevenly, so that they push the cage aside, where it 
 Nothing but the film holds the cage there, and its own centrifugal force drives it out: where its whirl about
 that place grows (``growth``), it goes round in its lands (a pattern that turns), which raises torque and heat
 by up to a fifth. Where the whirl decays the cage rests.
+
+A search goes in pieces, none longer than one elimination of a pattern's equations, so that a model in a loop
+in real time can make one per step; what a piece leaves to the next is in ``PT.KEPT``.
 """
 
 import math
@@ -15,12 +18,16 @@ from fmu_bearing.engine.statics.held import held as between_held_rings
 from fmu_bearing.engine.statics.place import place_balls, place_cage, quasistatic_point, shift_bearing
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER, make_even, settle_evenly
-from fmu_bearing.engine.steady.growth import growth_of_whirl
-from fmu_bearing.engine.steady.newton import push_aside, settle_pattern
+from fmu_bearing.engine.steady.growth import SHIFTS, begin_growth, growth_beside
+from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, push_aside, settle_once
 from fmu_bearing.engine.steady.pattern import tail, take
 
 #: What was found of the steady state: see `settle`.
 NOT_FOUND, EVEN_BALLS, REST, WHIRL = range(4)
+SEARCHING = -1  # nothing yet
+# Stages of a search: even balls, the pattern at rest with pockets as they are, then with softer ones, the
+# whirl's growth, the whirl.
+_EVEN, _DIRECTLY, _SOFTLY, _GROWING, _WHIRLING = range(5)
 
 # A whirl is looked for near the lands at the speed at which it grows, from where Newton's method came to the
 # outer orbit in all cases tried with an orbit that the film holds (from half the clearance it ended in the
@@ -111,77 +118,71 @@ def begin_pattern(p, y, even, w):
 
 
 @kernel
-def rest_softly(p, c, y, speed, held, even, softest, factor, rest, w, jac):
-    """Find the pattern at rest with pockets of a share of their stiffness, then stiffer; see ``_WAYS``."""
+def enter(w, stage, way):
+    """Enter a stage of a search."""
+    w[W.PATTERN + PT.STAGE] = stage
+    w[W.PATTERN + PT.WAY] = way
+    w[W.PATTERN + PT.ROUND] = 0.0
+
+
+@kernel
+def rest_softly(p, c, y, speed, held, even, rest, w, jac):
+    """One round with pockets of a share of their stiffness: see ``_WAYS``; as `settle_once`."""
     ahead = math.copysign(1.0, speed)
+    n = int(w[W.PATTERN + PT.WAY])
+    softest, factor = _WAYS[n]
+    if w[W.PATTERN + PT.SHARE] == 0.0:
+        begin_pattern(p, y, even, w)
+        w[W.PATTERN + PT.SHARE] = softest
+    share = w[W.PATTERN + PT.SHARE]
     stiffness = c[C.POCKET]
-    begin_pattern(p, y, even, w)
-    share = softest
     c[C.POCKET] = share * stiffness
-    found = settle_pattern(p, c, speed, held, ahead, False, _REACH, _ROUNDS, rest, w, jac) > 0
-    while found and share < 1.0:
-        share = min(1.0, factor * share)
-        factor = _STIFFER
-        c[C.POCKET] = share * stiffness
-        found = settle_pattern(p, c, speed, held, ahead, False, 1.0, _ROUNDS, rest, w, jac) > 0
+    reach = _REACH if share == softest else 1.0
+    came = settle_once(p, c, speed, held, ahead, False, reach, rest, w, jac)
     c[C.POCKET] = stiffness
-    return found
+    if came != SETTLED or share >= 1.0:
+        return came
+    w[W.PATTERN + PT.SHARE] = min(1.0, (factor if share == softest else _STIFFER) * share)
+    w[W.PATTERN + PT.ROUND] = -1.0
+    return GOES_ON
 
 
 @kernel
-def rest_under_loads(p, c, y, speed, held, even, rest, w, jac):
-    """Find the pattern at rest from the quasi-static state ``y``; whether it was found, in ``rest``."""
-    ahead = math.copysign(1.0, speed)
-    begin_pattern(p, y, even, w)
-    if settle_pattern(p, c, speed, held, ahead, False, 1.0, _DIRECT, rest, w, jac) > 0:
-        return True
-    # pockets that open or close between two balls are found by softer ones
-    for softest, factor in _WAYS:
-        if rest_softly(p, c, y, speed, held, even, softest, factor, rest, w, jac):
-            return True
-    return False
-
-
-@kernel
-def orbit_of_cage(p, c, speed, held, aside, turning, even, whirl, w, jac):
-    """Find an orbit of the cage from ``aside`` (of the clearance) and ``turning`` (rad/s), without loads."""
+def begin_whirl(p, c, speed, even, whirl, w, jac):
+    """Put the cage aside and the balls where they then answer; False where there is no answer."""
+    turning = math.copysign(w[W.PATTERN + PT.FOUND_TURNING], speed)
+    aside = _ASIDE
+    if w[W.PATTERN + PT.WAY] != 0.0:
+        aside = p[P.LAND_STOP_FRACTION] + _BEHIND_STOP
+        turning = _TURNING * speed
     # the whirl overtakes the balls
     ahead = -math.copysign(1.0, speed)
-    aligned = p[P.MISALIGNMENT_Y] == 0.0 and p[P.MISALIGNMENT_Z] == 0.0
-    round_seat = c[C.PEDESTAL_Y] == c[C.PEDESTAL_Z] and c[C.PEDESTAL_YZ] == 0.0
-    # a ring that cannot turn with the whirl counts as held
-    holds = held if aligned and round_seat else max(held, OUTER)
     take(p, even, turning, w)
-    if not push_aside(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac):
-        return 0.0
-    if settle_pattern(p, c, speed, holds, ahead, True, 1.0, _ROUNDS, whirl, w, jac) < 0:
-        return 0.0
-    return eccentricity(p, whirl)
+    return push_aside(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac)
 
 
 @kernel
-def whirl_of_cage(p, c, speed, held, turning, even, whirl, w, jac):
-    """Find the whirl of the cage about the ``even`` state, in ``whirl``; its eccentricity, 0 if none.
-
-    ``turning``: about its speed (rad/s). Beyond ``P.LAND_STOP_FRACTION`` the dry stop carries the cage.
-    """
-    load_y = c[C.LOAD_Y]
-    load_z = c[C.LOAD_Z]
-    neutral_y = c[C.NEUTRAL_Y]
-    neutral_z = c[C.NEUTRAL_Z]
+def whirl_once(p, c, speed, held, even, whirl, w, jac):
+    """One round towards an orbit of the cage, without loads; as `settle_once`."""
+    load_y, load_z = c[C.LOAD_Y], c[C.LOAD_Z]
+    neutral_y, neutral_z = c[C.NEUTRAL_Y], c[C.NEUTRAL_Z]
     c[C.LOAD_Y] = 0.0
     c[C.LOAD_Z] = 0.0
     c[C.NEUTRAL_Y] = 0.0
     c[C.NEUTRAL_Z] = 0.0
-    found = orbit_of_cage(p, c, speed, held, _ASIDE, turning, even, whirl, w, jac)
-    if found < _LEAST:
-        aside = p[P.LAND_STOP_FRACTION] + _BEHIND_STOP
-        found = orbit_of_cage(p, c, speed, held, aside, _TURNING * speed, even, whirl, w, jac)
+    aligned = p[P.MISALIGNMENT_Y] == 0.0 and p[P.MISALIGNMENT_Z] == 0.0
+    round_seat = c[C.PEDESTAL_Y] == c[C.PEDESTAL_Z] and c[C.PEDESTAL_YZ] == 0.0
+    # a ring that cannot turn with the whirl counts as held
+    holds = held if aligned and round_seat else max(held, OUTER)
+    came = FAILED
+    if w[W.PATTERN + PT.ROUND] > 0.0 or begin_whirl(p, c, speed, even, whirl, w, jac):
+        ahead = -math.copysign(1.0, speed)
+        came = settle_once(p, c, speed, holds, ahead, True, 1.0, whirl, w, jac)
     c[C.LOAD_Y] = load_y
     c[C.LOAD_Z] = load_z
     c[C.NEUTRAL_Y] = neutral_y
     c[C.NEUTRAL_Z] = neutral_z
-    return found if found > _LEAST else 0.0
+    return came
 
 
 @kernel
@@ -213,17 +214,26 @@ def along_axis(p, c, y, speed, held, state, w):
 
 
 @kernel
-def settle_at_rest(p, c, y, speed, held, w, jac):
-    """As `settle`, but look for no whirl: `NOT_FOUND`, `EVEN_BALLS` or `REST`."""
-    even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
-    rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
-    whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
-    if speed == 0.0:
-        return NOT_FOUND
+def state_at(w, place):
+    """Return the state at ``w[W.PATTERN + place:]``."""
+    return w[W.PATTERN + place : W.PATTERN + place + Y.SIZE]
+
+
+@kernel
+def begin_search(y, w):
+    """Begin the search for the steady state near the quasi-static state ``y``."""
+    even, rest, whirl = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE), state_at(w, PT.WHIRL_STATE)
     for i in range(Y.SIZE):
         even[i] = y[i]
         rest[i] = 0.0
         whirl[i] = 0.0
+    enter(w, _EVEN, 0.0)
+
+
+@kernel
+def settle_even_balls(p, c, y, speed, held, w, jac):
+    """First stage of a search: as `search`, with the pattern at rest to go on with where loads ask for it."""
+    even, rest = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE)
     loaded = is_loaded(p, c, y, held)
     if loaded:
         # means over balls that loads across the axis make uneven are too far from even ones
@@ -236,9 +246,96 @@ def settle_at_rest(p, c, y, speed, held, w, jac):
         return EVEN_BALLS
     for i in range(Y.SIZE):
         rest[i] = even[i]
-    if loaded and not rest_under_loads(p, c, y, speed, held, even, rest, w, jac):
+    if not loaded:
+        return REST
+    begin_pattern(p, y, even, w)
+    enter(w, _DIRECTLY, 0.0)
+    return SEARCHING
+
+
+@kernel
+def rest_once(p, c, y, speed, held, w, jac):
+    """One round towards the pattern at rest; what is found."""
+    even, rest = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE)
+    directly = w[W.PATTERN + PT.STAGE] == _DIRECTLY
+    if directly:
+        ahead = math.copysign(1.0, speed)
+        came = settle_once(p, c, speed, held, ahead, False, 1.0, rest, w, jac)
+    else:
+        came = rest_softly(p, c, y, speed, held, even, rest, w, jac)
+    if came == SETTLED:
+        return REST
+    w[W.PATTERN + PT.ROUND] += 1.0
+    if came == GOES_ON and w[W.PATTERN + PT.ROUND] < (_DIRECT if directly else _ROUNDS):
+        return SEARCHING
+    # pockets that open or close between two balls are found by softer ones
+    way = 0.0 if directly else w[W.PATTERN + PT.WAY] + 1.0
+    if way == len(_WAYS):
         return EVEN_BALLS
-    return REST
+    enter(w, _SOFTLY, way)
+    w[W.PATTERN + PT.SHARE] = 0.0
+    return SEARCHING
+
+
+@kernel
+def follow_whirl(p, c, speed, held, w, jac):
+    """Stages of a search behind the pattern at rest: growth of the whirl, then the whirl; what is found."""
+    even, rest, whirl = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE), state_at(w, PT.WHIRL_STATE)
+    if w[W.PATTERN + PT.STAGE] == _GROWING:
+        if p[P.SPRINGS] != 0.0:
+            w[W.PATTERN + PT.FOUND_GROWTH] = math.inf
+            w[W.PATTERN + PT.FOUND_TURNING] = _TURNING * abs(speed)
+        else:
+            w[W.PATTERN + PT.ROUND] += 1.0
+            ended = growth_beside(p, c, speed, held, rest, w, jac)
+            if not ended and w[W.PATTERN + PT.ROUND] < SHIFTS:
+                return SEARCHING
+        if not (w[W.PATTERN + PT.FOUND_GROWTH] > 0.0):
+            return REST
+        enter(w, _WHIRLING, 0.0)
+        return SEARCHING
+    came = whirl_once(p, c, speed, held, even, whirl, w, jac)
+    w[W.PATTERN + PT.ROUND] += 1.0
+    # beyond ``P.LAND_STOP_FRACTION`` the dry stop carries the cage
+    if came == SETTLED and eccentricity(p, whirl) > _LEAST:
+        return WHIRL
+    if came == GOES_ON and w[W.PATTERN + PT.ROUND] < _ROUNDS:
+        return SEARCHING
+    if w[W.PATTERN + PT.WAY] != 0.0:
+        return REST
+    enter(w, _WHIRLING, 1.0)
+    return SEARCHING
+
+
+@kernel
+def search(p, c, y, speed, held, whirls, w, jac):
+    """Make one piece of a search that `begin_search` has begun: `SEARCHING`, or what was found.
+
+    Parameters as of `settle`, the same for all pieces; ``whirls``: whether to look for whirls.
+    """
+    if speed == 0.0:
+        return NOT_FOUND
+    if w[W.PATTERN + PT.STAGE] >= _GROWING:
+        return follow_whirl(p, c, speed, held, w, jac)
+    if w[W.PATTERN + PT.STAGE] == _EVEN:
+        found = settle_even_balls(p, c, y, speed, held, w, jac)
+    else:
+        found = rest_once(p, c, y, speed, held, w, jac)
+    if found != REST or not whirls or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
+        return found
+    enter(w, _GROWING, 0.0)
+    begin_growth(p, speed, w)
+    return SEARCHING
+
+
+@kernel
+def settle_at_rest(p, c, y, speed, held, w, jac):
+    """As `settle`, but look for no whirl: `NOT_FOUND`, `EVEN_BALLS` or `REST`."""
+    begin_search(y, w)
+    found = SEARCHING
+    while found == SEARCHING:
+        found = search(p, c, y, speed, held, False, w, jac)
+    return found
 
 
 @kernel
@@ -250,21 +347,11 @@ def settle(p, c, y, speed, held, w, jac):
     `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them; `REST`: the cage rests, or
     no whirl was found; `WHIRL`: it whirls.
     """
-    found = settle_at_rest(p, c, y, speed, held, w, jac)
-    if found != REST or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
-        return found
-    even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
-    rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
-    whirl = w[W.PATTERN + PT.WHIRL_STATE : W.PATTERN + PT.SIZE]
-    growth = math.inf
-    turning = _TURNING * abs(speed)
-    if p[P.SPRINGS] == 0.0:
-        growth, turning = growth_of_whirl(p, c, speed, held, rest, w, jac)
-    if growth > 0.0:
-        turning = math.copysign(turning, speed)
-        if whirl_of_cage(p, c, speed, held, turning, even, whirl, w, jac) > 0.0:
-            return WHIRL
-    return REST
+    begin_search(y, w)
+    found = SEARCHING
+    while found == SEARCHING:
+        found = search(p, c, y, speed, held, True, w, jac)
+    return found
 
 
 @kernel

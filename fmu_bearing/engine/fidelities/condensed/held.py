@@ -12,9 +12,9 @@ import math
 
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
 from fmu_bearing.engine.fidelities.condensed.uneven import (
-    add_uneven,
+    begin_uneven,
     hold_losses,
-    renew_uneven,
+    hold_uneven,
     uneven_out_of_date,
 )
 from fmu_bearing.engine.jit import kernel
@@ -54,8 +54,11 @@ def move_mount(p, u, s, w):
 
 
 @kernel
-def hold(p, u, speed, s, w):
-    """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure."""
+def hold(p, u, speed, at_once, s, w):
+    """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure.
+
+    ``at_once``: see `uneven.hold_uneven`.
+    """
     lv = s[S.CONDENSED :]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
@@ -75,8 +78,8 @@ def hold(p, u, speed, s, w):
         if uneven_out_of_date(lv, c, speed):
             first = w[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
             if quasistatic_point(p, c, turning, True, first, w) == OK:
-                renew_uneven(p, c, first, speed, turning, NONE, s, w)
-        add_uneven(speed, s, w)
+                begin_uneven(p, c, speed, turning, NONE, s, w)
+        hold_uneven(p, speed, at_once, s, w)
     c[C.PRELOAD] = u[U.PRELOAD]
     return status
 

@@ -95,7 +95,7 @@ def start_condensed(p, u, s, w, t):
     if status != OK:
         return status
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    status = hold(p, u, u[U.SPEED], s, w)
+    status = hold(p, u, u[U.SPEED], True, s, w)
     if status != OK:
         return status
     c = s[S.C : S.C + C.SIZE]
@@ -160,7 +160,7 @@ def set_inputs(p, u, s, w, h):
             changed = True
             s[S.C + i] = fresh[i]
     s[S.SPEED_RATE] = rate
-    return changed and out_of_date(lv, fresh, u[U.SPEED])
+    return (changed and out_of_date(lv, fresh, u[U.SPEED])) or lv[L.SEARCH_STATE] == L.ENDED
 
 
 @kernel

@@ -3,20 +3,25 @@
 The point that fidelities rings and response are linearised about has even balls and a centred cage. Torque,
 heat and orbit speed belong to the whole steady state (``steady.point``), with balls that loads across the
 axis make uneven or a cage that whirls. That takes some ten times as long to find: it is renewed when the
-speed or a load has moved by 5 %, and in between what it adds goes with the losses of the even balls.
+speed or a load has moved by 5 %, and in between what it adds goes with the losses of the even balls. The
+search goes in pieces, one per millisecond that is simulated, and takes some 10 to 30 of them. A cage takes
+longer to find its whirl.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.layout import PT, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.steady.point import (
     EVEN_BALLS,
     NOT_FOUND,
+    SEARCHING,
+    begin_search,
     bring_to_axis,
     is_sunk,
     losing_state,
-    settle,
+    search,
+    state_at,
 )
 
 _MOVED = 0.05  # of speed, loads, viscosity
@@ -93,8 +98,10 @@ def moved(now, then):
 
 @kernel
 def uneven_out_of_date(lv, c, speed):
-    """Whether speed, loads or sizes have moved too far for what uneven balls add."""
+    """Whether speed, loads or sizes have moved too far for what uneven balls add, and no search is going."""
     at = L.MORE_CONDITIONS
+    if lv[L.SEARCH_STATE] == L.GOING:
+        return False
     far = lv[L.MORE_TOTAL] == 0.0 or moved(speed, lv[L.MORE_SPEED])
     for i in (C.PRELOAD, C.LOAD_Y, C.LOAD_Z, C.VISCOSITY, C.PEDESTAL):
         if moved(c[i], lv[at + i]):
@@ -108,38 +115,78 @@ def uneven_out_of_date(lv, c, speed):
 
 
 @kernel
-def renew_uneven(p, c, first, speed, turning, ring_held, s, w):
-    """Find what uneven balls add near the quasi-static state ``first``, which is overwritten.
+def keep_pieces(w, lv, back):
+    """Keep what a search leaves to its next piece; ``back``: put it back to the work space."""
+    at = L.SEARCH_KEPT
+    for first, count in PT.KEPT:
+        for i in range(count):
+            if back:
+                w[W.PATTERN + first + i] = lv[at + i]
+            else:
+                lv[at + i] = w[W.PATTERN + first + i]
+        at += count
+
+
+@kernel
+def begin_uneven(p, c, speed, turning, ring_held, s, w):
+    """Begin the search for what uneven balls add near the quasi-static state ``PT.FIRST_STATE``.
 
     ``c``: conditions without imperfections, with the loads; ``ring_held``: see `steady.even`. The losses that
-    are held belong to even balls, before and after.
+    are held belong to even balls.
     """
     lv = s[S.CONDENSED :]
-    for i in range(L.LOST):
-        lv[L.MORE + i] = 0.0
-    lv[L.MORE_RATIO] = 1.0
-    lv[L.MORE_TOTAL] = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
-    lv[L.MORE_SPEED] = speed
+    first = state_at(w, PT.FIRST_STATE)
+    lv[L.SEARCH_STATE] = L.GOING
+    lv[L.SEARCH_SPEED] = speed
+    lv[L.SEARCH_TURNING] = turning
+    lv[L.SEARCH_HELD] = ring_held
+    lv[L.SEARCH_RATIO] = lv[L.RATIO]
+    lv[L.SEARCH_TOTAL] = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
+    show_lost(lv, s, lv, L.SEARCH_LOST)
+    own = lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE]
     for i in range(C.SIZE):
-        lv[L.MORE_CONDITIONS + i] = c[i]
+        own[i] = c[i]
     if is_sunk(first):
-        bring_to_axis(p, c, first)
-    found = settle(p, c, first, turning, ring_held, w, s[S.JAC : S.CONDENSED])
+        bring_to_axis(p, own, first)
+    begin_search(first, w)
+    keep_pieces(w, lv, False)
+
+
+@kernel
+def go_on_uneven(p, s, w):
+    """Make one piece of the search for what uneven balls add; its end puts that to ``L.MORE``."""
+    lv = s[S.CONDENSED :]
+    c = lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE]
+    turning = lv[L.SEARCH_TURNING]
+    keep_pieces(w, lv, True)
+    first = state_at(w, PT.FIRST_STATE)
+    found = search(p, c, first, turning, int(lv[L.SEARCH_HELD]), True, w, s[S.JAC : S.CONDENSED])
+    if found == SEARCHING:
+        keep_pieces(w, lv, False)
+        return
+    lv[L.SEARCH_STATE] = L.ENDED
+    lv[L.MORE_TOTAL] = lv[L.SEARCH_TOTAL]
+    lv[L.MORE_SPEED] = lv[L.SEARCH_SPEED]
     c[C.NEUTRAL_Y] = 0.0
     c[C.NEUTRAL_Z] = 0.0
+    for i in range(C.SIZE):
+        lv[L.MORE_CONDITIONS + i] = c[i]
+    lv[L.MORE_RATIO] = 1.0
+    for i in range(L.LOST):
+        lv[L.MORE + i] = 0.0
     if found == NOT_FOUND or found == EVEN_BALLS:
         return
     whole = losing_state(found, w)
     mean = 0.0
     for j in range(int(p[P.BALLS])):
         mean += whole[Y.OM + j] / p[P.BALLS]
-    lv[L.MORE_RATIO] = mean / (turning * lv[L.RATIO])
+    lv[L.MORE_RATIO] = mean / (turning * lv[L.SEARCH_RATIO])
     show_lost(lv, s, w, T.HELD_LOST)
-    hold_losses(p, c, whole, speed, turning, s, w)
+    hold_losses(p, c, whole, lv[L.SEARCH_SPEED], turning, s, w)
     show_lost(lv, s, lv, L.MORE)
     keep_lost(lv, s, w, T.HELD_LOST)
     for i in range(L.LOST):
-        lv[L.MORE + i] -= w[T.HELD_LOST + i]
+        lv[L.MORE + i] -= lv[L.SEARCH_LOST + i]
 
 
 @kernel
@@ -156,3 +203,18 @@ def add_uneven(speed, s, w):
     lv[L.TORQUE] = 0.0
     if speed != 0.0:
         lv[L.TORQUE] = (lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]) / speed
+
+
+@kernel
+def hold_uneven(p, speed, at_once, s, w):
+    """Put what uneven balls add to the losses of even ones, which are held at ``speed`` (rad/s).
+
+    ``at_once``: a search that was begun is made to its end first; or else what was found before serves, until
+    the pieces of the search (`go_on_uneven`) have come to their end.
+    """
+    lv = s[S.CONDENSED :]
+    while at_once and lv[L.SEARCH_STATE] == L.GOING:
+        go_on_uneven(p, s, w)
+    if lv[L.SEARCH_STATE] == L.ENDED:
+        lv[L.SEARCH_STATE] = L.IDLE
+    add_uneven(speed, s, w)

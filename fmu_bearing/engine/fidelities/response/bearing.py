@@ -5,7 +5,7 @@ from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import flat
-from fmu_bearing.engine.fidelities.response.lines import renew_lines
+from fmu_bearing.engine.fidelities.response.lines import begin_lines
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, L, P, S, T, W, Y
@@ -20,11 +20,8 @@ BACK = 2e-6  # s between the two states a ball's rate is taken from, without sou
 
 
 @kernel
-def linearise(p, s, alone, speed, w):
-    """Renew derivatives and lines at ``speed`` about ``L.MEAN``; False where there are none.
-
-    ``alone``: see ``lines.keep``.
-    """
+def linearise(p, s, speed, w):
+    """Renew derivatives at ``speed`` about ``L.MEAN`` and begin lines; False where there are none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     still(p, c, lv, w)
@@ -32,7 +29,7 @@ def linearise(p, s, alone, speed, w):
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
         return False
     still(p, c, lv, w)
-    renew_lines(p, s, alone, speed, w)
+    begin_lines(p, s, speed, w)
     return True
 
 

@@ -222,16 +222,21 @@ def unbalance_line(p, s, w, speed):
 
 
 @kernel
-def answer_lines(p, s, w, speed):
-    """Renew the lines of the set at ``speed`` (rad/s), when each bearing has found what drives it."""
+def answer_lines(p, s, w, speed, first, many):
+    """Renew the lines of the set at ``speed`` (rad/s), when each bearing has found what drives it.
+
+    Of what drives the set, ``many`` from number ``first`` on; whether more is left.
+    """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     side = members.coordinates(p) * members.padded_size(p)
     im, _ = equations_at(p)
     count = members.march(p) + SP.LINES
-    own[count] = 0.0
     prepare_equations(p, s, w, speed)
-    unbalance_line(p, s, w, speed)
+    if first == 0:
+        own[count] = 0.0
+        unbalance_line(p, s, w, speed)
+    seen = 0
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -239,7 +244,8 @@ def answer_lines(p, s, w, speed):
         drives = sb[line_table(members.parameters(p, b)) :]
         for k in range(int(lv[L.COUNT])):
             at = k * L.LINE_SIZE
-            if not (drives[at + L.LINE_WEIGHT] > 0.0):
+            seen += 1
+            if not (first < seen <= first + many and drives[at + L.LINE_WEIGHT] > 0.0):
                 continue
             omega = frequency(lv, drives, at, speed)
             set_equations(p, s, w, omega)
@@ -249,7 +255,10 @@ def answer_lines(p, s, w, speed):
                 p, s, w, b, drives[at + L.LINE_BALL], drives[at + L.LINE_SHAFT], drives[at + L.LINE_ROLLED],
                 omega,
             )  # fmt: skip
+    if seen > first + many:
+        return True
     own[count] = drop_weak(own[members.lines(p) :], members.line_size(p), int(own[count]))
+    return False
 
 
 @kernel

@@ -29,6 +29,7 @@ from fmu_bearing.engine.fidelities.response.samples import (
     keep_places,
     kinds_of_sample,
     order_of,
+    parts_of_spacing,
     sample_orbit,
     transform,
 )
@@ -40,6 +41,7 @@ from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import is_angle
 
 _RADIATES = 6300.0  # rad/s: from here on lines count by their acceleration
+KINDS = 3  # of candidates: with the shaft, with the balls' orbit, by the balls' form
 STILL = 1e-3  # rad/s: a line as slow as that is none
 
 
@@ -237,14 +239,23 @@ def form_sums(p, x, form, m, a, scale):
 
 
 @kernel
-def steady_lines(p, c, lv, lines, alone, x, count, orbit, w):
-    """Lines that turn with the balls alone: outer race, varying compliance, unequal balls."""
+def steady_lines(p, c, lv, lines, alone, x, orbit, first, many, w):
+    """Lines that turn with the balls alone: outer race, varying compliance, unequal balls.
+
+    Of the candidates ``many`` from number ``first`` on; returns how many there are in all. So do
+    `shaft_lines` and `form_lines`.
+    """
     balls = int(p[P.BALLS])
+    count = balls * parts_of_spacing(balls)
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
     highest = orders(p)
+    seen = 0
     for a in range(1, max(highest, LN.AZIMUTHS // 2) + LN.REACH + 1):
         if a % balls != 0 and a > LN.REACH:
+            continue
+        seen += 1
+        if not first < seen <= first + many:
             continue
         for i in range(LN.COMPLEX):
             w[T.LINE_FORCE + i] = 0.0
@@ -266,28 +277,35 @@ def steady_lines(p, c, lv, lines, alone, x, count, orbit, w):
                     w[T.LINE_FORCE + i] += gr * dr - gi * di
                     w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
         keep(p, lv, lines, alone, a, 0.0, 0.0, a * orbit, w)
+    return seen
 
 
 @kernel
-def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w):
-    """Lines that turn with the shaft: unbalance and the waves of the inner race."""
+def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
+    """Lines that turn with the shaft: unbalance and the waves of the inner race; see `steady_lines`."""
     balls = int(p[P.BALLS])
     scale = c[C.OVERSIZE_SCALE]
     tau = p[P.CONTACT_DAMPING]
-    for i in range(LN.COMPLEX):
-        w[T.LINE_FORCE + i] = 0.0
-    push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
-    # (0, -sin, cos) of the shaft's angle
-    w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
-    w[T.LINE_FORCE + Q.Z] = push
-    keep(p, lv, lines, alone, 0.0, 1.0, 0.0, speed, w)
+    if first == 0:
+        for i in range(LN.COMPLEX):
+            w[T.LINE_FORCE + i] = 0.0
+        push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
+        # (0, -sin, cos) of the shaft's angle
+        w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
+        w[T.LINE_FORCE + Q.Z] = push
+        keep(p, lv, lines, alone, 0.0, 1.0, 0.0, speed, w)
+    seen = 1
     for n in range(1, orders(p) + 1):
         lowest = max((n - LN.REACH + balls - 1) // balls, 0)
         for k in range(lowest, (n + LN.REACH) // balls + 1):
+            seen += 1
+            if not first < seen <= first + many:
+                continue
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             add_wave(p, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
             keep(p, lv, lines, alone, k * balls, -1.0 * n, 0.0, k * balls * orbit - n * speed, w)
+    return seen
 
 
 @kernel
@@ -314,15 +332,22 @@ def add_form(x, kind, order, re, im, rate, tau, w):
 
 
 @kernel
-def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
-    """Lines of the balls' form; the samples round the orbit are overwritten."""
+def form_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
+    """Lines of the balls' form; the samples round the orbit are overwritten; see `steady_lines`."""
+    if p[P.BALL_WAVES] == 0.0 or c[C.OVERSIZE_SCALE] == 0.0:
+        return 0
     rate = lv[L.ROLL] * speed
     highest = int(p[P.BALL_WAVES])
     reach = max(highest_order(x, LN.BY_HEIGHT), highest_order(x, LN.BY_HEIGHT + 1))
-    form_orders(p, lv, highest, x)
+    if first == 0:
+        form_orders(p, lv, highest, x)
+    seen = 0
     for m in range(1, highest + 1):
         double = 2.0 * c[C.OVERSIZE_SCALE]  # the real part counts both signs of the order
         for a in range(-reach, reach + 1):
+            seen += 1
+            if not first < seen <= first + many:
+                continue
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             for form in range(LN.FORMS):
@@ -330,18 +355,18 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, w):
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
                 add_form(x, kind, a, re, im, m * rate, p[P.CONTACT_DAMPING], w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
+    return seen
 
 
 @kernel
-def renew_lines(p, s, alone, speed, w):
-    """All lines at ``speed`` (rad/s) about the equilibrium in ``w[W.STAGE:]`` with derivatives in ``lv``.
+def begin_lines(p, s, speed, w):
+    """Sample the orbit at ``speed`` (rad/s) about the equilibrium in ``w[W.STAGE:]``; no line is left.
 
-    ``alone``: whether the bearing answers by itself, see `keep`.
+    With derivatives in ``lv``.
     """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     x = s[S.JAC : S.JAC + LN.SIZE]
-    orbit = lv[L.RATIO] * speed
     count = sample_orbit(p, c, lv, speed, x, w)
     for m in range(count):
         x[LN.COS + m] = math.cos(2.0 * PI * m / count)
@@ -354,11 +379,28 @@ def renew_lines(p, s, alone, speed, w):
             transform(x, kind, order, count, order_of(kind, order))
     if p[P.SOUND_SIZE] != 0.0:
         keep_places(p, x, count, w)
-    lines = s[line_table(p) :]
     lv[L.COUNT] = 0.0
-    shaft_lines(p, c, lv, lines, alone, x, orbit, speed, w)
-    steady_lines(p, c, lv, lines, alone, x, count, orbit, w)
-    if p[P.BALL_WAVES] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0:
-        form_lines(p, c, lv, lines, alone, x, orbit, speed, w)
-    if alone:
+
+
+@kernel
+def make_lines(p, s, alone, speed, kind, first, many, w):
+    """Make ``many`` candidates for lines of one kind from number ``first`` on; whether more are left.
+
+    ``kind``: of `KINDS`. ``alone``: whether the bearing answers by itself, see `keep`.
+    """
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    x = s[S.JAC : S.JAC + LN.SIZE]
+    orbit = lv[L.RATIO] * speed
+    lines = s[line_table(p) :]
+    if kind == 0:
+        seen = shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w)
+    elif kind == 1:
+        seen = steady_lines(p, c, lv, lines, alone, x, orbit, first, many, w)
+    else:
+        seen = form_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w)
+    if seen > first + many:
+        return True
+    if kind == KINDS - 1 and alone:
         lv[L.COUNT] = drop_weak(lines, L.LINE_SIZE, int(lv[L.COUNT]))
+    return False

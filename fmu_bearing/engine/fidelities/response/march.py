@@ -4,7 +4,7 @@ The rings rest at their static equilibrium; mass, damping and stiffness are as i
 with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle + m
 times the angle by which the balls have turned in their orbiting axes. a, b and m are whole, so that phases
 run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 1 %, conditions by
-0.1 %), and at once: the transient of the change is left out.
+0.1 %), in pieces (``renewal``): the transient of the change is left out.
 
 Between communication points nothing is stepped but these angles, and sound is a sum of lines, too
 (``sound``). Where it is sampled (recordings, radiation models of the papers), samples are interpolated
@@ -15,80 +15,20 @@ import math
 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_places, rest_balls
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls, turn_balls
-from fmu_bearing.engine.fidelities.condensed.shared import advance, flat
+from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
+from fmu_bearing.engine.fidelities.condensed.shared import advance
 from fmu_bearing.engine.fidelities.full.start import begin_means
-from fmu_bearing.engine.fidelities.response import bearing
-from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines, sum_set_lines
+from fmu_bearing.engine.fidelities.response import bearing, renewal
+from fmu_bearing.engine.fidelities.response.coupled_lines import sum_set_lines
+from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
 from fmu_bearing.engine.fidelities.response.lines import line_table
-from fmu_bearing.engine.fidelities.response.sound import (
-    follow_lines,
-    from_lines,
-    renew_sound,
-    show_pressures,
-    sound_moved,
-)
+from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
 from fmu_bearing.engine.fidelities.rings import equations, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
-from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, STRIDE, C, L, P, S, T, W, Y
+from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.status import NO_START, OK
-
-
-@kernel
-def show_guess(p, s, w, row):
-    """Put the balls' places of row ``row`` of every bearing to its trial rows, on races without waves."""
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        wb = members.work(p, w, b)
-        for i in range(Y.SIZE):
-            wb[W.STAGE + i] = 0.0
-        lv = members.condensed(sb)
-        show_balls(lv, row, wb)
-        flat(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, wb)
-
-
-@kernel
-def rest_from(p, s, w, speed, x, at):
-    """Find the rest of all bodies, from the coordinates ``x[at:]`` and the balls' places ``L.EVEN``.
-
-    Returns whether there is one; where there is none, these are taken as the rest.
-    """
-    own = members.set_state(p, s)
-    ws = members.set_work(p, w)
-    mean = members.history(p)
-    place = members.vector(p, SP.PLACE)
-    for i in range(members.padded_size(p)):
-        ws[place + i] = x[at + i]
-    show_guess(p, s, w, L.EVEN)
-    found = at_rest(p, s, w, speed)
-    for i in range(members.padded_size(p)):
-        own[mean + i] = ws[place + i] if found else x[at + i]
-    for b in range(members.count(p)):
-        lv = members.condensed(members.state(p, s, b))
-        if found:
-            keep_balls(members.work(p, w, b), lv, L.EVEN)
-        members.moved(p, b, own, mean, lv, L.MEAN)
-        lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
-    return found
-
-
-@kernel
-def linearise(p, s, w, speed):
-    """Renew derivatives of all bearings and the lines at ``speed`` (rad/s); False if there are none."""
-    together = members.has_shaft(p)
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        pb = members.parameters(p, b)
-        if not bearing.linearise(pb, sb, not together, speed, members.work(p, w, b)):
-            return False
-    if together:
-        answer_lines(p, s, w, speed)
-    renew_sound(p, s, w, speed)
-    return True
 
 
 @kernel
@@ -142,27 +82,6 @@ def show(p, s, w, near):
 
 
 @kernel
-def begin_at_start(p, s, w, speed):
-    """Put the equilibrium to that of the start; a set comes to rest again with the balls' places there."""
-    own = members.set_state(p, s)
-    if not members.has_shaft(p):
-        for i in range(members.padded_size(p)):
-            own[members.history(p) + i] = own[SP.S_HEAD + i]
-        return
-    ws = members.set_work(p, w)
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        lv = members.condensed(sb)
-        for j in range(STRIDE):
-            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
-            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
-    start = members.vector(p, SP.NEWMARK)
-    for i in range(members.padded_size(p)):
-        ws[start + i] = own[SP.S_HEAD + i]
-    rest_from(p, s, w, speed, ws, start)
-
-
-@kernel
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = held.start_held(p, u, s, w, t)
@@ -177,6 +96,7 @@ def start_response(p, u, s, w, t):
             lv[L.X + i] = lv[L.EVEN + i]
     if not linearise(p, s, w, speed):
         return NO_START
+    renewal.mirror(p, s)
     show(p, s, w, True)
     for b in range(members.count(p)):
         begin_means(members.state(p, s, b))
@@ -184,57 +104,6 @@ def start_response(p, u, s, w, t):
         own[SP.MEAN_HEAT + i] = 0.0
     if from_lines(p):
         show_pressures(p, s, w)
-    return OK
-
-
-@kernel
-def rest_at_inputs(p, s, w, speed):
-    """Find the rest of a set from the last one, or from where `held.hold_all` has left it; whether found."""
-    own = members.set_state(p, s)
-    if not members.has_shaft(p):
-        return rest_from(p, s, w, speed, own, members.history(p))
-    ws = members.set_work(p, w)
-    held_rest = members.vector(p, SP.NEWMARK)
-    found = start_vector(p, SP.UNKNOWNS)
-    for i in range(members.padded_size(p)):
-        ws[held_rest + i] = ws[found + i] if i < members.coordinates(p) else 0.0
-    held.take_offsets(p, own)
-    if not rest_from(p, s, w, speed, own, members.history(p)):
-        rest_from(p, s, w, speed, ws, held_rest)
-    return True
-
-
-@kernel
-def renew(p, u, s, w):
-    """Renew what is held, the equilibrium from the old one, and lines, for the inputs ``u``; status code.
-
-    Where Newton's method does not reach the new equilibrium from the old one, it starts from the quasi-static
-    one, which is taken as the equilibrium where there is no rest (as at the start). Where balls have no rest
-    about which to find lines, the rings stay still there (``solver.restarts`` counts it, and a warning says
-    so).
-    """
-    own = members.set_state(p, s)
-    speed = u[SP.U_SPEED]
-    for b in range(members.count(p)):
-        members.condensed(members.state(p, s, b))[L.KNOWN] = 0.0
-    if held.hold_all(p, u, s, w) == OK and rest_at_inputs(p, s, w, speed) and linearise(p, s, w, speed):
-        return OK
-    together = members.has_shaft(p)
-    for again in range(1 if together else 2):
-        status = held.hold_from_zero(p, u, s, w, again == 0)
-        if status != OK:
-            return status
-        if together:
-            rest_from(p, s, w, speed, own, SP.S_HEAD)
-        else:
-            begin_at_start(p, s, w, speed)
-        if linearise(p, s, w, speed):
-            return OK
-    own[members.march(p) + SP.LINES] = 0.0
-    for b in range(members.count(p)):
-        members.condensed(members.state(p, s, b))[L.COUNT] = 0.0
-    renew_sound(p, s, w, speed)
-    s[S.RESTARTS] += 1.0
     return OK
 
 
@@ -292,13 +161,10 @@ def march_response(p, u, s, w, h):
     renewed = held.set_inputs_of(p, u, s, w, h)
     for b in range(members.count(p)):
         own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0
-    if renewed:
-        near = False
-        status = renew(p, u, s, w)
-        if status != OK:
-            return status
-    elif sound_moved(p, s, speed):
-        renew_sound(p, s, w, speed)
+    status, fresh = renewal.go_on(p, u, s, w, h, renewed)
+    if status != OK:
+        return status
+    near = near and not fresh
     end = s[S.TIME] + h
     sampled = p[P.SOUND_SIZE] != 0.0 and not from_lines(p)
     if sampled:

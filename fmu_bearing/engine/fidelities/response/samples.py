@@ -22,6 +22,12 @@ def kinds_of_sample(p):
 
 
 @kernel
+def parts_of_spacing(balls):
+    """Parts that one of so many ``balls`` is moved through its spacing in."""
+    return max(LN.AZIMUTHS // balls, 1)
+
+
+@kernel
 def sample_orbit(p, c, lv, speed, x, w):
     """Fill ``x`` with the forces of one ball on the rings all round, and their derivatives; the count.
 
@@ -29,7 +35,7 @@ def sample_orbit(p, c, lv, speed, x, w):
     """
     balls = int(p[P.BALLS])
     lanes = int(p[P.LANES])
-    parts = max(LN.AZIMUTHS // balls, 1)
+    parts = parts_of_spacing(balls)
     kinds = kinds_of_sample(p)
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):

@@ -47,7 +47,7 @@ def begin_table(ps, ss, ws):
     heads = int(ps[SD.H_W_INDEX]) + SL.INDEX_ROWS * int(ps[SD.H_LINES])
     for i in range(SL.HEADS):
         ws[heads + i] = -1.0
-    ws[strongest(ps)] = 0.0
+    ws[note(ps, SL.NOTE_STRONGEST)] = 0.0
 
 
 @kernel
@@ -143,15 +143,17 @@ def ring_lines(p, s):
 
 
 @kernel
-def add_rings(p, s, w, speed):
-    """Begin the table with the lines of the rings."""
+def add_rings(p, s, w, speed, first, many):
+    """Begin the table with lines of the rings: ``many`` from number ``first`` on; whether more are left."""
     ps, ss = sound_block(p), s[S.SOUND :]
     ws = members.work(p, w, 0)[W.SOUND :]
     together = members.has_shaft(p)
     lines, size, values, count = ring_lines(p, s)
     index = int(ps[SD.H_W_INDEX])
     heads = index + SL.INDEX_ROWS * int(ps[SD.H_LINES])
-    for line in range(count):
+    if first == 0:
+        begin_table(ps, ss, ws)
+    for line in range(first, min(first + many, count)):
         at = line * size
         member = int(lines[at + SP.LINE_MEMBER]) if together else 0
         ball, shaft, rolled = lines[at + L.LINE_BALL], lines[at + L.LINE_SHAFT], lines[at + L.LINE_ROLLED]
@@ -161,8 +163,10 @@ def add_rings(p, s, w, speed):
         ws[index + SL.INDEX_NEXT * int(ps[SD.H_LINES]) + line] = ws[chain]
         ws[chain] = line
         sound_of_rings(p, s, w, line, lines, at + values, omega, speed)
-        ws[strongest(ps)] = max(ws[strongest(ps)], beats.weigh_line(ps, ss, ws, line))
-    ss[SD.SS_LINES] = count
+        most = note(ps, SL.NOTE_STRONGEST)
+        ws[most] = max(ws[most], beats.weigh_line(ps, ss, ws, line))
+        ss[SD.SS_LINES] = line + 1.0
+    return count > first + many
 
 
 @kernel
@@ -172,7 +176,7 @@ def add_balls(p, s, w, b, ball, shaft, rolled, omega):
     ws = members.work(p, w, 0)[W.SOUND :]
     block = sound_block(members.parameters(p, b))
     own = members.work(p, w, b)[W.SOUND :]
-    least = beats.WEAK * ws[strongest(ps)]
+    least = beats.WEAK * ws[note(ps, SL.NOTE_STRONGEST)]
     if bound(block, own, omega) ** 2 <= least or not radiate(block, own, omega):
         return
     line = find_line(ps, ss, ws, ball, shaft, rolled, b)
@@ -192,25 +196,32 @@ def add_balls(p, s, w, b, ball, shaft, rolled, omega):
 
 
 @kernel
-def strongest(ps):
-    """Place in ``ws`` of the largest weight (Pa2) of a line of the rings."""
-    return int(ps[SD.H_W_INDEX]) + SL.INDEX_ROWS * int(ps[SD.H_LINES]) + SL.HEADS
+def note(ps, place):
+    """Place in ``ws`` of a note on the table of lines: ``SL.NOTE_STRONGEST`` and so on."""
+    return int(ps[SD.H_W_INDEX]) + SL.INDEX_ROWS * int(ps[SD.H_LINES]) + SL.HEADS + place
 
 
 @kernel
-def is_heard(omega):
+def in_band(omega):
     """Whether a frequency (rad/s) is one of lines that sound."""
     return STILL < abs(omega) < SD.TOP
 
 
 @kernel
-def sound_of_balls(p, s, w, b, speed):
-    """Add what the balls of one bearing sound by without the rings."""
+def sound_of_balls(p, s, w, b, speed, first, many):
+    """Add what the balls of one bearing sound by without the rings; whether more is left.
+
+    Of the lines that may be, ``many`` from number ``first`` on.
+    """
     pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
     block, ws = sound_block(pb), wb[W.SOUND :]
     lv, c, x = members.condensed(sb), sb[S.C : S.C + C.SIZE], scratch_of(sb)
     orbit = lv[L.RATIO] * speed
+    # without a rest about which to find lines nothing is known of the balls
+    if lv[L.COUNT] == 0.0 or block[SD.H_SOURCES] == 0.0:
+        return False
     balls = int(pb[P.BALLS])
+    seen = 0
     reach = ball_sound.reach_of_heights(x)
     farthest = int(block[SD.H_HARMONICS]) + reach
     if pb[P.WAVINESS] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0:
@@ -218,28 +229,32 @@ def sound_of_balls(p, s, w, b, speed):
             lowest = math.ceil((n - farthest) / balls)
             for k in range(lowest, math.floor((n + farthest) / balls) + 1):
                 omega = k * balls * orbit - n * speed
-                if not is_heard(omega):
+                seen += 1
+                if not (first < seen <= first + many and in_band(omega)):
                     continue
                 clear_channels(block, ws)
                 ball_sound.drive_by_inner(pb, c, lv, x, block, ws, n, k * balls, reach, speed)
                 add_balls(p, s, w, b, k * balls, -1.0 * n, 0.0, omega)
     highest = max(orders(pb), LN.REACH) + int(block[SD.H_HARMONICS]) + reach
     for a in range(1, highest + 1):
-        if (a % balls != 0 and a > farthest) or not is_heard(a * orbit):
+        seen += 1
+        left_out = (a % balls != 0 and a > farthest) or not in_band(a * orbit)
+        if left_out or not first < seen <= first + many:
             continue
         clear_channels(block, ws)
         ball_sound.drive_by_orbit(pb, c, lv, x, block, ws, a, reach, speed)
         add_balls(p, s, w, b, a, 0.0, 0.0, a * orbit)
-    if pb[P.BALL_WAVES] == 0.0 or c[C.OVERSIZE_SCALE] == 0.0:
-        return
-    for m in range(1, int(pb[P.BALL_WAVES]) + 1):
+    waves = int(pb[P.BALL_WAVES]) if c[C.OVERSIZE_SCALE] != 0.0 else 0
+    for m in range(1, waves + 1):
         for a in range(-farthest, farthest + 1):
             omega = a * orbit + m * lv[L.ROLL] * speed
-            if not is_heard(omega):
+            seen += 1
+            if not (first < seen <= first + many and in_band(omega)):
                 continue
             clear_channels(block, ws)
             ball_sound.drive_by_form(pb, c, lv, x, block, ws, m, a, reach, speed)
             add_balls(p, s, w, b, a, 0.0, m, omega)
+    return seen > first + many
 
 
 @kernel
@@ -269,7 +284,7 @@ def follow_beyond(p, s, w, speed):
             members.moved(p, b, lines, at + values + lanes, wb, T.A)
             for shift in range(-1, 2, 2):
                 turned = omega + shift * balls * lv[L.RATIO] * speed
-                if not is_heard(turned):
+                if not in_band(turned):
                     continue
                 clear_channels(block, ws)
                 if int(block[SD.H_FORM]) == CONTACTS:
@@ -279,20 +294,10 @@ def follow_beyond(p, s, w, speed):
 
 
 @kernel
-def renew_sound(p, s, w, speed):
-    """Renew the pressures of all lines, their means and beats at ``speed`` (rad/s)."""
-    if not from_lines(p):
-        return
+def settle_sound(p, s, w, speed):
+    """Make means and beats of the lines' pressures, which were found at ``speed`` (rad/s)."""
     ps, ss = sound_block(p), s[S.SOUND :]
     ws = members.work(p, w, 0)[W.SOUND :]
-    begin_table(ps, ss, ws)
-    add_rings(p, s, w, speed)
-    follow_beyond(p, s, w, speed)
-    for b in range(members.count(p)):
-        # without a rest about which to find lines nothing is known of the balls
-        has_lines = members.condensed(members.state(p, s, b))[L.COUNT] != 0.0
-        if has_lines and sound_block(members.parameters(p, b))[SD.H_SOURCES] != 0.0:
-            sound_of_balls(p, s, w, b, speed)
     beats.settle_lines(ps, ss, ws)
     beats.renew_means(ps, ss, ws)
     beats.keep_loud(ps, ss)

@@ -3,6 +3,8 @@
 Arguments: see `spindle.members`.
 """
 
+import math
+
 from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
@@ -14,7 +16,12 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
     set_inputs,
     start_condensed,
 )
-from fmu_bearing.engine.fidelities.condensed.uneven import add_uneven, renew_uneven, uneven_out_of_date
+from fmu_bearing.engine.fidelities.condensed.uneven import (
+    begin_uneven,
+    go_on_uneven,
+    hold_uneven,
+    uneven_out_of_date,
+)
 from fmu_bearing.engine.fidelities.full.start import TOUCHING, start
 from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
@@ -36,6 +43,7 @@ from fmu_bearing.engine.statics.place import place_balls, place_cage
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER
 
+PIECE = 1e-3  # s of simulated time per piece of a renewal
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
 # a bearing's own geometry may change by
@@ -43,10 +51,11 @@ _GROWN = 5e-9
 
 
 @kernel
-def hold_bearing(p, u, b, load, s, w):
+def hold_bearing(p, u, b, load, at_once, s, w):
     """Renew what bearing ``b`` holds, at the inputs ``u`` under the axial ``load`` (N); status code.
 
-    After `rest`, which leaves the place of its outer ring in the scratch.
+    After `rest`, which leaves the place of its outer ring in the scratch. ``at_once``: see
+    `uneven.hold_uneven`.
     """
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
@@ -90,10 +99,10 @@ def hold_bearing(p, u, b, load, s, w):
     # what the shaft puts across the axis counts as this bearing's load
     c[C.LOAD_Y], c[C.LOAD_Z] = aside
     if uneven_out_of_date(lv, c, speed):
-        renew_uneven(pb, c, first, speed, turning, BOTH, sb, wb)
+        begin_uneven(pb, c, speed, turning, BOTH, sb, wb)
     c[C.LOAD_Y] = given[U.LOAD_Y]
     c[C.LOAD_Z] = given[U.LOAD_Z]
-    add_uneven(speed, sb, wb)
+    hold_uneven(pb, speed, at_once, sb, wb)
     own = members.set_state(p, s)
     bearing_at = members.per_bearing(p, b)
     own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
@@ -149,22 +158,35 @@ def take_offsets(p, own):
 
 
 @kernel
-def hold_alone(p, u, s, w):
-    """Renew what a single bearing holds at the inputs ``u``; status code."""
-    status = hold(p, u, u[U.SPEED], s, w)
-    if status != OK:
-        return status
-    hold_masses(p, s, w)
-    if p[P.RIGID] != 0.0:
+def hold_alone(p, u, at_once, s, w):
+    """As `hold_points`, for a single bearing."""
+    status = hold(p, u, u[U.SPEED], at_once, s, w)
+    if status == OK and p[P.RIGID] != 0.0:
         members.set_state(p, s)[members.history(p) + Q.X] = s[S.PLACE]
-    return OK
+    return status
 
 
 @kernel
-def hold_all(p, u, s, w):
-    """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code."""
+def hold_all(p, u, at_once, s, w):
+    """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code.
+
+    ``at_once``: see `uneven.hold_uneven`.
+    """
+    status = hold_points(p, u, at_once, s, w)
+    if status == OK:
+        for b in range(members.count(p)):
+            hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+    return status
+
+
+@kernel
+def hold_points(p, u, at_once, s, w):
+    """As `hold_all`, but leave the masses (`hold_masses`) as they are.
+
+    A set's coordinates there are left among its own work space's vectors, see ``SP.UNKNOWNS``.
+    """
     if not members.has_shaft(p):
-        return hold_alone(p, u, s, w)
+        return hold_alone(p, u, at_once, s, w)
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     for b in range(members.count(p)):
@@ -180,10 +202,9 @@ def hold_all(p, u, s, w):
         return status
     keep_stiffness(p, s, w)
     for b in range(members.count(p)):
-        status = hold_bearing(p, u, b, -ws[members.scratch(p, b) + SP.START_FORCE], s, w)
+        status = hold_bearing(p, u, b, -ws[members.scratch(p, b) + SP.START_FORCE], at_once, s, w)
         if status != OK:
             return status
-        hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     note_loads(p, own)
     return OK
 
@@ -204,7 +225,7 @@ def put_at_mean(p, s, w):
 @kernel
 def rest_alone(p, u, s, w, settled):
     """As `hold_from_zero`, for a single bearing."""
-    status = hold_alone(p, u, s, w)
+    status = hold_all(p, u, False, s, w)
     if status != OK:
         return status
     lv = members.condensed(s)
@@ -234,7 +255,7 @@ def hold_from_zero(p, u, s, w, settled):
     speed = u[SP.U_SPEED]
     for i in range(3 * members.padded_size(p)):
         own[SP.S_HEAD + i] = 0.0
-    status = hold_all(p, u, s, w)
+    status = hold_all(p, u, False, s, w)
     if status != OK:
         return status
     take_offsets(p, own)
@@ -258,6 +279,9 @@ def hold_from_zero(p, u, s, w, settled):
 @kernel
 def start_held(p, u, s, w, t):
     """Start of fidelities rings and response: that of fidelity full, then what is held; status code."""
+    own = members.set_state(p, s)
+    for i in range(SP.PIECES, SP.MARCHED):
+        own[members.march(p) + i] = 0.0
     if not members.has_shaft(p):
         status = start_condensed(p, u, s, w, t)
         if status == OK:
@@ -269,7 +293,7 @@ def start_held(p, u, s, w, t):
         return status
     for b in range(members.count(p)):
         even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
-    status = hold_all(p, u, s, w)
+    status = hold_all(p, u, True, s, w)
     if status == OK:
         find_levers(p, members.set_state(p, s))
     return status
@@ -300,6 +324,38 @@ def set_inputs_of(p, u, s, w, h):
         # the load follows from the set's rest, see above
         fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
         grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
-        if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN:
+        if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN or lv[L.SEARCH_STATE] == L.ENDED:
             far = True
     return far
+
+
+@kernel
+def pieces_due(p, s, h):
+    """Count of pieces of work that are due in the communication step ``h`` (s): one per `PIECE` of time."""
+    own = members.set_state(p, s)
+    at = members.march(p) + SP.PIECES
+    own[at] += h / PIECE
+    due = math.floor(own[at] + 1e-9)
+    own[at] -= due
+    return due
+
+
+@kernel
+def searching(p, s):
+    """Whether a search for what uneven balls add is going."""
+    for b in range(members.count(p)):
+        if members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.GOING:
+            return True
+    return False
+
+
+@kernel
+def searched(p, s, w):
+    """Make one piece of a search in the first bearing that waits for one; whether it came to its end."""
+    for b in range(members.count(p)):
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        if lv[L.SEARCH_STATE] == L.GOING:
+            go_on_uneven(members.parameters(p, b), sb, members.work(p, w, b))
+            return lv[L.SEARCH_STATE] == L.ENDED
+    return False

@@ -16,7 +16,7 @@ the third difference of the accelerations shows that it is too long. Arguments: 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
-from fmu_bearing.engine.fidelities.condensed.shared import advance, keep_end, show_end
+from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_masses, keep_end, show_end
 from fmu_bearing.engine.fidelities.condensed.transverse import keep_transverse, prepare_step
 from fmu_bearing.engine.fidelities.rings import equations, held, predictor
 from fmu_bearing.engine.fidelities.rings.correction import correct
@@ -174,11 +174,40 @@ def accept(p, s, w, h):
 
 @kernel
 def take_inputs(p, u, s, w, h):
-    """Set conditions, loads and ramps; renew what is held where it is out of date. Status code."""
-    if not held.set_inputs_of(p, u, s, w, h):
-        return OK
-    if held.hold_all(p, u, s, w) != OK:
-        return NOT_CONVERGED
+    """Set conditions, loads and ramps; renew what is held where it is out of date. Status code.
+
+    In pieces, one per `held.PIECE` of simulated time: the points that are held, then each bearing's masses.
+    Between them the march goes on with the masses of before. A search for what uneven balls add waits.
+    """
+    own = members.set_state(p, s)
+    at = members.march(p)
+    renewed = held.set_inputs_of(p, u, s, w, h)
+    due = held.pieces_due(p, s, h)
+    while due >= 1.0:
+        due -= 1.0
+        b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1
+        if b >= 0:
+            hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+            own[at + SP.STAGE] = b + 2.0
+            if b + 1 == members.count(p):
+                own[at + SP.STAGE] = 0.0
+                if not restart_here(p, s, w):
+                    return NOT_CONVERGED
+        elif renewed:
+            renewed = False
+            if held.hold_points(p, u, False, s, w) != OK:
+                return NOT_CONVERGED
+            own[at + SP.STAGE] = 1.0
+        elif held.searching(p, s):
+            renewed = held.searched(p, s, w)
+        else:
+            break
+    return OK
+
+
+@kernel
+def restart_here(p, s, w):
+    """Let the march begin with what is held now; False where balls find no rest."""
     own = members.set_state(p, s)
     own[members.march(p) + H.KNOWN] = 0.0
     equations.share_march(p, s)
@@ -186,7 +215,7 @@ def take_inputs(p, u, s, w, h):
         wb = members.work(p, w, b)
         for i in range(Y.SIZE):
             wb[W.STAGE + i] = 0.0
-    return OK if equations.restart_march(p, s, w) else NOT_CONVERGED
+    return equations.restart_march(p, s, w)
 
 
 @kernel

@@ -81,7 +81,7 @@ def test_response_follows_rings_under_radial_load(scene):
 
 @pytest.mark.parametrize(("name", "rpm"), [("7003C-bare", 20_000), ("7009C-full-ceramic", 18_000)])
 def test_response_after_a_step_of_the_load_is_that_of_a_start_under_it(scene, name, rpm):
-    """3 kN radial: balls turn by a third of a round meanwhile and must be found again, however far."""
+    """3 kN radial: balls turn by rounds while the lines are renewed and must be found again, however far."""
     settled = Run(silent(scene(name)), rpm, FIDELITY=2.0)
     settled.u[U.LOAD_Z] = -3000.0
     settled.init()
@@ -89,6 +89,8 @@ def test_response_after_a_step_of_the_load_is_that_of_a_start_under_it(scene, na
     run = Run(silent(scene(name)), rpm, FIDELITY=2.0).init()
     run.run(1e-3)
     run.u[U.LOAD_Z] = -3000.0
+    assert run.step(1e-4) == OK
+    run.run(0.2, 1e-3)  # in pieces: see `renewal`; cage and balls under so high a load take most of them
     for h in (1e-4, 1e-4, 1e-3, 1e-3):
         assert run.step(h) == OK
         for side in ("inner", "outer"):
@@ -113,9 +115,13 @@ def test_response_follows_a_ramp_from_standstill(scene):
 
 
 def test_response_follows_a_steady_ramp(scene):
-    """A ramp whose rate does not change leaves the speed that the lines were made for all the same."""
+    """A ramp whose rate does not change leaves the speed that the lines were made for all the same.
+
+    By 5,000 r/min per s, the first renewal begins at 1 % and takes some 10 ms.
+    """
     run = Run(silent(scene("7003C-spindle")), 10_000, FIDELITY=2.0).init()
-    for i in range(1, 11):
-        run.u[U.SPEED] = (10_000 + 500 * i) * RPM
+    for i in range(1, 201):
+        run.u[U.SPEED] = (10_000 + 5 * i) * RPM
         assert run.step(1e-3) == OK
-        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=0.011)
+        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=0.016)
+    assert block(run)[L.FOUND_SPEED] > 10_800 * RPM

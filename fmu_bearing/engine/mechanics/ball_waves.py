@@ -45,6 +45,12 @@ def zonal(p, form, orders, x):
 
 
 @kernel
+def has_wavy_balls(p, c):
+    """Whether the balls' waviness acts: without imperfections nobody has turned their axes."""
+    return p[P.BALL_WAVES] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0
+
+
+@kernel
 def add_ball_waves(p, c, lanes, race, w):
     """Put the balls' waviness into approach, its rate, load and ellipse that ``race.normal`` left.
 

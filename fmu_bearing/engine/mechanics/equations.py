@@ -5,7 +5,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, F, P, Q, W, X, Y
-from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces
+from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces, has_wavy_balls
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
 from fmu_bearing.engine.mechanics.flexure import (
@@ -63,7 +63,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
     normal(p, c, y, lanes, race, w)
     if flexible:
         slide(p, lanes, race, w)
-    if p[P.BALL_WAVES] != 0.0:
+    if has_wavy_balls(p, c):
         add_ball_waves(p, c, lanes, race, w)
     if p[P.TRACTION_LAW] == REGULARISED:
         traction(p, lanes, race, w)
@@ -71,7 +71,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
         lubricated_traction(p, c, lanes, race, w)
     rolling(p, c, lanes, race, w)
     collect(p, c, lanes, race, w)
-    if p[P.BALL_WAVES] != 0.0:
+    if has_wavy_balls(p, c):
         ball_wave_forces(p, lanes, race, w)
     if flexible:
         press_modes(p, c, lanes, race, w)

@@ -11,6 +11,7 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, plus_scaled, scaled_six, select, six, splat, store, store_six
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.cage import in_pocket
 from fmu_bearing.engine.mechanics.race import wave_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
@@ -259,7 +260,7 @@ def race_contact(p, c, y, race, turned, j, w):
     tip = zero
     bump_t = zero
     bump_m = zero
-    if p[P.BALL_WAVES] != 0.0:
+    if has_wavy_balls(p, c):
         bump_t = load(w, row + R.BUMP_T + j)
         bump_m = load(w, row + R.BUMP_M + j)
         lean += bump_t * cosa * per_rho

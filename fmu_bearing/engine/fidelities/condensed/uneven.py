@@ -148,6 +148,10 @@ def begin_uneven(p, c, speed, turning, ring_held, s, w):
         own[i] = c[i]
     if is_sunk(first):
         bring_to_axis(p, own, first)
+    for at, count in PT.KEPT:
+        if at < PT.FIRST_STATE:
+            for i in range(count):
+                w[W.PATTERN + at + i] = 0.0
     begin_search(first, w)
     keep_pieces(w, lv, False)
 

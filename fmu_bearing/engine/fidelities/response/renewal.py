@@ -10,11 +10,13 @@ A search for what uneven balls add (``condensed.uneven``) goes on in the state i
 Arguments: see `spindle.members`; ``stage``: of `IDLE` and so on; ``back``: the second state.
 """
 
+import math
+
 from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import renew_from_zero, rest_at_inputs
-from fmu_bearing.engine.fidelities.response.lines import KINDS, line_table, make_lines
+from fmu_bearing.engine.fidelities.response.lines import KINDS, STILL, line_table, make_lines
 from fmu_bearing.engine.fidelities.response.sound import (
     add_rings,
     follow_beyond,
@@ -32,17 +34,17 @@ from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import OK
 
-IDLE, HOLD, MASSES, REST, DERIVE, LINES, ANSWER, RINGS, BEYOND, BALLS, MEANS, COMPLETE = range(12)
+IDLE, HOLD, MASSES, DERIVE, LINES, ANSWER, RINGS, BEYOND, BALLS, MEANS, COMPLETE = range(11)
 
 # Candidates per piece: of a bearing's lines, of a set's (times the cubed number of coordinates), of lines
 # that sound: of the rings, of the balls.
-_LINES = 96
-_ANSWERS = 1.5e5
-_RINGS = 160
-_BALLS = 640
+_LINES = 144
+_ANSWERS = 2e5
+_RINGS = 192
+_BALLS = 960
 _GUESS = 8.0  # pieces of the first renewal
-_SEARCHES = 3.0  # every so many pieces one is of a search that waits
-_FARTHEST = 0.2  # of the speed: so far ahead a renewal looks at most
+_SEARCHES = 4.0  # every so many pieces one is of a search that waits
+_FARTHEST = 0.2  # of the speed: so far ahead a renewal looks at most; beyond it nothing waits
 
 
 @kernel
@@ -165,11 +167,9 @@ def held_piece(p, s, w):
         enter(p, s, MASSES)
     elif stage == MASSES:
         hold_masses(pb, sb, wb)
-        next_member(p, s, MASSES, REST)
-    elif stage == REST:
-        if not rest_at_inputs(p, back, w, aim):
+        next_member(p, s, MASSES, DERIVE)
+        if b + 1 == members.count(p) and not rest_at_inputs(p, back, w, aim):
             return False
-        enter(p, s, DERIVE)
     elif stage == DERIVE:
         if not bearing.linearise(pb, sb, aim, wb):
             return False
@@ -339,14 +339,31 @@ def take_sound(p, s):
 
 
 @kernel
+def is_far(p, s, speed):
+    """Whether ``speed`` (rad/s) has run away from the lines in use and from those of a renewal."""
+    own = members.set_state(p, s)
+    at = members.march(p)
+    used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
+    far = _FARTHEST * max(abs(used), abs(speed)) + STILL
+    busy = own[at + SP.STAGE] != IDLE and own[at + SP.OF_SOUND] == 0.0
+    return abs(speed - used) > far and not (busy and abs(speed - own[at + SP.AIM]) <= far)
+
+
+@kernel
 def go_on(p, u, s, w, h, renewed):
     """Make the pieces due in a step of ``h`` (s); status code, and whether something new is in use.
 
-    ``renewed``: whether what is held is out of date for the inputs ``u``.
+    ``renewed``: whether what is held is out of date for the inputs ``u``. Where the speed jumps far, all
+    pieces are made at once.
     """
     own = members.set_state(p, s)
     at = members.march(p)
     due = held.pieces_due(p, s, h)
+    if is_far(p, s, u[SP.U_SPEED]):
+        due = h = math.inf
+        if own[at + SP.STAGE] != IDLE:
+            own[at + SP.STAGE] = IDLE
+            renewed = True
     fresh = False
     while True:
         if own[at + SP.STAGE] == IDLE:

@@ -227,6 +227,8 @@ def begin_search(y, w):
         even[i] = y[i]
         rest[i] = 0.0
         whirl[i] = 0.0
+    for i in range(PT.STAGE, PT.SIZE):
+        w[W.PATTERN + i] = 0.0
     enter(w, _EVEN, 0.0)
 
 

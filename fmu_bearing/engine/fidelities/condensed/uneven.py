@@ -25,6 +25,7 @@ from fmu_bearing.engine.steady.point import (
 )
 
 _MOVED = 0.05  # of speed, loads, viscosity
+_ACROSS = 0.01  # of the preload: of a load across the axis, so that rounding in a set's rest counts as none
 _GROWN = 2e-8  # m: of a contact's geometry, some hundredths of its approach
 _HEATS = 3
 
@@ -103,8 +104,11 @@ def uneven_out_of_date(lv, c, speed):
     if lv[L.SEARCH_STATE] == L.GOING:
         return False
     far = lv[L.MORE_TOTAL] == 0.0 or moved(speed, lv[L.MORE_SPEED])
-    for i in (C.PRELOAD, C.LOAD_Y, C.LOAD_Z, C.VISCOSITY, C.PEDESTAL):
+    for i in (C.PRELOAD, C.VISCOSITY, C.PEDESTAL):
         if moved(c[i], lv[at + i]):
+            far = True
+    for i in (C.LOAD_Y, C.LOAD_Z):
+        if abs(c[i] - lv[at + i]) > _MOVED * abs(lv[at + i]) + _ACROSS * abs(c[C.PRELOAD]) + 1e-12:
             far = True
     for race in range(2):
         for i in (C.GROOVE_X, C.GROOVE_RADIUS, C.FREE):

@@ -16,7 +16,7 @@ from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import renew_from_zero, rest_at_inputs
-from fmu_bearing.engine.fidelities.response.lines import KINDS, STILL, line_table, make_lines
+from fmu_bearing.engine.fidelities.response.lines import KINDS, line_table, make_lines
 from fmu_bearing.engine.fidelities.response.sound import (
     add_rings,
     follow_beyond,
@@ -44,7 +44,6 @@ _RINGS = 192
 _BALLS = 960
 _GUESS = 8.0  # pieces of the first renewal
 _SEARCHES = 4.0  # every so many pieces one is of a search that waits
-_FARTHEST = 0.2  # of the speed: so far ahead a renewal looks at most; beyond it nothing waits
 
 
 @kernel
@@ -97,10 +96,10 @@ def begin(p, u, s, w, h, stage):
     back = back_of(p, s)
     at = members.march(p)
     speed = u[SP.U_SPEED]
-    # until it is complete, and half as long again while it serves
+    # until it is complete, and half as long again while it serves, but no farther than it may be off
     last = own[at + SP.MADE_LAST + (1 if stage == RINGS else 0)]
     ahead = s[S.SPEED_RATE] * max(1.5 * last * held.PIECE - h, 0.0)
-    ahead = min(max(ahead, -_FARTHEST * abs(speed)), _FARTHEST * abs(speed))
+    ahead = min(max(ahead, -held.FAR * abs(speed)), held.FAR * abs(speed))
     aim = speed + ahead
     own[at + SP.AIM] = aim
     own[at + SP.MADE] = 0.0
@@ -339,14 +338,13 @@ def take_sound(p, s):
 
 
 @kernel
-def is_far(p, s, speed):
-    """Whether ``speed`` (rad/s) has run away from the lines in use and from those of a renewal."""
+def runs_away(p, s, speed):
+    """Whether ``speed`` (rad/s) is far from that of the lines in use and of those of a renewal."""
     own = members.set_state(p, s)
     at = members.march(p)
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
-    far = _FARTHEST * max(abs(used), abs(speed)) + STILL
     busy = own[at + SP.STAGE] != IDLE and own[at + SP.OF_SOUND] == 0.0
-    return abs(speed - used) > far and not (busy and abs(speed - own[at + SP.AIM]) <= far)
+    return held.apart_by_far(speed, used) and not (busy and not held.apart_by_far(speed, own[at + SP.AIM]))
 
 
 @kernel
@@ -359,7 +357,7 @@ def go_on(p, u, s, w, h, renewed):
     own = members.set_state(p, s)
     at = members.march(p)
     due = held.pieces_due(p, s, h)
-    if is_far(p, s, u[SP.U_SPEED]):
+    if runs_away(p, s, u[SP.U_SPEED]):
         due = h = math.inf
         if own[at + SP.STAGE] != IDLE:
             own[at + SP.STAGE] = IDLE

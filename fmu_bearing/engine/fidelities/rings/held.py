@@ -44,6 +44,7 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER
 
 PIECE = 1e-3  # s of simulated time per piece of a renewal
+FAR = 0.2  # of the speed: where it is that far from what is held, all pieces are made at once
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
 # a bearing's own geometry may change by
@@ -338,6 +339,12 @@ def pieces_due(p, s, h):
     due = math.floor(own[at] + 1e-9)
     own[at] -= due
     return due
+
+
+@kernel
+def apart_by_far(one, other):
+    """Whether two speeds (rad/s) are so far apart that what is held at one does not serve the other."""
+    return abs(one - other) > FAR * max(abs(one), abs(other)) + 1.0
 
 
 @kernel

@@ -13,6 +13,8 @@ A step is repeated at half its length when the correction does not settle, when 
 the third difference of the accelerations shows that it is too long. Arguments: see `correction`.
 """
 
+import math
+
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
@@ -183,6 +185,8 @@ def take_inputs(p, u, s, w, h):
     at = members.march(p)
     renewed = held.set_inputs_of(p, u, s, w, h)
     due = held.pieces_due(p, s, h)
+    if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
+        due = math.inf
     while due >= 1.0:
         due -= 1.0
         b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1

@@ -176,8 +176,9 @@ def test_a_set_comes_to_what_its_start_finds(fidelity):
     for b in range(2):
         ours, theirs = (one.of(one.s, b, "S")[S.CONDENSED :] for one in (run, wanted))
         assert ours[L.SEARCH_STATE] == L.IDLE
-        assert ours[L.TORQUE] == pytest.approx(theirs[L.TORQUE], rel=1e-6)
-        assert ours[L.RATIO] == pytest.approx(theirs[L.RATIO], rel=1e-7)
+        # what uneven balls add was searched with the set on its way, within 5 % of where it comes to
+        assert ours[L.TORQUE] == pytest.approx(theirs[L.TORQUE], rel=2e-4)
+        assert ours[L.RATIO] == pytest.approx(theirs[L.RATIO], rel=2e-5)
     # rest without loads across the axis is no reason to search again and again
     steady = run.s.copy()
     run.run(0.05, STEP)

@@ -23,6 +23,7 @@ _GROWING = 0.15
 _TURNING = 0.45
 _BESIDE = 0.02
 SHIFTS = 3
+NOTHING = -1e300  # 1/s: growth where no whirl was found; the state of a search has to be numbers
 _ROUNDS = 8  # with each
 _CLOSE = 1e-4  # of shaft speed: what the last round may change
 
@@ -212,7 +213,7 @@ def begin_growth(p, speed, w):
         vector[PT.RATE_IM + i] = growth * vector[PT.VECTOR_IM + i] + turning * vector[i]
     w[W.PATTERN + PT.GROWTH] = growth
     w[W.PATTERN + PT.TURNING] = turning
-    w[W.PATTERN + PT.FOUND_GROWTH] = -math.inf
+    w[W.PATTERN + PT.FOUND_GROWTH] = NOTHING
     w[W.PATTERN + PT.FOUND_TURNING] = turning
 
 
@@ -221,7 +222,7 @@ def growth_beside(p, c, speed, held, rest, w, jac):
     """Look beside ``PT.GROWTH`` and ``PT.TURNING`` for the cage's slowest decaying forward whirl.
 
     About the pattern ``rest``. Whether the search has ended; after `SHIFTS` of them it ends in any case.
-    ``PT.FOUND_GROWTH`` (1/s) is minus infinity where there is none, ``PT.FOUND_TURNING`` its speed (rad/s,
+    ``PT.FOUND_GROWTH`` (1/s) is `NOTHING` where there is none, ``PT.FOUND_TURNING`` its speed (rad/s,
     along the shaft's).
     """
     ahead = math.copysign(1.0, speed)
@@ -254,7 +255,7 @@ def growth_beside(p, c, speed, held, rest, w, jac):
         far_im = 0.5 * (answer_im[y] + ahead * answer_re[z])
         far = far_re * far_re + far_im * far_im
         if not (far > 0.0):
-            w[W.PATTERN + PT.FOUND_GROWTH] = -math.inf
+            w[W.PATTERN + PT.FOUND_GROWTH] = NOTHING
             return True
         per_re = far_re / far
         per_im = -far_im / far

@@ -18,7 +18,7 @@ from fmu_bearing.engine.statics.held import held as between_held_rings
 from fmu_bearing.engine.statics.place import place_balls, place_cage, quasistatic_point, shift_bearing
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER, make_even, settle_evenly
-from fmu_bearing.engine.steady.growth import SHIFTS, begin_growth, growth_beside
+from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, growth_beside
 from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, push_aside, settle_once
 from fmu_bearing.engine.steady.pattern import tail, take
 
@@ -285,7 +285,7 @@ def follow_whirl(p, c, speed, held, w, jac):
     even, rest, whirl = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE), state_at(w, PT.WHIRL_STATE)
     if w[W.PATTERN + PT.STAGE] == _GROWING:
         if p[P.SPRINGS] != 0.0:
-            w[W.PATTERN + PT.FOUND_GROWTH] = math.inf
+            w[W.PATTERN + PT.FOUND_GROWTH] = -NOTHING
             w[W.PATTERN + PT.FOUND_TURNING] = _TURNING * abs(speed)
         else:
             w[W.PATTERN + PT.ROUND] += 1.0

@@ -31,9 +31,12 @@ OWN = ("scene", "arrangement", "position_mm", "preload", "nose", "spacing", "cau
 #: Of a figure of the doors under a radial load, as above; small ones of the largest of their kind.
 AT_REST = 4e-6
 #: The torque is that of fidelity response; damping is small beside stiffness over frequency.
-LOOSER = {"friction_torque": 6e-5, "C": 5e-5, "against_static": 1e-5}
-#: What small figures are compared with: the preload (N), its moment at 10 mm (N m), the whole of a share.
-LEAST = {"force": PRELOAD, "radial_load": PRELOAD, "moment": 0.01 * PRELOAD, "spread": 1.0}
+LOOSER = {"friction_torque": 6e-5, "heat_W": 6e-5, "C": 5e-5, "against_static": 1e-5}
+#: What small figures are compared with: the preload (N), its moment at 10 mm (N m), the whole of a share, 1 W.
+LEAST = {"force": PRELOAD, "radial_load": PRELOAD, "moment": 0.01 * PRELOAD, "spread": 1.0, "heat_W": 1.0}
+
+#: Outputs of what is lost, which fidelities `rings` and `response` hold.
+LOST = ("friction_torque", "heat.")
 
 
 def flat(given, name=""):
@@ -139,7 +142,10 @@ def value(run, name):
 @pytest.mark.parametrize("radial", [0.0, -50.0])
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
 def test_every_output_of_a_run_without_cage(fidelity, radial):
-    """At the start and after 3 ms with a jump of the speed."""
+    """At the start and after 3 ms with a jump of the speed, what is lost 60 ms later.
+
+    Where loads and unequal balls put the cage is searched in pieces, of which a set may need more or fewer.
+    """
     several, single = set_of_one(RPM, radial, cage=False, changes=TIGHT)
     ours, theirs = run_of(several, fidelity), run_of(single, fidelity)
     names = outputs_of(single)
@@ -150,11 +156,21 @@ def test_every_output_of_a_run_without_cage(fidelity, radial):
             theirs.step(1e-4)
         for name, unit in names:
             wanted = theirs.get(name)
+            if steps and fidelity != "full" and name.startswith(LOST):
+                continue
             slips = name.endswith(("slip", "spin_to_roll"))
             close = (SLIP if slips else CLOSE)[fidelity] * abs(wanted) + NOTHING.get(unit, 0.0)
             assert value(ours, name) == pytest.approx(wanted, abs=close, nan_ok=True), (name, steps)
         ours.set("shaft_speed", 0.98 * RPM * math.pi / 30.0)
         theirs.set("shaft_speed", 0.98 * RPM * math.pi / 30.0)
+    if fidelity == "full":
+        return
+    for _ in range(60):
+        ours.step(1e-3)
+        theirs.step(1e-3)
+    for name, _ in names:
+        if name.startswith(LOST):
+            assert value(ours, name) == pytest.approx(theirs.get(name), rel=3e-4, abs=1e-9), name
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])

@@ -9,6 +9,8 @@
 ``coupled_lines``  what each bearing of a set excites in the whole of it
 ``ball_sound``     what the balls do in the sound of a line
 ``sound``          levels and pressures of all lines
-``march``          start, renewal, and the state at any time
+``equilibrium``    where rings and balls rest, and all lines about it at once
+``renewal``        the same in pieces, beside the lines in use
+``march``          start, and the state at any time
 =================  =============================================================
 """

@@ -32,7 +32,7 @@ OWN = ("scene", "arrangement", "position_mm", "preload", "nose", "spacing", "cau
 AT_REST = 4e-6
 #: The torque is that of fidelity response; damping is small beside stiffness over frequency.
 LOOSER = {"friction_torque": 6e-5, "heat_W": 6e-5, "C": 5e-5, "against_static": 1e-5}
-#: What small figures are compared with: the preload (N), its moment at 10 mm (N m), the whole of a share, 1 W.
+#: What small figures are compared with: the preload (N), its moment at 10 mm (N m), a whole, 1 W.
 LEAST = {"force": PRELOAD, "radial_load": PRELOAD, "moment": 0.01 * PRELOAD, "spread": 1.0, "heat_W": 1.0}
 
 #: Outputs of what is lost, which fidelities `rings` and `response` hold.

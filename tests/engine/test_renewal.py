@@ -105,6 +105,14 @@ def test_a_step_makes_no_more_pieces_than_its_time(scene, fidelity):
     assert block(long)[L.TORQUE] == pytest.approx(block(run)[L.TORQUE], rel=1e-9)
 
 
+def test_a_jump_within_a_short_step_is_not_forgotten(scene):
+    """It is out of date in one step of 0.1 ms, in which no piece is due, and renewed in a later one."""
+    for fidelity in ("rings", "response"):
+        run = changed(started(scene, fidelity))
+        step(run, 600, 1e-4)
+        assert block(run)[L.FOUND_SPEED] == run.u[U.SPEED], fidelity
+
+
 def test_short_steps_wait_for_a_millisecond(scene):
     run = changed(started(scene, "response"))
     counts = []

@@ -183,7 +183,8 @@ def take_inputs(p, u, s, w, h):
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    renewed = held.set_inputs_of(p, u, s, w, h)
+    if held.set_inputs_of(p, u, s, w, h):
+        own[at + SP.WAITING] = 1.0
     due = held.pieces_due(p, s, h)
     if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
         due = math.inf
@@ -197,13 +198,14 @@ def take_inputs(p, u, s, w, h):
                 own[at + SP.STAGE] = 0.0
                 if not restart_here(p, s, w):
                     return NOT_CONVERGED
-        elif renewed:
-            renewed = False
+        elif own[at + SP.WAITING] != 0.0:
+            own[at + SP.WAITING] = 0.0
             if held.hold_points(p, u, False, s, w) != OK:
                 return NOT_CONVERGED
             own[at + SP.STAGE] = 1.0
         elif held.searching(p, s):
-            renewed = held.searched(p, s, w)
+            if held.searched(p, s, w):
+                own[at + SP.WAITING] = 1.0
         else:
             break
     return OK

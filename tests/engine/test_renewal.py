@@ -113,6 +113,16 @@ def test_a_jump_within_a_short_step_is_not_forgotten(scene):
         assert block(run)[L.FOUND_SPEED] == run.u[U.SPEED], fidelity
 
 
+@pytest.mark.parametrize("fidelity", ["rings", "response"])
+def test_no_loss_is_no_reason_to_search_again(scene, fidelity):
+    """Standstill without preload: nothing is lost, and a search that found that is over."""
+    run = Run(silent(scene("7003C-spindle")), 0.0, preload=0.0, FIDELITY=FIDELITIES[fidelity]).init()
+    run.u[U.PRELOAD] = 1e-6
+    step(run, 3, 1.0)
+    assert pieces(run)[0] == 0
+    assert block(run)[L.SEARCH_STATE] == L.IDLE
+
+
 def test_short_steps_wait_for_a_millisecond(scene):
     run = changed(started(scene, "response"))
     counts = []

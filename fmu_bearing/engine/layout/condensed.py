@@ -118,7 +118,8 @@ _SPARE_OWN = _at()  # rows begin at whole vectors
 Y0 = _at(Y.SIZE)  # state of the held point: even balls, the cage centred
 # what uneven balls add to what is lost there: see condensed/uneven
 MORE_SPEED = _at()  # rad/s: found at this speed of the shaft
-MORE_TOTAL = _at()  # W: lost with even balls there; 0: nothing was found yet
+MORE_TOTAL = _at()  # W: lost with even balls there
+MORE_KNOWN = _at()  # 1: searched at least once
 MORE_RATIO = _at()  # factor on the orbit speed
 MORE = _at(LOST)  # losses added
 MORE_CONDITIONS = _at(C.SIZE)

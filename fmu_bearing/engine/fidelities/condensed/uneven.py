@@ -103,7 +103,7 @@ def uneven_out_of_date(lv, c, speed):
     at = L.MORE_CONDITIONS
     if lv[L.SEARCH_STATE] == L.GOING:
         return False
-    far = lv[L.MORE_TOTAL] == 0.0 or moved(speed, lv[L.MORE_SPEED])
+    far = lv[L.MORE_KNOWN] == 0.0 or moved(speed, lv[L.MORE_SPEED])
     for i in (C.PRELOAD, C.VISCOSITY, C.PEDESTAL):
         if moved(c[i], lv[at + i]):
             far = True
@@ -173,6 +173,7 @@ def go_on_uneven(p, s, w):
         keep_pieces(w, lv, False)
         return
     lv[L.SEARCH_STATE] = L.ENDED
+    lv[L.MORE_KNOWN] = 1.0
     lv[L.MORE_TOTAL] = lv[L.SEARCH_TOTAL]
     lv[L.MORE_SPEED] = lv[L.SEARCH_SPEED]
     c[C.NEUTRAL_Y] = 0.0

@@ -10,8 +10,6 @@ A search for what uneven balls add (``condensed.uneven``) goes on in the state i
 Arguments: see `spindle.members`; ``stage``: of `IDLE` and so on; ``back``: the second state.
 """
 
-import math
-
 from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
@@ -358,7 +356,7 @@ def go_on(p, u, s, w, h, renewed):
     at = members.march(p)
     due = held.pieces_due(p, s, h)
     if runs_away(p, s, u[SP.U_SPEED]):
-        due = h = math.inf
+        due = h = held.MOST
         if own[at + SP.STAGE] != IDLE:
             own[at + SP.STAGE] = IDLE
             renewed = True

@@ -44,6 +44,7 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER
 
 PIECE = 1e-3  # s of simulated time per piece of a renewal
+MOST = 1000.0  # pieces in a communication step: more than any renewal with all its searches has
 FAR = 0.2  # of the speed: where it is that far from what is held, all pieces are made at once
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
@@ -335,7 +336,7 @@ def pieces_due(p, s, h):
     """Count of pieces of work that are due in the communication step ``h`` (s): one per `PIECE` of time."""
     own = members.set_state(p, s)
     at = members.march(p) + SP.PIECES
-    own[at] += h / PIECE
+    own[at] += min(h / PIECE, MOST)
     due = math.floor(own[at] + 1e-9)
     own[at] -= due
     return due

@@ -13,8 +13,6 @@ A step is repeated at half its length when the correction does not settle, when 
 the third difference of the accelerations shows that it is too long. Arguments: see `correction`.
 """
 
-import math
-
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
@@ -187,7 +185,7 @@ def take_inputs(p, u, s, w, h):
         own[at + SP.WAITING] = 1.0
     due = held.pieces_due(p, s, h)
     if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
-        due = math.inf
+        due = held.MOST
     while due >= 1.0:
         due -= 1.0
         b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1

@@ -68,14 +68,15 @@ def test_what_pieces_come_to_is_what_a_start_finds(scene, fidelity):
     assert now[L.MORE] != 0.0  # a whirl, and balls that the load makes uneven
     for first, count in ((L.RATIO, L.FOUND_SPEED - L.RATIO), (L.MORE_RATIO, 1 + L.LOST), (L.MASS, L.MATRIX)):
         found, expected = (one[first : first + count] for one in (now, then))
-        np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-9 * np.abs(expected).max())
+        near = 1e-7 if fidelity == "rings" else 5e-6  # lines are found for a speed within 1e-6
+        np.testing.assert_allclose(found, expected, rtol=near, atol=1e-9 * np.abs(expected).max())
     if fidelity == "response":
-        np.testing.assert_allclose(now[L.MEAN :][: L.N], then[L.MEAN :][: L.N], rtol=1e-6, atol=1e-12)
+        np.testing.assert_allclose(now[L.MEAN :][: L.N], then[L.MEAN :][: L.N], rtol=1e-5, atol=1e-12)
         ours, theirs = lines(run), lines(wanted)
         assert ours.keys() == theirs.keys()
         most = max(np.abs(one).max() for one in theirs.values())
         for key, value in theirs.items():
-            np.testing.assert_allclose(ours[key], value, rtol=1e-5, atol=1e-9 * most)
+            np.testing.assert_allclose(ours[key], value, rtol=5e-5, atol=1e-8 * most)
 
 
 @pytest.mark.parametrize("fidelity", ["rings", "response"])
@@ -100,17 +101,18 @@ def test_a_step_makes_no_more_pieces_than_its_time(scene, fidelity):
     # the same in one long step
     long = changed(started(scene, fidelity))
     step(long, 1, 0.5)
-    step(run, 60)
-    assert block(long)[L.MORE_RATIO] == pytest.approx(block(run)[L.MORE_RATIO], rel=1e-9)
-    assert block(long)[L.TORQUE] == pytest.approx(block(run)[L.TORQUE], rel=1e-9)
+    step(run, 150)
+    near = 1e-9 if fidelity == "rings" else 1e-5  # lines of the run were found for a speed within 1e-6
+    assert block(long)[L.MORE_RATIO] == pytest.approx(block(run)[L.MORE_RATIO], rel=near)
+    assert block(long)[L.TORQUE] == pytest.approx(block(run)[L.TORQUE], rel=near)
 
 
 def test_a_jump_within_a_short_step_is_not_forgotten(scene):
     """It is out of date in one step of 0.1 ms, in which no piece is due, and renewed in a later one."""
     for fidelity in ("rings", "response"):
         run = changed(started(scene, fidelity))
-        step(run, 600, 1e-4)
-        assert block(run)[L.FOUND_SPEED] == run.u[U.SPEED], fidelity
+        step(run, 2_000, 1e-4)
+        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=2e-6), fidelity
 
 
 @pytest.mark.parametrize("fidelity", ["rings", "response"])
@@ -144,6 +146,31 @@ def test_a_ramp_is_met_in_the_middle_of_the_time_in_which_lines_serve(scene):
     settled = np.array(ahead[100:])
     assert settled.min() < 0.0 < settled.max()
     assert np.abs(settled).max() < 0.025
+
+
+def test_lines_are_renewed_once_more_where_a_ramp_ends(scene):
+    """For the speed at which it rests, and then no more."""
+    run = started(scene, "response")
+    for k in range(100):
+        run.u[U.SPEED] = (10_000.0 + 5.0 * (k + 1)) * RPM
+        step(run, 1)
+    step(run, 250)
+    found = block(run)[L.FOUND_SPEED]
+    assert found == pytest.approx(run.u[U.SPEED], rel=2e-6)
+    step(run, 60)
+    assert block(run)[L.FOUND_SPEED] == found
+    assert pieces(run)[0] == 0
+
+
+def test_noise_of_the_speed_is_no_ramp(scene):
+    """A speed that scatters by 0.01 % renews nothing, though its rate is then 1,000 r/min per s."""
+    run = started(scene, "response")
+    found = block(run)[L.FOUND_SPEED]
+    for deviation in np.random.default_rng(1).normal(0.0, 1e-4, 300):
+        run.u[U.SPEED] = found * (1.0 + deviation)
+        step(run, 1)
+    assert block(run)[L.FOUND_SPEED] == found
+    assert pieces(run)[0] == 0
 
 
 @pytest.mark.parametrize("fidelity", ["rings", "response"])

@@ -24,6 +24,10 @@ LINE_HEAP = _line()  # of a full table's heap by weight: number of the line at t
 LINE_REAL = _line(COLUMN)  # m, rad: complex displacements of the coordinates, zero for TURN: real parts,
 LINE_IMAGINARY = _line(COLUMN)  # imaginary parts
 LINE_SIZE = _line.next
+# behind the lines: how many there were before those in use, and the equilibrium about which they moved
+TABLE_COUNT = MOST_LINES * LINE_SIZE
+TABLE_MEAN = TABLE_COUNT + FOUR
+TABLE_SIZE = TABLE_MEAN + COLUMN
 
 IDLE, GOING, ENDED = range(3)  # of a search for the operating point; ended: its result is not in use yet
 LOST = 8  # losses: heats of inner ring, outer ring, oil, four by source (W), torque on the outer ring (N m)

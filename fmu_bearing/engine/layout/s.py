@@ -71,7 +71,7 @@ def front(p):
     """
     if _SP.has_shaft(p):
         return int(p[int(p[_P.SET]) + _SP.FRONT])
-    lines = _L.MOST_LINES * _L.LINE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
+    lines = _L.TABLE_SIZE if p[_P.FIDELITY] == RESPONSE else 0
     return SOUND + int(p[_P.SOUND_STATE]) + _FL.state_size(int(p[_P.MODES])) + lines
 
 

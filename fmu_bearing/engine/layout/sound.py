@@ -373,7 +373,6 @@ SS_FAST = _at()  # Fast,
 SS_SLOW = _at()  # and Slow
 SS_LINES = _at()  # how many lines there are,
 SS_BEATS = _at()  # and beats between them
-SS_SPEED = _at()  # rad/s: of the shaft, that they were found at
 SS_TABLES = _at.next  # history of the decimator's first stage begins here
 
 # Third octaves of one microphone: states of each section, then running mean squares.

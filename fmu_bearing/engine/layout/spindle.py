@@ -189,9 +189,10 @@ KIND = _march()  # kind of its lines,
 CURSOR = _march()  # and how many candidates for them were tried
 AIM = _march()  # rad/s: for which all is found
 TURN = _march()  # pieces so far,
-OF_SOUND = _march()  # 1: of sound alone
 MADE = _march()  # of this renewal,
-MADE_LAST = _march(2)  # of the last one, of the last one of sound alone
+MADE_LAST = _march()  # of the last one
+RATE = _march(2)  # rad/s2: of the shaft, smoothed, and its magnitude
+EXCHANGED = _march()  # s: when the lines in use were exchanged for the ones before
 TOKEN = _march()  # what the sound in the work space is of
 MARCHED = _march.next
 
@@ -204,6 +205,7 @@ LINE_WEIGHT = _line()
 LINE_HEAP = _line()
 LINE_MEMBER = _line()  # of which bearing,
 LINE_REAL = _line.next  # m, rad: real parts; imaginary parts follow
+TAIL_MEAN = FOUR  # behind the lines, from how many there were before those in use to their equilibrium
 
 # what the equations of all lines are made of: matrices of the coordinates by padded columns, then vectors of
 # them, how the balls of a bearing act on them across their tracks. Per pattern: how far balls at rest follow,
@@ -284,7 +286,8 @@ def state_size(bearings, count, mics=0, lines=False):
     """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels, ``lines``."""
     own = S_HEAD + MOTION * padded_size(count) + bearings * PER_BEARING + count * padded_size(count)
     own += MARCHED + (_H.VECTORS + count) * padded_size(count) + bearings * mics
-    return own + (_L.MOST_LINES * bearings * line_size(count) if lines else 0)
+    table = _L.MOST_LINES * bearings * line_size(count) + TAIL_MEAN + padded_size(count)
+    return own + (table if lines else 0)
 
 
 def work_size(bearings, count):

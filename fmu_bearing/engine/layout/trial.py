@@ -66,6 +66,7 @@ AHEAD = _at(_L.COLUMN)  # m, rad: their rates times the contacts' damping time
 D = _at(_L.COLUMN)  # increment, and other short-lived vectors
 A = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations
 V = _at(_L.COLUMN)  # m/s, rad/s: velocities set aside
+BLENDED = _at(3 * _L.COLUMN)  # m, rad: displacements by the lines before, velocities, accelerations
 SIDE_REST = _at(_L.PATTERNS)  # m, m/s, m/s2: as L.SIDE_REST and so on, on trial
 SIDE_PLACE = _at(_L.PATTERNS)
 SIDE_VELOCITY = _at(_L.PATTERNS)

@@ -10,6 +10,7 @@
 ``ball_sound``     what the balls do in the sound of a line
 ``sound``          levels and pressures of all lines
 ``equilibrium``    where rings and balls rest, and all lines about it at once
+``exchange``       how renewed lines take the place of those in use
 ``renewal``        the same in pieces, beside the lines in use
 ``march``          start, and the state at any time
 =================  =============================================================

@@ -64,14 +64,14 @@ def still(p, c, lv, w):
 
 
 @kernel
-def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
-    """Displacements, velocities and accelerations of the rings at the three angles of the lines (rad).
+def sum_lines(lv, lines, count, mean, theta, rolled, angle, speed, w, out):
+    """Displacements about ``mean``, velocities and accelerations of the rings, to ``out``, at three angles.
 
-    ``theta``: of ball 0; ``rolled``: by which the balls have turned; ``angle``: of the shaft. Cosines and
-    sines are taken for a row of lines at a time, the coordinates of a line four at a time.
+    ``theta``: of ball 0; ``rolled``: by which the balls have turned; ``angle``: of the shaft (rad). Cosines
+    and sines are taken for a row of lines at a time, the coordinates of a line four at a time.
     """
-    count = int(lv[L.COUNT])
-    q0, q1, q2 = load(lv, L.MEAN), load(lv, L.MEAN + FOUR), load(lv, L.MEAN + 2 * FOUR)
+    orbit = lv[L.RATIO] * speed
+    q0, q1, q2 = load(mean, 0), load(mean, FOUR), load(mean, 2 * FOUR)
     v0, v1, v2 = splat(0.0), splat(0.0), splat(0.0)
     a0, a1, a2 = splat(0.0), splat(0.0), splat(0.0)
     for first in range(0, count, STRIDE):
@@ -103,9 +103,9 @@ def sum_lines(lv, lines, theta, rolled, angle, orbit, speed, w):
             a0 -= squared * x0
             a1 -= squared * x1
             a2 -= squared * x2
-    store_twelve(lv, L.Q0, q0, q1, q2)
-    store_twelve(lv, L.V0, v0, v1, v2)
-    store_twelve(lv, L.A0, a0, a1, a2)
+    store_twelve(out, 0, q0, q1, q2)
+    store_twelve(out, L.COLUMN, v0, v1, v2)
+    store_twelve(out, 2 * L.COLUMN, a0, a1, a2)
 
 
 @kernel

@@ -282,25 +282,24 @@ def line_phases(p, s, w, lines, first, many, ahead):
 
 
 @kernel
-def sum_set_lines(p, s, w, ahead):
-    """Places, rates and accelerations of the coordinates at ``ahead`` (s) from the present time."""
-    own = members.set_state(p, s)
+def sum_set_lines(p, s, w, lines, count, mean, ahead, out):
+    """Places, rates and accelerations of the coordinates at ``ahead`` (s) from the present time, to ``out``.
+
+    By the sum of ``count`` lines, about the places ``mean``.
+    """
     lanes = members.padded_size(p)
-    mean = members.history(p)
-    lines = own[members.lines(p) :]
     size = members.line_size(p)
-    count = int(own[members.march(p) + SP.LINES])
     for i in range(lanes):
-        own[SP.S_HEAD + i] = own[mean + i]
-        own[SP.S_HEAD + lanes + i] = 0.0
-        own[SP.S_HEAD + 2 * lanes + i] = 0.0
+        out[i] = mean[i]
+        out[lanes + i] = 0.0
+        out[2 * lanes + i] = 0.0
     for first in range(0, count, STRIDE):
         many = min(count - first, STRIDE)
         line_phases(p, s, w, lines, first, many, ahead)
         for g in range(0, lanes, FOUR):
-            place = load(own, SP.S_HEAD + g)
-            rate = load(own, SP.S_HEAD + lanes + g)
-            acc = load(own, SP.S_HEAD + 2 * lanes + g)
+            place = load(out, g)
+            rate = load(out, lanes + g)
+            acc = load(out, 2 * lanes + g)
             for k in range(many):
                 at = (first + k) * size + SP.LINE_REAL + g
                 x, y = turned(lines, at, at + lanes, w[T.COS + k], w[T.SIN + k])
@@ -308,6 +307,6 @@ def sum_set_lines(p, s, w, ahead):
                 place += x
                 rate -= omega * y
                 acc -= omega * omega * x
-            store(own, SP.S_HEAD + g, place)
-            store(own, SP.S_HEAD + lanes + g, rate)
-            store(own, SP.S_HEAD + 2 * lanes + g, acc)
+            store(out, g, place)
+            store(out, lanes + g, rate)
+            store(out, 2 * lanes + g, acc)

@@ -81,7 +81,7 @@ def linearise(p, s, w, speed):
         follow_beyond(p, s, w, speed)
         for b in range(members.count(p)):
             sound_of_balls(p, s, w, b, speed, 0, _ALL)
-        settle_sound(p, s, w, speed)
+        settle_sound(p, s, w)
     return True
 
 

@@ -3,8 +3,8 @@
 The rings rest at their static equilibrium; mass, damping and stiffness are as in fidelity `rings` there,
 with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle + m
 times the angle by which the balls have turned in their orbiting axes. a, b and m are whole, so that phases
-run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 1 %, conditions by
-0.1 %), in pieces (``renewal``): the transient of the change is left out.
+run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 0.5 %, conditions by
+0.1 %), in pieces (``renewal``), and blended (``exchange``): the transient of the change is left out.
 
 Between communication points nothing is stepped but these angles, and sound is a sum of lines, too
 (``sound``). Where it is sampled (recordings, radiation models of the papers), samples are interpolated
@@ -19,9 +19,8 @@ from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.response import bearing, renewal
-from fmu_bearing.engine.fidelities.response.coupled_lines import sum_set_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
-from fmu_bearing.engine.fidelities.response.lines import line_table
+from fmu_bearing.engine.fidelities.response.exchange import move_rings
 from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
 from fmu_bearing.engine.fidelities.rings import equations, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
@@ -37,13 +36,9 @@ def place(p, s, w, ahead, near):
 
     ``near``: whether the balls' last places are good guesses.
     """
+    move_rings(p, s, w, ahead)
     if members.has_shaft(p):
-        sum_set_lines(p, s, w, ahead)
         equations.show_rings(p, s)
-    else:
-        lv = members.condensed(s)
-        theta, rolled, angle, speed = bearing.angles_at(s, ahead)
-        bearing.sum_lines(lv, s[line_table(p) :], theta, rolled, angle, lv[L.RATIO] * speed, speed, w)
     for b in range(members.count(p)):
         bearing.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
 

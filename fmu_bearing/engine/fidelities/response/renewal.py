@@ -3,8 +3,9 @@
 A renewal takes 1 to 10 ms of a processor's time. A model in a loop of 1 ms cannot wait for that, so the work
 is cut into pieces of some 0.2 ms, one for each millisecond that is simulated (`held.PIECE`), and goes on in a
 second state behind the one that steps go on from (`back_of`), which takes over what was renewed when it is
-complete. Meanwhile the old lines serve, with phases at the speed of now. What is renewed is found for the
-speed that a ramp will have reached in the middle of the time in which it serves.
+complete. Meanwhile the old lines serve, with phases at the speed of now. In a ramp one renewal follows the
+other, for the speed that will be reached in the middle of the time in which it serves: a resonance may be as
+narrow as 0.5 % of the speed. Where a ramp ends lines are renewed for the speed at which it rests.
 
 A search for what uneven balls add (``condensed.uneven``) goes on in the state in use, and shares the pieces.
 Arguments: see `spindle.members`; ``stage``: of `IDLE` and so on; ``back``: the second state.
@@ -14,6 +15,17 @@ from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import renew_from_zero, rest_at_inputs
+from fmu_bearing.engine.fidelities.response.exchange import (
+    BLEND,
+    back_of,
+    copy,
+    end_blend,
+    exchange_lines,
+    front,
+    inputs,
+    inputs_of,
+    share_in_use,
+)
 from fmu_bearing.engine.fidelities.response.lines import KINDS, line_table, make_lines
 from fmu_bearing.engine.fidelities.response.sound import (
     add_rings,
@@ -21,12 +33,11 @@ from fmu_bearing.engine.fidelities.response.sound import (
     from_lines,
     note,
     settle_sound,
-    sound_moved,
     sound_of_balls,
 )
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD, SL, SP, L, P, S, U, W
+from fmu_bearing.engine.layout import SD, SL, SP, L, S, W
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.spindle import members
@@ -41,40 +52,16 @@ _ANSWERS = 2e5
 _RINGS = 192
 _BALLS = 960
 _GUESS = 8.0  # pieces of the first renewal
+# how far lines may be off once a renewal that begins now is complete: this many times what the speed changes
+# by meanwhile, at most and at least these parts of the speed
+_CALM = 10.0
+_DRIFT = 1e-3
+_REST = 1e-6
+_AHEAD = 0.4  # of a drift: how far beyond the speed at which they come into use lines are found
+_SOON = 0.1  # s: no farther than a ramp comes in that time
+_SMOOTH = 10e-3  # s: a speed with noise has no rate from one step to the next,
+_PACE = 5.0  # 1/s: and a jump is no ramp, which changes the speed by this part of it at most
 _SEARCHES = 4.0  # every so many pieces one is of a search that waits
-
-
-@kernel
-def inputs(p):
-    """Return how many inputs there are."""
-    return int(p[int(p[P.SET]) + SP.SIZE_U]) if members.has_shaft(p) else U.SIZE
-
-
-@kernel
-def front(p):
-    """Return the length of the part of ``s`` that steps go on from."""
-    if members.has_shaft(p):
-        return int(p[int(p[P.SET]) + SP.FRONT])
-    return line_table(p) + L.MOST_LINES * L.LINE_SIZE
-
-
-@kernel
-def inputs_of(p, s):
-    """Return the inputs that a renewal is for."""
-    return s[front(p) : front(p) + inputs(p)]
-
-
-@kernel
-def back_of(p, s):
-    """Return the state in which a renewal goes on."""
-    return s[front(p) + inputs(p) : 2 * front(p) + inputs(p)]
-
-
-@kernel
-def copy(source, target, begin, end):
-    """Copy the numbers from ``begin`` to ``end``."""
-    for i in range(begin, end):
-        target[i] = source[i]
 
 
 @kernel
@@ -84,27 +71,36 @@ def mirror(p, s):
     own = members.set_state(p, s)
     at = members.march(p)
     own[at + SP.MADE_LAST] = _GUESS
-    own[at + SP.MADE_LAST + 1] = _GUESS
+    end_blend(p, s)
 
 
 @kernel
-def begin(p, u, s, w, h, stage):
-    """Begin a renewal at a ``stage``, `HOLD` or, of sound alone, `RINGS`, within a step of ``h`` (s)."""
+def aim_ahead(p, s, speed, h):
+    """Return the speed (rad/s) to find lines for, when a step of ``h`` (s) to ``speed`` begins.
+
+    Until they are complete a ramp goes on; half of the time in which they serve is as long again, or as long
+    as half of a drift takes.
+    """
+    own = members.set_state(p, s)
+    rate = own[members.march(p) + SP.RATE]
+    last = own[members.march(p) + SP.MADE_LAST] * held.PIECE
+    half = _SOON
+    if abs(rate) * half > _AHEAD * _DRIFT * abs(speed):
+        half = _AHEAD * _DRIFT * abs(speed) / abs(rate)
+    ahead = rate * max(last + 0.5 * BLEND + max(0.5 * last, half) - h, 0.0)
+    return speed + min(max(ahead, -held.FAR * abs(speed)), held.FAR * abs(speed))
+
+
+@kernel
+def begin(p, u, s, w, h):
+    """Begin a renewal within a step of ``h`` (s)."""
     own = members.set_state(p, s)
     back = back_of(p, s)
     at = members.march(p)
-    speed = u[SP.U_SPEED]
-    # until it is complete, and half as long again while it serves, but no farther than it may be off
-    last = own[at + SP.MADE_LAST + (1 if stage == RINGS else 0)]
-    ahead = s[S.SPEED_RATE] * max(1.5 * last * held.PIECE - h, 0.0)
-    ahead = min(max(ahead, -held.FAR * abs(speed)), held.FAR * abs(speed))
-    aim = speed + ahead
+    aim = aim_ahead(p, s, u[SP.U_SPEED], h)
     own[at + SP.AIM] = aim
     own[at + SP.MADE] = 0.0
-    own[at + SP.OF_SOUND] = 1.0 if stage == RINGS else 0.0
-    enter(p, s, stage)
-    if stage == RINGS:
-        return
+    enter(p, s, HOLD)
     given = inputs_of(p, s)
     for i in range(inputs(p)):
         given[i] = u[i]
@@ -255,7 +251,7 @@ def sound_once(p, s, w):
         else:
             next_member(p, s, BALLS, MEANS)
     else:
-        settle_sound(p, back, w, aim)
+        settle_sound(p, back, w)
         enter(p, s, COMPLETE)
 
 
@@ -270,6 +266,7 @@ def piece(p, s, w):
     elif stage == ANSWER:
         answer_piece(p, s, w)
     elif not held_piece(p, s, w):
+        end_blend(p, s)
         status = renew_from_zero(p, inputs_of(p, s), back_of(p, s), w, own[at + SP.AIM])
         if status != OK:
             own[at + SP.STAGE] = IDLE
@@ -286,12 +283,10 @@ def take_over(p, s):
     """Let what was renewed take the place of what was in use."""
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
     at = members.march(p)
-    of_sound = own[at + SP.OF_SOUND] != 0.0
-    own[at + SP.MADE_LAST + (1 if of_sound else 0)] = own[at + SP.MADE]
+    own[at + SP.MADE_LAST] = own[at + SP.MADE]
     if from_lines(p):
         take_sound(p, s)
-    if of_sound:
-        return
+    exchange_lines(p, s)
     for b in range(members.count(p)):
         take_bearing(p, s, b)
     if members.has_shaft(p):
@@ -300,39 +295,49 @@ def take_over(p, s):
             bearing_at = members.per_bearing(p, b)
             own[bearing_at + SP.OFFSET] = of[bearing_at + SP.OFFSET]
             own[bearing_at + SP.HELD_OFFSET] = of[bearing_at + SP.HELD_OFFSET]
-        copy(of, own, at + SP.HELD_NOSE, at + SP.LINES + 1)
-        lines = members.lines(p)
-        copy(of, own, lines, lines + int(of[at + SP.LINES]) * members.line_size(p))
+        copy(of, own, at + SP.HELD_NOSE, at + SP.LINES)
     copy(of, own, members.history(p), members.history(p) + members.padded_size(p))
 
 
 @kernel
 def take_bearing(p, s, b):
-    """Take over what was renewed of a bearing."""
+    """Take over what was renewed of a bearing; rings and balls go on from where they are."""
     sb, of = members.state(p, s, b), members.state(p, back_of(p, s), b)
     lv, new = members.condensed(sb), members.condensed(of)
-    theta, rolled = lv[L.THETA], lv[L.ROLLED]
+    copy(new, lv, L.RATIO, L.SPACING)
+    copy(new, lv, L.ROLL, L.SIDE_PLACE)
+    copy(new, lv, L.CONDITIONS, L.Q0)
+    copy(new, lv, L.MEAN, L.X)
+    copy(new, lv, L.EVEN, L.PHI)
+    copy(new, lv, L.SIZES, L.SETTLED)
     # a search that went on meanwhile knows more
-    copy(new, lv, 0, L.MORE_SPEED if new[L.SEARCH_BEFORE] != 0.0 else L.SIZE)
-    lv[L.THETA] = theta
-    lv[L.ROLLED] = rolled
+    copy(new, lv, L.OWN_END, L.MORE_SPEED if new[L.SEARCH_BEFORE] != 0.0 else L.SIZE)
+    lv[L.KNOWN] = 0.0
     copy(of, sb, S.LOSS, S.LOSS + S.LOSSES)
     sb[S.PLACE] = of[S.PLACE]
     sb[S.RESTARTS] = of[S.RESTARTS]
-    if not members.has_shaft(p):
-        first = line_table(p)
-        copy(of, sb, first, first + int(lv[L.COUNT]) * L.LINE_SIZE)
 
 
 @kernel
 def take_sound(p, s):
     """Take over the lines' sound; meters stay."""
     ps, ss, of = sound_block(p), s[S.SOUND :], back_of(p, s)[S.SOUND :]
-    copy(of, ss, SD.SS_LINES, SD.SS_SPEED + 1)
+    copy(of, ss, SD.SS_LINES, SD.SS_TABLES)
     lines, means, wide = int(ps[SD.H_S_LINES]), int(ps[SD.H_S_MEANS]), int(ps[SD.H_S_BEATS])
     copy(of, ss, lines, lines + int(of[SD.SS_LINES]) * beats.line_size(ps))
     copy(of, ss, means, means + beats.quantities(ps) * int(ps[SD.H_MICS]))
     copy(of, ss, wide, wide + int(of[SD.SS_BEATS]) * beats.beat_size(ps))
+
+
+@kernel
+def moved(p, s, speed):
+    """Whether ``speed`` (rad/s) leaves the neighbourhood of that of the lines in use."""
+    own = members.set_state(p, s)
+    at = members.march(p)
+    used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
+    last = own[at + SP.MADE_LAST] * held.PIECE
+    near = min(max(_CALM * last * own[at + SP.RATE + 1], _REST * abs(speed)), _DRIFT * abs(speed))
+    return abs(speed + last * own[at + SP.RATE] - used) > near
 
 
 @kernel
@@ -341,7 +346,7 @@ def runs_away(p, s, speed):
     own = members.set_state(p, s)
     at = members.march(p)
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
-    busy = own[at + SP.STAGE] != IDLE and own[at + SP.OF_SOUND] == 0.0
+    busy = own[at + SP.STAGE] != IDLE
     return held.apart_by_far(speed, used) and not (busy and not held.apart_by_far(speed, own[at + SP.AIM]))
 
 
@@ -355,19 +360,24 @@ def go_on(p, u, s, w, h, renewed):
     own = members.set_state(p, s)
     at = members.march(p)
     due = held.pieces_due(p, s, h)
+    fastest = _PACE * abs(u[SP.U_SPEED])
+    rate = min(max(s[S.SPEED_RATE], -fastest), fastest)
+    own[at + SP.RATE] += h / (h + _SMOOTH) * (rate - own[at + SP.RATE])
+    own[at + SP.RATE + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RATE + 1])
+    # until lines are written the second state keeps those before the ones in use
+    first_lines = ANSWER if members.has_shaft(p) else LINES
     if runs_away(p, s, u[SP.U_SPEED]):
         due = h = held.MOST
+        end_blend(p, s)
         if own[at + SP.STAGE] != IDLE:
             own[at + SP.STAGE] = IDLE
             renewed = True
     fresh = False
     while True:
         if own[at + SP.STAGE] == IDLE:
-            if renewed:
-                begin(p, u, s, w, h, HOLD)
+            if renewed or moved(p, s, u[SP.U_SPEED]):
+                begin(p, u, s, w, h)
                 renewed = False
-            elif sound_moved(p, s, u[SP.U_SPEED]):
-                begin(p, u, s, w, h, RINGS)
         waits = held.searching(p, s)
         if due < 1.0 or (own[at + SP.STAGE] == IDLE and not waits):
             return OK, fresh
@@ -376,10 +386,12 @@ def go_on(p, u, s, w, h, renewed):
         if waits and (own[at + SP.STAGE] == IDLE or own[at + SP.TURN] == 0.0):
             renewed = held.searched(p, s, w) or renewed
             continue
+        if own[at + SP.STAGE] == first_lines and share_in_use(p, s, 0.0) < 1.0:
+            return OK, fresh
         status = piece(p, s, w)
         if status != OK:
             return status, fresh
         if own[at + SP.STAGE] == COMPLETE:
             take_over(p, s)
             own[at + SP.STAGE] = IDLE
-            fresh = fresh or own[at + SP.OF_SOUND] == 0.0
+            fresh = True

@@ -1,9 +1,9 @@
 """Sound of fidelity `response` from its lines: levels and pressures without samples.
 
 Each line of the rings, and each line of what balls do without them (``ball_sound``), is a sound of one
-frequency. Its complex pressure at every microphone is found when lines are renewed, and again where the speed
-has moved by `_DRIFT` since. Between communication points only phases turn and meters are moved
-(``sound.beats``). Transients after jumps and at the start are left out, as for motion.
+frequency. Its complex pressure at every microphone is found when lines are renewed. Between communication
+points only phases turn and meters are moved (``sound.beats``). Transients after jumps and at the start are
+left out, as for motion.
 
 Pressures come as late as in the other fidelities: phases are those of that time ago.
 Arguments: see `spindle.members`; ``ps``, ``ss``, ``ws``: sound block of the first bearing, which meters.
@@ -23,7 +23,6 @@ from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.sound.transfer import add_channel, bound, clear_channels, radiate
 from fmu_bearing.engine.spindle import members
 
-_DRIFT = 5e-3  # of the speed: lines nearer than that have the pressures that they had
 _HASH_SHAFT, _HASH_ROLLED, _HASH_MEMBER = 31, 17, 101  # so that few lines share a chain
 
 
@@ -294,14 +293,13 @@ def follow_beyond(p, s, w, speed):
 
 
 @kernel
-def settle_sound(p, s, w, speed):
-    """Make means and beats of the lines' pressures, which were found at ``speed`` (rad/s)."""
+def settle_sound(p, s, w):
+    """Make means and beats of the lines' pressures."""
     ps, ss = sound_block(p), s[S.SOUND :]
     ws = members.work(p, w, 0)[W.SOUND :]
     beats.settle_lines(ps, ss, ws)
     beats.renew_means(ps, ss, ws)
     beats.keep_loud(ps, ss)
-    ss[SD.SS_SPEED] = speed
 
 
 @kernel
@@ -381,9 +379,3 @@ def show_pressures(p, s, w):
         phase += ss[at + SL.LINE_SHAFT] * ws[of + SL.ANGLE_SHAFT]
         ws[phases + line] = phase + ss[at + SL.LINE_ROLLED] * ws[of + SL.ANGLE_ROLLED]
     beats.sum_pressures(ps, ss, ws)
-
-
-@kernel
-def sound_moved(p, s, speed):
-    """Whether ``speed`` (rad/s) is another than that which the lines' pressures were found at."""
-    return from_lines(p) and abs(speed - s[S.SOUND + SD.SS_SPEED]) > _DRIFT * abs(speed)

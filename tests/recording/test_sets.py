@@ -1,11 +1,15 @@
 """Recordings of sets: meters of the same run, a set of one, sums over bearings, spread, comparison."""
 
+import json
+
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from fmu_bearing import Recording, compare, measure, read_scene, record, simulate, spread, with_fidelity
 from fmu_bearing.acoustics.analysis.field import joined
 from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.cli import app
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.recording.channels.sources import centre_of, sources_of
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
@@ -165,6 +169,18 @@ def test_files_and_analysis(tmp_path):
     kept = [values.mean() for name, values in made.outputs.items() if name.endswith("angle_mean")]
     assert len(kept) == 4
     assert made.kinematics() == made.kinematics(contact_angle=float(np.mean(kept)))
+
+
+def test_the_command_prints_what_python_measures(tmp_path):
+    given = pair()
+    (tmp_path / "pair.toml").write_text(given.to_toml(), "utf-8")
+    words = ["sound", str(tmp_path / "pair.toml"), "-t", "0.03", "-o", str(tmp_path / "out"), "--json"]
+    done = CliRunner().invoke(app, [*words, "--no-spread", "--no-directivity"])
+    assert done.exit_code == 0, done.output
+    made = record(given, 0.03, progress=False)
+    shown = json.loads(done.stdout)["levels"]
+    assert [one["laeq_dB"] for one in shown.values()] == pytest.approx(made.levels(weighting="A"), abs=1e-9)
+    assert (tmp_path / "out" / "P2.wav").stat().st_size > 2 * made.size
 
 
 def test_power_from_motion_is_refused():

@@ -69,17 +69,23 @@ def spectrum_picture(
 ) -> "Figure":
     """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked.
 
+    A silent component has a dash behind its name and no curve.
+
     Parameters
     ----------
-    frequency, spectra, kinematics, title
+    frequency : array_like, shape (bins,)
+        In Hz.
+    spectra : mapping
+        Levels (dB) of each curve by its name, shape (bins,).
+    kinematics : KinematicFrequencies, optional
+        In Hz; default: none are marked.
+    title : str
     excitation_end : float or mapping, optional
         Frequency (Hz) where the excitation ends (``Recording.excitation_end``), or several by name.
     lines : sequence of Line
         Strongest lines, strongest first, as `measure.strongest` gives them: as many are named at their peaks
         as have room. One that no kinematic line explains has the nearest with a question mark and its
         distance.
-
-    A silent component has a dash behind its name and no curve.
     """
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)

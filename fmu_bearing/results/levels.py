@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 #: What a meter reads of nothing (dB re 20 uPa): 1e-20 Pa^2, see `acoustics.filters.weighting.level`.
 SILENCE = 10.0 * math.log10(1e-20 / 4e-10)
+#: What rounding leaves of a silent component in a whole recording stays below it (dB; 7003C-spindle: -99).
+ROUNDING = -80.0
 _ROOM = 1.0  # dB above: there four fifths of what is read is the floor itself
 
 
@@ -23,8 +25,14 @@ def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
 
 
 def decibels(value: float, digits: int = 1) -> str:
-    """Return a level (dB) as text for a table; a dash for one that is not there."""
-    return "-" if math.isnan(float(present(value, "dB"))) else f"{value:.{digits}f}"
+    """Return a level (dB) as text for a table; a dash for that of a silent component."""
+    return f"{value:.{digits}f}" if value >= ROUNDING else "-"
+
+
+def sounding(values: ArrayLike) -> NDArray[np.float64]:
+    """Return levels (dB) of a component as they are, all of them NaN where it is silent."""
+    found = np.array(values, dtype=float)
+    return found if np.max(found) >= ROUNDING else np.full_like(found, np.nan)
 
 
 def shown(value: float, unit: str) -> str:

@@ -140,7 +140,7 @@ def test_silent_sources_are_a_dash():
     table = tables.third_octave_table([500.0], {"total": [60.0], "cage": [SILENCE]})
     assert table[1] == [["500", "60.00", "-"]]
     found = SoundAnalysis(
-        ("P",), np.array([[60.0, 55.0]]), {"cage": np.array([SILENCE]), "balls": np.array([31.25])},
+        ("P",), np.array([[60.0, 55.0]]), {"cage": np.array([-99.2]), "balls": np.array([31.25])},
         FREQUENCY, {}, np.empty(0), np.empty((1, 0)), {}, [], ((0.0, 0.0, 0.0),),
     )  # fmt: skip
     assert found.rows()[1] == [["P", "60.0", "55.0", "-", "31.2"]]

@@ -41,6 +41,7 @@ def test_the_library_is_in_the_page_once_and_unchanged(full_page):
     assert {"scatter", "scatterpolar", "heatmap", "surface"} <= kinds
 
 
+@pytest.mark.heavy  # a run of half a second and all its sections: 25 s of CPU
 def test_half_a_second_at_four_microphones_takes_less_than_three_megabytes(scene, tmp_path):
     """The page of the example scene, sounds and all: 7.8 MB before figures and library were packed."""
     found = observed(with_fidelity(scene("7003C-spindle"), model="rings"), 0.5, settle=0.02)[0]

@@ -74,6 +74,7 @@ def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_b
     assert made.size < 2.2e6 and len(page.libraries) == 1
 
 
+@pytest.mark.heavy  # statics and two runs
 def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
     """Levels of pressures, levels of parts at the end, and the loudest microphone on the first screen."""
     monkeypatch.setattr(set_sound, "DURATION", 0.06)

@@ -19,7 +19,7 @@ from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
-from fmu_bearing.results.levels import present
+from fmu_bearing.results.levels import sounding
 from fmu_bearing.results.picture_parts import (
     COLOURS,
     DASHES,
@@ -90,7 +90,7 @@ def spectrum_picture(
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
     for name, style in _styles(spectra).items():
-        values = present(spectra[name], "dB")
+        values = sounding(spectra[name])
         ax.plot(f, values, **style, label=_entry(name, values))
     top = max(float(np.max(np.asarray(levels)[1:])) for levels in spectra.values())
     ax.set_ylim(top - _RANGE, top + (_ROOM if lines else 12.0))
@@ -115,7 +115,7 @@ def third_octave_picture(
     width = 0.8 / len(levels)
     top = max(float(np.max(np.asarray(values))) for values in levels.values())
     for k, (name, style) in enumerate(_styles(levels).items()):
-        values = present(levels[name], "dB")
+        values = sounding(levels[name])
         height = np.maximum(values - (top - _RANGE), 0.0)
         hatch = _HATCHES[k // len(OTHERS) % len(_HATCHES)]
         ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=style["color"],

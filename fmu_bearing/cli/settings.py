@@ -157,9 +157,16 @@ def _check_key(
     from fmu_bearing.likeness import nearest
     from fmu_bearing.scene.values import fields_of
 
-    if key.partition(".")[0].partition("[")[0] in type(scene).model_fields:
+    if _table(key) in type(scene).model_fields:
         return  # the scene itself says what is wrong with it
-    near = nearest(key, (*inputs, *fields_of(scene)))
+    keys = [one for one in fields_of(scene) if getattr(scene, _table(one)) is not None]
+    known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in inputs}
+    near = known.get(nearest(key, known), "")
     unit = f" ({units[near]})" if units.get(near) else ""
     hint = f"; did you mean {near}{unit}?" if near else ": keys have their table, as mounting.preload_N"
     raise Refusal(f"--set {setting}: there is no such key or input{hint}")
+
+
+def _table(key: str) -> str:
+    """Return the table of a scene that a key begins with."""
+    return key.partition(".")[0].partition("[")[0]

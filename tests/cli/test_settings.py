@@ -69,7 +69,7 @@ def test_without_any_the_file_is_taken_as_it_is():
         ("shaft_spede=900", "did you mean shaft_speed (rad/s)?"),
         ("prelaod=3", "did you mean preload (N)?"),
         ("radial_laod.z=3", "did you mean radial_load.z (N)?"),
-        ("speed_rpm=3", "did you mean"),
+        ("speed_rpm=3", "did you mean operation.speed_rpm?"),
         ("xyz=3", "keys have their table, as mounting.preload_N"),
         ("preload=much", "write a number, in SI units"),
         ("preload", "write KEY=VALUE"),
@@ -80,6 +80,12 @@ def test_a_name_that_is_none_is_refused_with_the_nearest(setting, words):
     with pytest.raises(Refusal) as refused:
         source_of(FILES["one"], [setting])
     assert str(refused.value).startswith(f"--set {setting}: ") and words in str(refused.value)
+
+
+def test_the_nearest_is_of_such_a_scene():
+    """A set has no mounting: its preload is in another table."""
+    with pytest.raises(Refusal, match=r"did you mean spindle\.preload\.preload_N\?"):
+        source_of(FILES["set"], ["preload=300"])
 
 
 def test_a_key_that_is_none_is_refused_by_the_scene():

@@ -117,7 +117,7 @@ def test_response_follows_a_ramp_from_standstill(scene):
 def test_response_follows_a_steady_ramp(scene):
     """A ramp whose rate does not change leaves the speed that the lines were made for all the same.
 
-    By 5,000 r/min per s, the first renewal begins at 1 % and takes some 10 ms.
+    By 5,000 r/min per s, it moves by 0.5 % while lines are renewed.
     """
     run = Run(silent(scene("7003C-spindle")), 10_000, FIDELITY=2.0).init()
     for i in range(1, 201):

@@ -60,7 +60,7 @@ _REST = 1e-6
 _AHEAD = 0.4  # of a drift: how far beyond the speed at which they come into use lines are found
 _SOON = 0.1  # s: no farther than a ramp comes in that time
 _SMOOTH = 10e-3  # s: a speed with noise has no rate from one step to the next,
-_PACE = 5.0  # 1/s: and a jump is no ramp, which changes the speed by this part of it at most
+_PACE = 20.0  # 1/s: and one that changes by more than this part of it jumps
 _SEARCHES = 4.0  # every so many pieces one is of a search that waits
 
 
@@ -82,7 +82,7 @@ def aim_ahead(p, s, speed, h):
     as half of a drift takes.
     """
     own = members.set_state(p, s)
-    rate = own[members.march(p) + SP.RATE]
+    rate = own[members.march(p) + SP.RAMP]
     last = own[members.march(p) + SP.MADE_LAST] * held.PIECE
     half = _SOON
     if abs(rate) * half > _AHEAD * _DRIFT * abs(speed):
@@ -336,8 +336,8 @@ def moved(p, s, speed):
     at = members.march(p)
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
     last = own[at + SP.MADE_LAST] * held.PIECE
-    near = min(max(_CALM * last * own[at + SP.RATE + 1], _REST * abs(speed)), _DRIFT * abs(speed))
-    return abs(speed + last * own[at + SP.RATE] - used) > near
+    near = min(max(_CALM * last * own[at + SP.RAMP + 1], _REST * abs(speed)), _DRIFT * abs(speed))
+    return abs(speed + last * own[at + SP.RAMP] - used) > near
 
 
 @kernel
@@ -360,14 +360,15 @@ def go_on(p, u, s, w, h, renewed):
     own = members.set_state(p, s)
     at = members.march(p)
     due = held.pieces_due(p, s, h)
-    fastest = _PACE * abs(u[SP.U_SPEED])
-    rate = min(max(s[S.SPEED_RATE], -fastest), fastest)
-    own[at + SP.RATE] += h / (h + _SMOOTH) * (rate - own[at + SP.RATE])
-    own[at + SP.RATE + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RATE + 1])
+    rate = s[S.SPEED_RATE] if abs(s[S.SPEED_RATE]) < _PACE * abs(u[SP.U_SPEED]) else 0.0
+    own[at + SP.RAMP] += h / (h + _SMOOTH) * (rate - own[at + SP.RAMP])
+    own[at + SP.RAMP + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RAMP + 1])
     # until lines are written the second state keeps those before the ones in use
     first_lines = ANSWER if members.has_shaft(p) else LINES
-    if runs_away(p, s, u[SP.U_SPEED]):
+    at_once = runs_away(p, s, u[SP.U_SPEED])
+    if at_once:
         due = h = held.MOST
+        own[at + SP.RAMP] = 0.0
         end_blend(p, s)
         if own[at + SP.STAGE] != IDLE:
             own[at + SP.STAGE] = IDLE
@@ -393,5 +394,7 @@ def go_on(p, u, s, w, h, renewed):
             return status, fresh
         if own[at + SP.STAGE] == COMPLETE:
             take_over(p, s)
+            if at_once:
+                end_blend(p, s)
             own[at + SP.STAGE] = IDLE
             fresh = True

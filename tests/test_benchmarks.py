@@ -6,14 +6,17 @@ import math
 
 import numpy as np
 import pytest
+import typer
 
-from benchmarks import memory, ours, peers, realtime, scenes, sets, sound, stale, table, terms
+from benchmarks import commands, memory, ours, peers, realtime, scenes, sets, sound, stale, table, terms
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import reference_from
+from fmu_bearing.cli import app
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.run.metrics import SAMPLE
+from tests.pages import parse
 
 TINY = Case("7003C-spindle", 20000, (1.0, 0.0, 0.0), "start", window=2e-4, communication=1e-4)
 
@@ -52,8 +55,18 @@ def test_every_table_of_the_benchmark_can_be_made():
         (whole.COLUMNS, whole.rows(quick=True)),
         (calls.COLUMNS, calls.rows(quick=True)),
         (realtime.COLUMNS, realtime.rows(quick=True)),
+        (commands.COLUMNS, list(commands.rows(("info S.toml",)))),
     ):
         assert rows and all(len(row) == len(columns) for row in rows)
+
+
+def test_every_command_has_its_time():
+    """But the two that the table names; each line is one that the command line understands."""
+    lines = [["fmu-bearing", *one.split()] for one in commands.COMMANDS]
+    for words in lines:
+        parse(words)
+    timed = {words[1] for words in lines}
+    assert timed == set(typer.main.get_command(app).commands) - {"identify", "warm-up"}
 
 
 def test_a_missed_goal_is_named():

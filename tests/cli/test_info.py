@@ -137,8 +137,8 @@ def test_a_set_is_checked_shown_and_run(run, tmp_path):
     assert single == [] and len(pair) == 3
     assert pair[1] == {
         "what": ["a report of a run"],
-        "reason": "its report is made from statics, without a run",
-        "way_out": "give the scene itself, without options that need a run",
+        "reason": "its report is made from statics, with a short run of its own for the sound",
+        "way_out": "give the scene itself, without options of a run",
     }
     out = tmp_path / "run.csv"
     result = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")

@@ -156,8 +156,8 @@ def test_statics_and_modes_of_another_models_shaft_are_refused(use):
 
 def test_a_refusal_names_the_scene_what_why_and_the_way_out():
     assert refusal(pair(), "run report") == (
-        "7003C-DB: cannot have a report of a run: its report is made from statics, without a run; give the "
-        "scene itself, without options that need a run"
+        "7003C-DB: cannot have a report of a run: its report is made from statics, with a short run of its "
+        "own for the sound; give the scene itself, without options of a run"
     )
 
 

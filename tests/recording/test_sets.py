@@ -174,7 +174,17 @@ def test_files_and_analysis(tmp_path):
 def test_the_command_prints_what_python_measures(tmp_path):
     given = pair()
     (tmp_path / "pair.toml").write_text(given.to_toml(), "utf-8")
-    words = ["sound", str(tmp_path / "pair.toml"), "-t", "0.03", "--settle", "0.02", "-o", str(tmp_path / "out"), "--json"]
+    words = [
+        "sound",
+        str(tmp_path / "pair.toml"),
+        "-t",
+        "0.03",
+        "--settle",
+        "0.02",
+        "-o",
+        str(tmp_path / "out"),
+        "--json",
+    ]
     done = CliRunner().invoke(app, [*words, "--no-spread", "--no-directivity"])
     assert done.exit_code == 0, done.output
     made = record(given, 0.03, progress=False)

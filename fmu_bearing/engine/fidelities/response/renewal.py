@@ -383,7 +383,8 @@ def go_on(p, u, s, w, h, renewed):
         if due < 1.0 or (own[at + SP.STAGE] == IDLE and not waits):
             return OK, fresh
         due -= 1.0
-        own[at + SP.TURN] = (own[at + SP.TURN] + 1.0) % _SEARCHES
+        turn = own[at + SP.TURN] + 1.0
+        own[at + SP.TURN] = turn if turn < _SEARCHES else 0.0
         if waits and (own[at + SP.STAGE] == IDLE or own[at + SP.TURN] == 0.0):
             renewed = held.searched(p, s, w) or renewed
             continue

@@ -54,5 +54,5 @@ FOUND_TURNING = _at()  # rad/s
 SIZE = _at.next
 
 # what a search takes from one piece of it to the next: places and lengths
-KEPT = ((UNKNOWNS, MOST), (EIGEN, RIGHT), (FIRST_STATE, SIZE - FIRST_STATE))
-KEPT_SIZE = sum(count for _, count in KEPT)
+FIRST_SIZE = SIZE - FIRST_STATE
+KEPT_SIZE = MOST + RIGHT + FIRST_SIZE  # from UNKNOWNS, EIGEN and FIRST_STATE on

@@ -7,7 +7,7 @@ that place grows (``growth``), it goes round in its lands (a pattern that turns)
 by up to a fifth. Where the whirl decays the cage rests.
 
 A search goes in pieces, none longer than one elimination of a pattern's equations, so that a model in a loop
-in real time can make one per step; what a piece leaves to the next is in ``PT.KEPT``.
+in real time can make one per step; what a piece leaves to the next are ``PT.KEPT_SIZE`` numbers.
 """
 
 import math
@@ -130,7 +130,11 @@ def rest_softly(p, c, y, speed, held, even, rest, w, jac):
     """One round with pockets of a share of their stiffness: see ``_WAYS``; as `settle_once`."""
     ahead = math.copysign(1.0, speed)
     n = int(w[W.PATTERN + PT.WAY])
-    softest, factor = _WAYS[n]
+    softest, factor = _WAYS[0]
+    if n == 1:
+        softest, factor = _WAYS[1]
+    elif n == 2:
+        softest, factor = _WAYS[2]
     if w[W.PATTERN + PT.SHARE] == 0.0:
         begin_pattern(p, y, even, w)
         w[W.PATTERN + PT.SHARE] = softest

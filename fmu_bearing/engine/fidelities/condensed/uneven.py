@@ -119,16 +119,22 @@ def uneven_out_of_date(lv, c, speed):
 
 
 @kernel
+def keep_part(w, lv, back, at, first, count):
+    """Keep ``count`` numbers from ``first`` on in ``lv[at:]``, see `keep_pieces`; the place behind them."""
+    for i in range(count):
+        if back:
+            w[W.PATTERN + first + i] = lv[at + i]
+        else:
+            lv[at + i] = w[W.PATTERN + first + i]
+    return at + count
+
+
+@kernel
 def keep_pieces(w, lv, back):
     """Keep what a search leaves to its next piece; ``back``: put it back to the work space."""
-    at = L.SEARCH_KEPT
-    for first, count in PT.KEPT:
-        for i in range(count):
-            if back:
-                w[W.PATTERN + first + i] = lv[at + i]
-            else:
-                lv[at + i] = w[W.PATTERN + first + i]
-        at += count
+    at = keep_part(w, lv, back, L.SEARCH_KEPT, PT.UNKNOWNS, PT.MOST)
+    at = keep_part(w, lv, back, at, PT.EIGEN, PT.RIGHT)
+    keep_part(w, lv, back, at, PT.FIRST_STATE, PT.FIRST_SIZE)
 
 
 @kernel
@@ -152,10 +158,10 @@ def begin_uneven(p, c, speed, turning, ring_held, s, w):
         own[i] = c[i]
     if is_sunk(first):
         bring_to_axis(p, own, first)
-    for at, count in PT.KEPT:
-        if at < PT.FIRST_STATE:
-            for i in range(count):
-                w[W.PATTERN + at + i] = 0.0
+    for i in range(PT.MOST):
+        w[W.PATTERN + PT.UNKNOWNS + i] = 0.0
+    for i in range(PT.RIGHT):
+        w[W.PATTERN + PT.EIGEN + i] = 0.0
     begin_search(first, w)
     keep_pieces(w, lv, False)
 

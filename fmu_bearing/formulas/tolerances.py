@@ -1,18 +1,18 @@
-"""Tolerances of bearings and their seats: ISO 492 (classes P5, P4, P2) and ISO 286.
+"""Tolerances of bearings and their seats: ISO 492 (classes P5, P4, P2) and ISO 286, 6 to 250 mm.
 
 Diameters in mm, deviations and interference in um of the *diameter*; interference is positive where tight.
 
 Neither standard was read. The tables are those that others print:
 
-* P5: NODES Bearing, "P5 class tolerances for radial bearings" (nodeshk.com); XMVB and GLD agree.
-* P4: manv.in (bores to 80 mm, outside diameters to 150 mm) and groove-ballbearing.com (beyond).
-* P2: Loyal, "Class P2 (ABEC 9) tolerances" (loyal.sg).
-* IT3 to IT6: shafts h3 to h6 of Big Daishowa's catalogue, page 139 (catalog.bigdaishowa.com), and IT5, IT6
-  of mechguru.com.
-* g, k, m: shafts g5, k5, m5 of Sumitomo's page on JIS B 0401 (1999), which takes them from ISO 286, and
-  mechguru.com for 80 to 250 mm.
+* P5, P4, P2: GOST 520-2011, tables 5 to 8, 11 and 12, which follow ISO 492:2002. NODES Bearing (P5,
+  nodeshk.com), manv.in (P4) and Loyal (P2, loyal.sg) print the same.
+* IT3 to IT6: Big Daishowa's catalogue, page 139 (shafts h3 to h6, catalog.bigdaishowa.com); TPI's catalogue
+  2202/TE, table 5.3, has the same to 180 mm.
+* g, k, m: Sumitomo's page on JIS B 0401 (1999), shafts g5, k5, m5 (docs.steelcam.org); mechguru.com beyond
+  80 mm.
 * K, M of holes: the shaft's deviation with the other sign, plus IT of the grade less IT of the next finer
-  one; the rule gives all K6 and M6 that DME prints (online.flippingbook.com/view/962121, page 281).
+  one. The rule gives all K5, K6, M5, M6 of germany-bearing.com (articles s67, s70); no print of K4, M4 was
+  found.
 """
 
 import bisect
@@ -24,37 +24,33 @@ TAKES = ("min", "probable min", "mean", "probable max", "max")
 _SHARES = dict(zip(TAKES, (-1.0, -1.0, 0.0, 1.0, 1.0), strict=True))
 Limits = tuple[float, float]
 
-#: ISO 492, um: lower limit of the mean bore, and of the mean outside diameter, for diameters (mm) up to ...
-#: The upper limit is 0.
-_BORE_ENDS = (10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 150.0, 180.0)
+#: Steps of size: each reaches to its diameter (mm), included.
+_ENDS = (10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 150.0, 180.0, 250.0)
+_LEAST = 6.0  # mm, excluded
+#: ISO 492, um: lower limit of the mean bore, and of the mean outside diameter; the upper one is 0.
 _BORES = {
-    "P5": (-5.0, -5.0, -6.0, -8.0, -9.0, -10.0, -13.0, -13.0),
-    "P4": (-4.0, -4.0, -5.0, -6.0, -7.0, -8.0, -10.0, -10.0),
-    "P2": (-2.5, -2.5, -2.5, -2.5, -4.0, -5.0, -7.0, -7.0),
+    "P5": (-5.0, -5.0, -6.0, -8.0, -9.0, -10.0, -13.0, -13.0, -15.0),
+    "P4": (-4.0, -4.0, -5.0, -6.0, -7.0, -8.0, -10.0, -10.0, -12.0),
+    "P2": (-2.5, -2.5, -2.5, -2.5, -4.0, -5.0, -7.0, -7.0, -8.0),
 }
-_OUTSIDE_ENDS = (30.0, 50.0, 80.0, 120.0, 150.0, 180.0, 250.0)
 _OUTSIDES = {
-    "P5": (-6.0, -7.0, -9.0, -10.0, -11.0, -13.0, -15.0),
-    "P4": (-5.0, -6.0, -7.0, -8.0, -9.0, -10.0, -11.0),
-    "P2": (-4.0, -4.0, -4.0, -5.0, -5.0, -7.0, -8.0),
+    "P5": (-5.0, -5.0, -6.0, -7.0, -9.0, -10.0, -11.0, -13.0, -15.0),
+    "P4": (-4.0, -4.0, -5.0, -6.0, -7.0, -8.0, -9.0, -10.0, -11.0),
+    "P2": (-2.5, -2.5, -4.0, -4.0, -4.0, -5.0, -5.0, -7.0, -8.0),
 }
-#: Smallest diameters of these tables (mm): the bore of 2.5 mm is excluded, as is the outside of 18 mm.
-_LEAST_BORE, _LEAST_OUTSIDE, _LEAST_SEAT = 2.5, 18.0, 6.0
-
-#: ISO 286, um: standard tolerances and fundamental deviations for diameters (mm) up to ...
-_SEAT_ENDS = (10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0)
+#: ISO 286, um: standard tolerances, and the limit next to the drawn size: the upper one of g and h, the
+#: lower one of k and m.
 _GRADES = {
-    3: (2.5, 3.0, 4.0, 4.0, 5.0, 6.0, 8.0, 10.0),
-    4: (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0),
-    5: (6.0, 8.0, 9.0, 11.0, 13.0, 15.0, 18.0, 20.0),
-    6: (9.0, 11.0, 13.0, 16.0, 19.0, 22.0, 25.0, 29.0),
+    3: (2.5, 3.0, 4.0, 4.0, 5.0, 6.0, 8.0, 8.0, 10.0),
+    4: (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 12.0, 14.0),
+    5: (6.0, 8.0, 9.0, 11.0, 13.0, 15.0, 18.0, 18.0, 20.0),
+    6: (9.0, 11.0, 13.0, 16.0, 19.0, 22.0, 25.0, 25.0, 29.0),
 }
-#: Nearest limit to the drawn size: upper limit of g and h, lower limit of k and m.
 _DEVIATIONS = {
-    "g": (-5.0, -6.0, -7.0, -9.0, -10.0, -12.0, -14.0, -15.0),
-    "h": (0.0,) * 8,
-    "k": (1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 4.0),
-    "m": (6.0, 7.0, 8.0, 9.0, 11.0, 13.0, 15.0, 17.0),
+    "g": (-5.0, -6.0, -7.0, -9.0, -10.0, -12.0, -14.0, -14.0, -15.0),
+    "h": (0.0,) * len(_ENDS),
+    "k": (1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 3.0, 4.0),
+    "m": (6.0, 7.0, 8.0, 9.0, 11.0, 13.0, 15.0, 15.0, 17.0),
 }
 #: Names of the classes that are known.
 BEARING_CLASSES = tuple(_BORES)
@@ -72,7 +68,7 @@ def bore_limits(bore_mm: float, bearing_class: str) -> Limits:
     Parameters
     ----------
     bore_mm : float
-        More than 2.5, up to 180 mm.
+        More than 6, up to 250 mm.
     bearing_class : str
         One of :data:`BEARING_CLASSES`.
 
@@ -82,7 +78,7 @@ def bore_limits(bore_mm: float, bearing_class: str) -> Limits:
         For another class or size, as all functions of this module.
     """
     _known("bearing_class", bearing_class, BEARING_CLASSES)
-    return _BORES[bearing_class][_step("bore", bore_mm, _LEAST_BORE, _BORE_ENDS)], 0.0
+    return _BORES[bearing_class][_step("bore", bore_mm)], 0.0
 
 
 def outside_limits(outside_mm: float, bearing_class: str) -> Limits:
@@ -91,13 +87,12 @@ def outside_limits(outside_mm: float, bearing_class: str) -> Limits:
     Parameters
     ----------
     outside_mm : float
-        More than 18, up to 250 mm.
+        More than 6, up to 250 mm.
     bearing_class : str
         One of :data:`BEARING_CLASSES`.
     """
     _known("bearing_class", bearing_class, BEARING_CLASSES)
-    place = _step("outside diameter", outside_mm, _LEAST_OUTSIDE, _OUTSIDE_ENDS)
-    return _OUTSIDES[bearing_class][place], 0.0
+    return _OUTSIDES[bearing_class][_step("outside diameter", outside_mm)], 0.0
 
 
 def shaft_limits(diameter_mm: float, shaft_class: str) -> Limits:
@@ -112,7 +107,7 @@ def shaft_limits(diameter_mm: float, shaft_class: str) -> Limits:
     """
     _known("shaft_class", shaft_class, SHAFT_CLASSES)
     letter, grade = _parts(shaft_class)
-    place = _step("shaft", diameter_mm, _LEAST_SEAT, _SEAT_ENDS)
+    place = _step("shaft", diameter_mm)
     width = _GRADES[grade][place]
     if letter == "js":
         return -0.5 * width, 0.5 * width
@@ -132,7 +127,7 @@ def housing_limits(diameter_mm: float, housing_class: str) -> Limits:
     """
     _known("housing_class", housing_class, HOUSING_CLASSES)
     letter, grade = _parts(housing_class)
-    place = _step("housing", diameter_mm, _LEAST_SEAT, _SEAT_ENDS)
+    place = _step("housing", diameter_mm)
     width = _GRADES[grade][place]
     if letter == "JS":
         return -0.5 * width, 0.5 * width
@@ -183,11 +178,11 @@ def _parts(name: str) -> tuple[str, int]:
     return found[1], int(found[2])
 
 
-def _step(what: str, diameter: float, least: float, ends: tuple[float, ...]) -> int:
-    """Place of a diameter (mm) among the size steps, each of which ends at a diameter that it includes."""
-    if not least < diameter <= ends[-1]:
-        allowed = f"more than {least:g}, up to {ends[-1]:g} mm"
+def _step(what: str, diameter: float) -> int:
+    """Place of a diameter (mm) among the steps of size."""
+    if not _LEAST < diameter <= _ENDS[-1]:
+        allowed = f"more than {_LEAST:g}, up to {_ENDS[-1]:g} mm"
         raise ToleranceError(
-            f"{what} of {diameter:g} mm: no tolerances are known ({allowed}); give interference_um"
+            f"{what} of {diameter:g} mm: tolerances are known for {allowed}; give interference_um"
         )
-    return bisect.bisect_left(ends, diameter)
+    return bisect.bisect_left(_ENDS, diameter)

@@ -24,6 +24,9 @@
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
 ``member``        the bearings of a scene, each as the scene of a single one
+``fit``           fits of the rings: seats, classes, interferences, partners
+``fit_conflicts`` what does not fit together with fits
+``fit_file``      fits in the file: the class by grade, preloads of the loose bearing
 ``exclusions``    what a scene cannot have, why, and the way out
 ``toml_text``     syntax of TOML, with lines and keys in its errors
 ``problems``      error messages, one line per problem, with the keys of the file

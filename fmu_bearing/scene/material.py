@@ -16,6 +16,21 @@ class Material(Part):
     expansion_1e6_K: float = Field(
         ge=0, le=200, description="Linear thermal expansion from 20 degC, 1e-6/K.", examples=[11.8]
     )
+    bending_strength_MPa: float | None = Field(
+        default=None,
+        ge=1,
+        le=10000,
+        examples=[900.0],
+        description="Mean bending strength of bars of 3 x 4 x 30 mm in three points, for the chance that a "
+        "ceramic ring breaks (absent: not judged), MPa.",
+    )
+    weibull_modulus: float | None = Field(
+        default=None,
+        ge=1,
+        le=100,
+        examples=[12.0],
+        description="Weibull modulus of the strength: the larger, the less it scatters (absent: not judged).",
+    )
 
 
 #: Steels of bearings, and ceramics, by density (kg/m3) and Young's modulus (GPa).

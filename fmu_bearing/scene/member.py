@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
 from fmu_bearing.scene.base import SceneError
+from fmu_bearing.scene.fit import fit_of_member
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.sound import Microphone
@@ -113,7 +114,8 @@ def one_of(scene: Given, number: int = 0) -> Given:
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
         flexure=spindle.flexure,
     )
-    mounting = mounting.model_copy(update={"preload_N": usual_load(spindle, number)})
+    own = {"preload_N": usual_load(spindle, number), "fit": fit_of_member(scene, number)}
+    mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
         flaws = flaws.model_copy(update={"seed": flaws.seed + number})

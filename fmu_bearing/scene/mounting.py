@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.fit import Fit
 
 
 class Rotor(Part):
@@ -180,6 +181,9 @@ class Mounting(Part):
         default=None, description="Housing on the outer ring; absent: the ring alone."
     )
     flexure: Flexure | None = Field(default=None, description="Bending of the rings; absent: rigid rings.")
+    fit: Fit | None = Field(
+        default=None, description="Fits of the rings; absent: rings as drawn, whatever they sit on."
+    )
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield rings that bend although a solid body on a tight seat keeps them round."""

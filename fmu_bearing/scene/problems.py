@@ -10,9 +10,11 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from fmu_bearing import renamed
+from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene import base
 from fmu_bearing.scene.base import LABEL
+from fmu_bearing.scene.fit import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.spindle import OR_CLASS
 from fmu_bearing.scene.units import symbol
@@ -31,8 +33,10 @@ _INSTEAD = {("mounting", "preload_N"): OR_CLASS}
 #: Keys that are in no source.
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
-    LABEL: "40 letters, digits, blanks and . , + - ( ) / _",
-    NAME: "60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
+    LABEL: "text of 1 to 40 letters, digits, blanks and . , + - ( ) / _",
+    NAME: "text of 1 to 60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
+    SHAFT_CLASS: f"{', '.join(SHAFT_CLASSES)}; or give interference_um",
+    HOUSING_CLASS: f"{', '.join(HOUSING_CLASSES)}; or give interference_um",
 }
 _TEXT = 60  # longest value worth repeating
 _MOST = 20  # problems listed one by one
@@ -178,7 +182,7 @@ def allowed(path: Location) -> str:
         return "true or false"
     if kind is str:
         patterns = [rule.pattern for rule in field.metadata if hasattr(rule, "pattern")]
-        return "text of 1 to " + _TEXTS[patterns[0]] if patterns else "the name of a file"
+        return _TEXTS[patterns[0]] if patterns else "the name of a file"
     if kind in (int, float):
         return _range(field, str(path[-1])) + (", whole numbers only" if kind is int else "")
     names = ", or the name of a catalogue entry" if is_material(path) else ""

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
+from fmu_bearing.scene import fit_file
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
@@ -245,7 +246,8 @@ def _checked(
         scene = Scene.model_validate(data)
     except ValidationError as problem:
         both = data.get("mounting") is not None and data.get("spindle") is not None
-        lines += explain(problem, data, [*unresolved, *([("mounting",)] if both else [])])
+        wrong = fit_file.misplaced(data).partition(".")[0] or "mounting"
+        lines += explain(problem, data, [*unresolved, *([(wrong,)] if both else [])])
         lines += _one_mounting(data)
     else:
         lines += _one_mounting(data)
@@ -259,6 +261,8 @@ def _one_mounting(data: Mapping[str, Any]) -> list[str]:
     given = [key for key in ("mounting", "spindle") if data.get(key) is not None]
     if not given:
         return [f"{missing(('mounting',))}; several bearings on one shaft have [spindle] instead"]
+    if misplaced := fit_file.misplaced(data):
+        return [misplaced]
     if len(given) > 1:
         return [
             "mounting: cannot be given with [spindle]: one bearing has [mounting], a set on one shaft has "
@@ -287,6 +291,7 @@ def with_fidelity(scene: SceneSource, **keys: Any) -> Scene:
 
 def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
     """Take out of a scene's tables what names of catalogue entries among new values set again."""
+    fit_file.make_room(data, given)
     for key, name in given.items():
         *tables, last = key.split(".")
         part: Any = data
@@ -342,12 +347,11 @@ def _resolve(
                 materials[key] = {"catalogue": materials[key]}
             _fill(materials, ("materials", key), entries("materials"), lines, unresolved)
     spindle = data.get("spindle")
-    for body in ("shaft", "housing"):
-        part = spindle.get(body) if isinstance(spindle, dict) else None
-        if isinstance(part, dict) and isinstance(part.get("material"), str):
+    for path, part in fit_file.bodies(data):
+        if isinstance(part.get("material"), str):
             part["material"] = {"catalogue": part["material"]}
-        if isinstance(part, dict):
-            _fill(part, ("spindle", body, "material"), entries("materials"), lines, unresolved)
+        _fill(part, (*path, "material"), entries("materials"), lines, unresolved)
+    fit_file.give_class(data)
     flaws = data.get("imperfections")
     if spindle is not None and isinstance(flaws, dict):
         flaws.setdefault("unbalance_um", 0.0)  # a grade's is that of one rotor; a set has it on its shaft
@@ -365,6 +369,7 @@ def _give_preload(data: dict[str, Any], lines: list[str]) -> None:
         try:
             key = preload_key(table, path)
             if key is not None:
+                lines += fit_file.loose_preload(data, path[0], ".".join((*path, key)))
                 found = preload(table, data.get("bearing"), data.get("materials"), carried(data), path)
         except PreloadError as problem:
             key = CLASS

@@ -8,10 +8,11 @@ from typing import Self
 import tomlkit
 from pydantic import Field
 
-from fmu_bearing.scene import housing
+from fmu_bearing.scene import fit_conflicts, housing
 from fmu_bearing.scene.base import Conflict, Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
+from fmu_bearing.scene.fit import Fit
 from fmu_bearing.scene.fmu import Fmu
 from fmu_bearing.scene.housing import SKIN
 from fmu_bearing.scene.imperfections import Imperfections
@@ -62,6 +63,7 @@ class Tables(Part):
             yield Conflict(
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
+        yield from fit_conflicts.conflicts(self)
         yield from self._orders()
         if self.sound is not None:
             if self.sound.radiator == "housing" and own is None and self.spindle is None:
@@ -171,6 +173,12 @@ class Tables(Part):
                 "of [spindle]"
             )
         return self.mounting
+
+    @property
+    def fit(self) -> Fit | None:
+        """Fits of the rings, of one bearing or of a set; None: rings as drawn."""
+        mount = self.mounting or self.spindle
+        return None if mount is None else mount.fit
 
     @property
     def on_other_shaft(self) -> bool:

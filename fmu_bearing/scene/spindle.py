@@ -7,6 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.fit import LARGEST_UM, Fit
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.mounting import Flexure
 from fmu_bearing.scene.shaft import LONG, Shaft
@@ -82,6 +83,22 @@ class SetBearing(Part):
         le=199,
         examples=[40.0],
         description="Temperature of its outer ring (absent: that of [operation]), degC.",
+    )
+    shaft_interference_um: float | None = Field(
+        default=None,
+        ge=-LARGEST_UM,
+        le=LARGEST_UM,
+        examples=[2.0],
+        description="Interference of its inner ring on the shaft, on diameter, + tight (absent: that of "
+        "[spindle.fit.shaft]), um.",
+    )
+    housing_interference_um: float | None = Field(
+        default=None,
+        ge=-LARGEST_UM,
+        le=LARGEST_UM,
+        examples=[-3.0],
+        description="Interference of its outer ring in the housing, on diameter, + tight (absent: that of "
+        "[spindle.fit.housing]), um.",
     )
 
     @property
@@ -247,6 +264,9 @@ class Spindle(Part):
     load: Load = Field(default_factory=Load, description="Force on the shaft.")
     flexure: Flexure | None = Field(
         default=None, description="Bending of the rings of every bearing; absent: rigid rings."
+    )
+    fit: Fit | None = Field(
+        default=None, description="Fits of the rings of every bearing; absent: rings as drawn."
     )
 
     def conflicts(self) -> Iterator[Conflict]:

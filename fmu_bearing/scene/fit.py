@@ -1,0 +1,359 @@
+"""Fits of the rings on shaft and in housing: their tables, and interferences by tolerance classes."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+
+from pydantic import Field
+
+from fmu_bearing.formulas import tolerances
+from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
+from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.material import Material
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene.scene import Tables
+    from fmu_bearing.scene.shaft import Shaft
+
+#: Classes of ISO 492 whose tolerances are known.
+BearingClass = Literal["P5", "P4", "P2"]
+BEARING_CLASSES: tuple[BearingClass, ...] = get_args(BearingClass)
+#: Which interference of those that the classes allow; probable: 3 sigma of both parts at their limits.
+Take = Literal["min", "probable min", "mean", "probable max", "max"]
+#: Classes of ISO 286 whose tolerances are known, as patterns.
+SHAFT_CLASS, HOUSING_CLASS = (f"^({'|'.join(names)})$" for names in (SHAFT_CLASSES, HOUSING_CLASSES))
+_LOSS = 0.4  # of the roughness Rz, on diameter, where interferences come from measured diameters
+#: Largest interference (um): 1/500 of the largest diameter.
+LARGEST_UM = 4000.0
+
+
+class Seat(Part):
+    """One seat of a ring: how tight it is, and the partner of the ring."""
+
+    interference_um: float | None = Field(
+        default=None,
+        ge=-LARGEST_UM,
+        le=LARGEST_UM,
+        examples=[2.0],
+        description="Interference on diameter at 20 degC and standstill, + tight, in the place of a class; "
+        "no roughness is taken off it, um.",
+    )
+    roughness_Rz_um: float = Field(
+        default=0.0,
+        ge=0,
+        le=50,
+        examples=[1.6],
+        description="Sum of the roughness depths Rz of both surfaces; 0.4 of it is taken off an interference "
+        "that follows from classes, um.",
+    )
+    long: bool = Field(
+        default=True,
+        examples=[True],
+        description="Whether the partner is longer than the ring and supported by what is beside the seat; "
+        "false: as wide as the ring.",
+    )
+    temperature_degC: float | None = Field(
+        default=None,
+        ge=-40,
+        le=199,
+        examples=[40.0],
+        description="Temperature of the partner of a single bearing (absent: it follows the ring), degC.",
+    )
+
+
+class ShaftFit(Seat):
+    """The seat of the inner ring on the shaft: a class or an interference, and the shaft under it."""
+
+    shaft_class: str | None = Field(
+        default=None,
+        pattern=SHAFT_CLASS,
+        examples=["js4"],
+        description="Tolerance class of the shaft (ISO 286): g, h, js, k or m with grade 4, 5 or 6.",
+    )
+    bore_mm: float | None = Field(
+        default=None,
+        ge=0,
+        le=1000,
+        examples=[8.0],
+        description="Bore of the shaft; absent: of a set that of spindle.shaft.sections_mm at the bearing, "
+        "else a solid shaft, mm.",
+    )
+    material: Material | None = Field(
+        default=None,
+        examples=["GCr15"],
+        description="Material of the shaft; absent: of a set that of [spindle.shaft], else that of the inner "
+        "ring.",
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield a seat whose interference is given twice."""
+        yield from _twice(self, "shaft_class")
+
+
+class HousingFit(Seat):
+    """The seat of the outer ring in the housing: a class or an interference, and the housing around it."""
+
+    housing_class: str | None = Field(
+        default=None,
+        pattern=HOUSING_CLASS,
+        examples=["JS5"],
+        description="Tolerance class of the housing's bore (ISO 286): H, JS, K or M with grade 4, 5 or 6.",
+    )
+    outside_diameter_mm: float | None = Field(
+        default=None,
+        ge=3,
+        le=3000,
+        examples=[60.0],
+        description="Outside diameter of the housing around the seat; absent: diameter_mm of "
+        "[mounting.housing], of a set of [spindle.housing], mm.",
+    )
+    material: Material | None = Field(
+        default=None,
+        examples=["aluminium"],
+        description="Material of the housing; absent: of a set that of [spindle.housing], else that of the "
+        "outer ring.",
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield a seat whose interference is given twice."""
+        yield from _twice(self, "housing_class")
+
+
+def _twice(seat: Seat, key: str) -> Iterator[Conflict]:
+    if getattr(seat, key) is not None and seat.interference_um is not None:
+        yield Conflict(
+            "interference_um",
+            f'cannot be given with {key} = "{getattr(seat, key)}", which gives the interference, too: leave '
+            "out one of the two",
+        )
+
+
+class Fit(Part):
+    """How tight the rings sit; a seat that is left out is loose and its ring is as drawn."""
+
+    bearing_class: BearingClass | None = Field(
+        default=None,
+        examples=["P4"],
+        description="Tolerance class of the bearing's bore and outside diameter (ISO 492); absent: the grade "
+        "that [imperfections] of the file names.",
+    )
+    take: Take = Field(
+        default="mean",
+        examples=["mean"],
+        description="Which interference of those that the classes allow is run, of both seats; probable: "
+        "3 sigma of both diameters at their limits.",
+    )
+    contact_angle: Literal["unmounted", "mounted"] = Field(
+        default="unmounted",
+        examples=["unmounted"],
+        description="What bearing.contact_angle_deg is: of the loose bearing, as makers give it, or of the "
+        "mounted one at 20 degC and standstill.",
+    )
+    preload: Literal["unmounted", "mounted"] | None = Field(
+        default=None,
+        examples=["unmounted"],
+        description="What a rigid or spacer preload is: of the loose bearing, as makers give it, or measured "
+        "on the spindle. Asked for beside preload_N; a class or an offset is of the loose bearing.",
+    )
+    shaft: ShaftFit | None = Field(
+        default=None, description="Seat of the inner ring; absent: the ring is loose."
+    )
+    housing: HousingFit | None = Field(
+        default=None, description="Seat of the outer ring; absent: the ring is loose."
+    )
+
+    def conflicts(self) -> Iterator[Conflict]:
+        """Yield fits without a seat."""
+        if self.shaft is None and self.housing is None:
+            yield Conflict(
+                "",
+                "has no seat: give a table shaft or housing under it, as shaft.interference_um = 2.0",
+            )
+
+
+class Interference(NamedTuple):
+    """Interference of a seat on diameter (um, + tight), and in words where it comes from."""
+
+    um: float
+    words: str
+
+
+class Side(NamedTuple):
+    """What distinguishes the two seats: of which ring, which keys."""
+
+    seat: str
+    ring: str
+    class_key: str
+    diameter_key: str
+
+
+SHAFT = Side("shaft", "inner", "shaft_class", "bore_mm")
+HOUSING = Side("housing", "outer", "housing_class", "outside_diameter_mm")
+SIDES = (SHAFT, HOUSING)
+
+
+def interferences(
+    scene: "Tables", take: Take | None = None, member: int | None = None
+) -> tuple[Interference | None, Interference | None]:
+    """Return the interferences of shaft and housing, of which those by classes are less by the roughness.
+
+    Parameters
+    ----------
+    scene : Scene
+    take : str, optional
+        Which of those that the classes allow; default: the one that the scene runs.
+    member : int, optional
+        Number of the bearing of a set, from 0; default: the first.
+
+    Returns
+    -------
+    tuple
+        For shaft and housing an `Interference`; None where the ring has no seat.
+
+    Raises
+    ------
+    ToleranceError
+        For classes and sizes without tolerances; no scene that was checked has them.
+    """
+    shaft, housing = (_interference(scene, side, take, member) for side in SIDES)
+    return shaft, housing
+
+
+def _interference(scene: "Tables", side: Side, take: Take | None, member: int | None) -> Interference | None:
+    fit = scene.fit
+    seat = None if fit is None else getattr(fit, side.seat)
+    if fit is None or seat is None:
+        return None
+    given = own_interference(scene, side, member)
+    given = seat.interference_um if given is None else given
+    if given is not None:
+        return Interference(given, f"{given:g} um as given")
+    wanted = take or fit.take
+    um = by_classes(scene, side, wanted)
+    low, high = by_classes(scene, side, "min"), by_classes(scene, side, "max")
+    loss = _LOSS * seat.roughness_Rz_um
+    words = (
+        f"{getattr(seat, side.class_key)} on {fit.bearing_class}, {wanted} {um:.1f} um of {low:.1f} to "
+        f"{high:.1f}"
+    )
+    return Interference(um - loss, words + (f", less by {loss:.2g} um of roughness" if loss else ""))
+
+
+def own_interference(scene: "Tables", side: Side, member: int | None) -> float | None:
+    """Return the interference (um) that one bearing of a set has of its own; None: that of its table."""
+    if scene.spindle is None:
+        return None
+    one = scene.spindle.bearing[member or 0]
+    return one.shaft_interference_um if side is SHAFT else one.housing_interference_um
+
+
+def by_classes(scene: "Tables", side: Side, take: Take) -> float:
+    """Return the interference (um) of a seat by its classes, before the loss by roughness.
+
+    Raises
+    ------
+    ToleranceError
+        For classes and sizes without tolerances.
+    """
+    fit, bearing = scene.fit, scene.bearing
+    assert fit is not None and fit.bearing_class is not None, "classes without that of the bearing"
+    wanted = getattr(getattr(fit, side.seat), side.class_key)
+    if side is SHAFT:
+        ring = tolerances.bore_limits(bearing.bore_mm, fit.bearing_class)
+        return tolerances.interference(tolerances.shaft_limits(bearing.bore_mm, wanted), ring, take)
+    ring = tolerances.outside_limits(bearing.outside_diameter_mm, fit.bearing_class)
+    around = tolerances.housing_limits(bearing.outside_diameter_mm, wanted)
+    return tolerances.interference(around, ring, take, housing=True)
+
+
+def shaft_partner(scene: "Tables", member: int | None = None) -> tuple[Material, float]:
+    """Return material and bore (mm) of the shaft under an inner ring, of a set at a bearing from 0."""
+    seat = None if scene.fit is None else scene.fit.shaft
+    assert seat is not None, "an inner ring without a seat"
+    shaft = None if scene.spindle is None else scene.spindle.shaft
+    material = seat.material or (shaft.material if shaft is not None else None)
+    bore = seat.bore_mm
+    if bore is None:
+        known = scene.spindle is not None and scene.spindle.shaft.sections_mm
+        bore = bore_at(scene, member or 0) if known else 0.0
+    return material or scene.materials.inner_ring, bore
+
+
+def bore_at(scene: "Tables", member: int) -> float:
+    """Return the bore (mm) of a set's shaft, given in sections, in the plane of a bearing from 0."""
+    assert scene.spindle is not None
+    place = scene.spindle.bearing[member].position_mm
+    return _bore(scene.spindle.shaft, place)
+
+
+def _bore(shaft: "Shaft", place: float) -> float:
+    end = 0.0
+    for length, _, bore in shaft.sections_mm:
+        end += length
+        if place < end:
+            return bore
+    return shaft.sections_mm[-1][2]
+
+
+def housing_partner(scene: "Tables") -> tuple[Material, float]:
+    """Return material and outside diameter (mm) of the housing around an outer ring."""
+    seat = None if scene.fit is None else scene.fit.housing
+    assert seat is not None, "an outer ring without a seat"
+    housing = None if scene.spindle is None else scene.spindle.housing
+    material = seat.material or (housing.material if housing is not None else None)
+    outside = housing_outside(scene)
+    assert outside is not None, "a housing without a diameter"
+    return material or scene.materials.outer_ring, outside
+
+
+def fit_of_member(scene: "Tables", member: int) -> Fit | None:
+    """Return the fit of one bearing of a set, from 0, as that of a single one, defaults resolved."""
+    fit = scene.fit
+    if fit is None:
+        return None
+    seats: dict[str, Seat | None] = {"shaft": fit.shaft, "housing": fit.housing}
+    partners = {
+        "shaft": ("bore_mm", shaft_partner(scene, member) if fit.shaft is not None else None),
+        "housing": ("outside_diameter_mm", housing_partner(scene) if fit.housing is not None else None),
+    }
+    for side in SIDES:
+        seat, (key, partner) = seats[side.seat], partners[side.seat]
+        if seat is None or partner is None:
+            continue
+        changes = {"material": partner[0], key: partner[1], "temperature_degC": _temperature(scene, side)}
+        own = own_interference(scene, side, member)
+        if own is not None:
+            changes |= {"interference_um": own, side.class_key: None}
+        seats[side.seat] = seat.model_copy(update=changes)
+    return fit.model_copy(update=seats)
+
+
+def housing_outside(scene: "Tables") -> float | None:
+    """Return the outside diameter (mm) of the housing around the seat: its own, or that of the body."""
+    seat = None if scene.fit is None else scene.fit.housing
+    if seat is not None and seat.outside_diameter_mm is not None:
+        return seat.outside_diameter_mm
+    body = scene.mounting.housing if scene.mounting is not None else None
+    if scene.spindle is not None:
+        return scene.spindle.housing.diameter_mm
+    return None if body is None else body.diameter_mm
+
+
+def partner_temperatures(scene: "Tables") -> tuple[float, float]:
+    """Return the temperatures (degC) of shaft and housing at the start; absent: those of the rings."""
+    return _temperature(scene, SHAFT), _temperature(scene, HOUSING)
+
+
+def _temperature(scene: "Tables", side: Side) -> float:
+    fit = scene.fit
+    if scene.spindle is not None:
+        own = getattr(scene.spindle, side.seat).temperature_degC
+    else:
+        seat = None if fit is None else getattr(fit, side.seat)
+        own = None if seat is None else seat.temperature_degC
+    ring: float = getattr(scene.operation, f"{side.ring}_ring_temperature_degC")
+    return ring if own is None else own
+
+
+def held_loose(scene: "Tables") -> bool:
+    """Whether a rigid or spacer preload is that of the loose bearing; bearings that just touch are, too."""
+    return scene.fit is not None and scene.fit.preload != "mounted"

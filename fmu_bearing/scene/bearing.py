@@ -69,7 +69,7 @@ class Bearing(Part):
         ge=2, le=1500, examples=[26.0], description="Diameter of the circle of ball centres, mm."
     )
     ball_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.5], description="Diameter of a ball, mm.")
-    ball_count: int = Field(ge=3, le=24, examples=[12], description="Number of balls.")
+    ball_count: int = Field(ge=3, le=32, examples=[12], description="Number of balls.")
     contact_angle_deg: float = Field(
         ge=5, le=45, examples=[15.0], description="Contact angle of the unloaded bearing, deg."
     )

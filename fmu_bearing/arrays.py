@@ -51,7 +51,7 @@ class Arrays:
         self.u[U.PRELOAD] = scene.mounted.preload_N
         self.u[U.PEDESTAL] = scene.mounted.pedestal_stiffness_N_m
         self.u[U.LOAD_Y], self.u[U.LOAD_Z] = load_y, load_z
-        self.u[U.OIL_T : U.OUTER_T + 1] = REFERENCE_TEMPERATURE
+        self.u[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
         self._allocate()
 
     def _allocate(self) -> None:

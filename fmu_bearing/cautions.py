@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import SP, P, U, Z
 from fmu_bearing.interface.set_outputs import first_output
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.fit import interferences
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,14 @@ _RESTARTS = Caution(
     decimals=0,
     above=True,
 )
+_RADIALLY_TIGHT = Caution(
+    Z.FREE_ANGLE,
+    1e-6,  # rad: the outputs of an angle that has no cosine are zero
+    180.0 / math.pi,
+    "fits leave no radial clearance, so that unloaded balls touch both races at ",
+    " deg: preload and loads then follow from the fits more than from what is asked; give less interference "
+    "(mounting.fit), or a larger bearing.contact_angle_deg",
+)
 _ALWAYS = (*_SHOULDERS, _WAVES, _RESTARTS)
 _UNLOADED = Caution(
     Z.BEARING_OUTPUTS.index("contact.inner.load_mean"),
@@ -120,7 +129,23 @@ def cautions(model: Model) -> tuple[Caution, ...]:
     before, nothing, after = loose(fidelity).partition("0")
     smallest = math.ulp(float(nothing))
     without = Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u")
-    return (without, *_skids(model, fidelity), *_ALWAYS)
+    return (without, *_skids(model, fidelity), *_ALWAYS, *_fits(model.scene))
+
+
+def _fits(scene: Scene) -> tuple[Caution, ...]:
+    """Return the warnings about fits of one bearing: tight ones that let go, and no radial clearance."""
+    found = [] if scene.fit is None else [_RADIALLY_TIGHT]
+    for race, (seat, one) in enumerate(zip(("shaft", "housing"), interferences(scene), strict=True)):
+        if one is not None and one.um > 0.0:
+            ring = ("inner", "outer")[race]
+            place = Z.FIT + Z.FIT_SIZE * race + Z.FIT_INTERFERENCE
+            before = f"the fit of the {ring} ring has let go of the {seat}: a gap of "
+            after = (
+                " um on diameter; the ring is computed as centred and growing by itself; give more "
+                f"interference (mounting.fit.{seat}), less speed, or a cooler ring"
+            )
+            found.append(Caution(place, 0.0, -1e6, before, after, decimals=2))
+    return tuple(found)
 
 
 def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
@@ -163,7 +188,7 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
         replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
     ]  # fmt: skip
     for bearing in bearings:
-        for one in (_UNLOADED, *_SHOULDERS):
+        for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene)):
             place = first_output(scene, bearing.number - 1) + one.index
             found.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
     if len({bearing.sign for bearing in bearings}) == 1:

@@ -44,6 +44,8 @@ def inputs_usable(u):
         and u[U.OIL_T] >= _COLDEST_OIL
         and u[U.INNER_T] >= _COLDEST_RING
         and u[U.OUTER_T] >= _COLDEST_RING
+        and u[U.SHAFT_T] >= _COLDEST_RING
+        and u[U.HOUSING_T] >= _COLDEST_RING
     )
 
 

@@ -23,7 +23,7 @@ WARNING, DISCARD, ERROR = "warning", "discard", "error"  # severities handed to 
 
 _FAILED, _UNSETTLED = -1, -2  # keys beside the value references: until reset, until initialised again
 _NONE: frozenset[int] = frozenset()
-_TUNABLES = slice(0, P.VISCOSITY + 1)  # the head of p, all that can be set there
+_TUNABLES = slice(0, P.TUNABLE)  # the head of p, all that can be set there
 
 
 class Phase(Enum):

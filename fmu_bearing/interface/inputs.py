@@ -65,9 +65,21 @@ def inputs(scene: Scene) -> list[Variable]:
             start.outer_ring_temperature,
         ),
     )
+    rows += _partners(scene)
     return [
         Variable(
             name, "input", "continuous", words, start=value, array="u", index=U.INPUTS.index(name), **more
         )
         for name, words, more, value in rows
     ]
+
+
+def _partners(scene: Scene) -> tuple[tuple[str, str, dict[str, Any], float], ...]:
+    """Return the temperatures of shaft and housing, where fits have any: absent ones are the rings'."""
+    fit, rows = scene.fit, []
+    seats = () if fit is None else (("shaft", "inner", fit.shaft), ("housing", "outer", fit.housing))
+    for name, ring, seat in seats:
+        if seat is not None and seat.temperature_degC is not None:
+            words = f"Temperature of the {name}, which with that of the {ring} ring sets its fit"
+            rows.append((f"{name}_temperature", words, KELVIN, si(seat).temperature))
+    return tuple(rows)

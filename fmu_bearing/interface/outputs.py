@@ -82,7 +82,7 @@ def internals(scene: Scene) -> list[Variable]:
     for axis, words in (("y", "the horizontal"), ("z", "the upward")):
         tilt = f"Tilt of the inner ring about {words} axis"
         table.append(read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
-    table += [*_contacts("inner"), *_contacts("outer")]
+    table += [*_contacts("inner"), *_contacts("outer"), *_fits(scene)]
     table += [
         read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
         read("stiffness.axial", "local", f"Axial {_CONTACTS_ALONE}", "N/m"),
@@ -166,6 +166,27 @@ def _contacts(side: str) -> list[Variable]:
         read(f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3),
         read(f"contact.{side}.shoulder_margin", "local", margin, "rad", display_unit="deg"),
     ]
+
+
+def _fits(scene: Scene) -> list[Variable]:
+    if scene.fit is None:
+        return []
+    angle = "Contact angle of unloaded balls between the mounted rings; 0: radially tight"
+    table = [read("contact.free_angle", "local", angle, "rad", display_unit="deg")]
+    stress: dict[str, Any] = {"display_unit": "MPa", "nominal": 1e7}
+    for ring, seat, of in (("inner", scene.fit.shaft, "shaft"), ("outer", scene.fit.housing, "housing")):
+        if seat is None:
+            continue
+        tight = f"Interference of the {ring} ring with the {of} on diameter, + tight, negative: a gap"
+        hoop = f"Hoop stress at the bore of the {ring} ring by its fit" + " and rotation" * (ring == "inner")
+        growth = f"Radial growth of the {ring} race by its fit" + " and rotation" * (ring == "inner")
+        table += [
+            read(f"fit.{ring}.interference", "local", tight, "m", display_unit="um", nominal=1e-6),
+            read(f"fit.{ring}.pressure", "local", f"Pressure between {ring} ring and {of}", "Pa", **stress),
+            read(f"fit.{ring}.hoop_stress", "local", hoop, "Pa", **stress),
+            read(f"fit.{ring}.race_growth", "local", growth, "m", display_unit="um", nominal=1e-6),
+        ]
+    return table
 
 
 def _cage_whirl(scene: Scene) -> list[Variable]:

@@ -9,6 +9,7 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.fit import SMALLEST_RATIO, interferences
 from fmu_bearing.scene.preload import classes
 from fmu_bearing.scene.sound import Radiator
 from fmu_bearing.scene.spindle import Spindle
@@ -43,11 +44,27 @@ def parameters(scene: Scene) -> list[Variable]:
             "Pa.s",
         ),
     ]
+    table += _interferences(scene)
     if scene.imperfections is not None:
         words = "Factor on all imperfections"
         table.append(_tunable("imperfection.scale", P.IMPERFECTION_SCALE, words, 1.0, 0.0, 100.0))
     if scene.sound is not None:
         table += _metering(scene.sound.time_weighting, si(scene.sound).metering_start)
+    return table
+
+
+def _interferences(scene: Scene) -> list[Variable]:
+    """Return the interferences of shaft and housing, of a set those of all bearings."""
+    table = []
+    places = ("shaft", scene.bearing.bore_mm), ("housing", scene.bearing.outside_diameter_mm)
+    for race, ((name, seat_mm), found) in enumerate(zip(places, interferences(scene), strict=True)):
+        if found is not None:
+            words = f"Interference with the {name} on diameter at 20 degC and standstill, + tight"
+            if scene.spindle is not None:
+                words += "; of the first bearing, the others keep their difference from it"
+            place, most = P.INTERFERENCE + race, 1e-3 * seat_mm / SMALLEST_RATIO
+            value = 1e-6 * found.um
+            table.append(_tunable(f"fit.{name}_interference", place, words, value, -most, most, "m"))
     return table
 
 

@@ -49,7 +49,7 @@ def input_values(scene: Scene) -> NDArray[np.float64]:
     """
     if scene.spindle is not None:
         return set_inputs(scene)
-    u = np.zeros(U.SIZE)
-    for variable in inputs(scene):
-        u[variable.index] = variable.start
-    return u
+    values = {variable.index: variable.start for variable in inputs(scene)}
+    # a partner without a temperature of its own has its ring's
+    values = {U.SHAFT_T: values[U.INNER_T], U.HOUSING_T: values[U.OUTER_T]} | values
+    return np.array([values[place] for place in range(U.SIZE)])

@@ -2,6 +2,7 @@
 
 ===================  ==================================================================
 ``bodies``           masses and inertias from the scene's dimensions
+``fits``             how interference of ring and shaft or housing moves the races
 ``contacts``         oil and friction, rolling resistance and films of the races
 ``surfaces``         power law, contact filter and highest orders of races and balls
 ``imperfections``    waviness of races and balls, ball sizes, from a seed

@@ -15,7 +15,7 @@ from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.table import input_values
-from fmu_bearing.prepare import bodies, contacts
+from fmu_bearing.prepare import bodies, contacts, fits
 from fmu_bearing.prepare.flexure import longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
     ball_oversizes,
@@ -167,11 +167,13 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     bearings = scene.bearings()
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
     packed = [_pack(one.scene, block, scene) for one, block in zip(bearings, blocks, strict=True)]
+    fits.share(packed)
     return as_set_of_one(packed[0]) if scene.spindle is None else pack_set(scene, packed)
 
 
 def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> NDArray[np.float64]:
     """Return the parameters of one bearing; ``with_microphones``: the scene that has the microphones."""
+    scene = fits.loose(scene)
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -210,6 +212,7 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
+    fits.write(scene, p)
     _mounting(scene, p)
     if scene.bearing.cage is not None and scene.materials.cage is not None:
         _cage(scene, scene.bearing.cage, scene.materials.cage, p)

@@ -24,6 +24,8 @@ SHAFT_CLASS, HOUSING_CLASS = (f"^({'|'.join(names)})$" for names in (SHAFT_CLASS
 _LOSS = 0.4  # of the roughness Rz, on diameter, where interferences come from measured diameters
 #: Largest interference (um): 1/500 of the largest diameter.
 LARGEST_UM = 4000.0
+#: Least diameter over interference: below it rings and shafts yield.
+SMALLEST_RATIO = 500.0
 
 
 class Seat(Part):

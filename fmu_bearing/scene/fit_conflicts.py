@@ -9,6 +9,7 @@ from fmu_bearing.scene.fit import (
     BEARING_CLASSES,
     SHAFT,
     SIDES,
+    SMALLEST_RATIO,
     Fit,
     HousingFit,
     Seat,
@@ -21,8 +22,6 @@ from fmu_bearing.scene.fit import (
 
 if TYPE_CHECKING:
     from fmu_bearing.scene.scene import Tables
-
-_LARGEST = 500.0  # diameter over interference: beyond it rings and shafts yield
 
 
 def conflicts(tables: "Tables") -> Iterator[Conflict]:
@@ -73,7 +72,7 @@ def _without_table(tables: "Tables") -> Iterator[Conflict]:
 def _given(tables: "Tables", fit: Fit, seat: Seat, side: Side, where: str) -> Iterator[Conflict]:
     """Yield seats whose interference is not given, or is larger than any ring bears."""
     diameter = getattr(tables.bearing, side.diameter_key)
-    most = 1e3 * diameter / _LARGEST
+    most = 1e3 * diameter / SMALLEST_RATIO
     own = _own(tables, side)
     values = [(f"{where}.{side.seat}.interference_um", seat.interference_um, "")]
     values += [(key, value, f"= {value:g} ") for key, value in own if value is not None]

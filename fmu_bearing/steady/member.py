@@ -55,6 +55,8 @@ class Member:
         self.still[U.PEDESTAL] = HELD
         for place, own in ((U.OIL_T, SP.U_OIL), (U.INNER_T, SP.U_INNER), (U.OUTER_T, SP.U_OUTER)):
             self.still[place] = run.u[at + own]
+        for place, own in ((U.SHAFT_T, SP.U_SHAFT_T), (U.HOUSING_T, SP.U_HOUSING_T)):
+            self.still[place] = run.u[own]
         self.parameters = part.p.copy()
         self.parameters[P.SET] = 0.0
         self._c, self._out = np.zeros(C.SIZE), np.zeros(EQ.SIZE)
@@ -63,7 +65,7 @@ class Member:
     def warmer(self, rise: float) -> NDArray[np.float64]:
         """Return inputs of standstill at 20 degC with an inner ring that is warmer by ``rise`` (K)."""
         inputs = self.still.copy()
-        inputs[[U.OIL_T, U.INNER_T, U.OUTER_T]] = REFERENCE_TEMPERATURE
+        inputs[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
         inputs[U.INNER_T] += rise
         return inputs
 

@@ -12,6 +12,7 @@ IMPERFECTION_SCALE = _at()
 TIME_WEIGHTING = _at()  # s: 0.125 Fast, 1 Slow
 METERING_START = _at()  # s after initialisation
 VISCOSITY = _at()  # Pa s at the reference temperature
+INTERFERENCE = _at(2)  # m on diameter, + tight, at the reference temperature: shaft, housing
 TUNABLE = _at.next  # places before this one
 # counts and choices
 METHOD = _at()  # integrator of fidelity full: see choices.METHODS
@@ -37,6 +38,8 @@ LAND = _at()
 GYROSCOPIC = _at()
 WAVINESS = _at()
 RIGID = _at()  # rigid preload
+FITS = _at()  # fits of the rings on shaft or in housing
+UNMOUNTED = _at()  # preload is that of the loose bearing
 # offsets into p
 AT_STRIPS = _at()  # strip nodes, then weights
 AT_OVERSIZE = _at()  # m: ball diameter deviations, one per lane
@@ -134,6 +137,16 @@ RACE_EXPANSION = _race()  # 1/K
 RACE_HALF_WIDTH = _race()  # m^0.5: semi-minor axis over sqrt(approach)
 RACE_CENTRAL_FILM = _race()  # central film factor at viscosity 1 Pa s
 RACE_SHOULDER = _race()  # rad: contact angle at which the groove ends
+# fit of the ring; interference on the radius. All zero: a ring as drawn
+RACE_FIT_OWN = _race()  # m on diameter: of this bearing's fit beyond ``INTERFERENCE``
+RACE_FIT_RING = _race()  # m/K: interference by the ring's temperature
+RACE_FIT_PARTNER = _race()  # m/K: and by that of shaft or housing
+RACE_FIT_SPIN = _race()  # m s2: and over the square of the speed
+RACE_FIT_SHARE = _race()  # growth of the race over interference
+RACE_SPIN = _race()  # m s2: growth of the ring alone over the square of the speed
+RACE_FIT_PRESSURE = _race()  # Pa/m: pressure of the fit over interference
+RACE_HOOP = _race()  # hoop stress at the ring's inner surface over this pressure
+RACE_SPIN_HOOP = _race()  # Pa s2: and over the square of the speed
 RACE_SIZE = _race.next
 RACES = _at(2 * RACE_SIZE)  # inner, outer
 TABLES = _at.next  # tables of variable length begin here

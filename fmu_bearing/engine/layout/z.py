@@ -15,6 +15,9 @@ BEARING_OUTPUTS = (
     "contact.outer.slip", "cage.whirl_radius", "cage.whirl_speed", "friction_torque_share.contacts",
     "friction_torque_share.rolling", "friction_torque_share.cage", "friction_torque_share.drag",
     "contact.inner.shoulder_margin", "contact.outer.shoulder_margin", "friction_torque_mean",
+    "contact.free_angle", "fit.inner.interference", "fit.inner.pressure", "fit.inner.hoop_stress",
+    "fit.inner.race_growth", "fit.outer.interference", "fit.outer.pressure", "fit.outer.hoop_stress",
+    "fit.outer.race_growth",
 )  # fmt: skip
 INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
 OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
@@ -47,6 +50,13 @@ WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")  # m
 WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")  # rad/s
 SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")  # rad: inner, outer
 TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque_share.contacts")  # N m, then rolling, cage, drag
+FREE_ANGLE = BEARING_OUTPUTS.index("contact.free_angle")  # rad
+FIT = BEARING_OUTPUTS.index("fit.inner.interference")  # four of the inner, four of the outer ring
+FIT_INTERFERENCE = 0  # m on diameter: places among a ring's four
+FIT_PRESSURE = BEARING_OUTPUTS.index("fit.inner.pressure") - FIT  # Pa
+FIT_HOOP = BEARING_OUTPUTS.index("fit.inner.hoop_stress") - FIT  # Pa
+FIT_GROWTH = BEARING_OUTPUTS.index("fit.inner.race_growth") - FIT  # m
+FIT_SIZE = BEARING_OUTPUTS.index("fit.outer.interference") - FIT
 BALLS = len(BEARING_OUTPUTS)  # m/s: ball[j].velocity.x|y|z at BALLS + PER_BALL j
 PER_BALL = 3
 

@@ -96,8 +96,40 @@ def rolling_reduction(p, eta, speed):
 
 
 @kernel
+def mount(p, u, speed, c):
+    """Move the races by what fits and rotation at ``speed`` (rad/s) make them grow.
+
+    A fit takes part of the interference to the race while it holds; loose, a ring grows by its own rotation
+    alone.
+    """
+    for race in range(2):
+        numbers = P.RACES + race * P.RACE_SIZE
+        held = C.RACES + race * C.RACE_SIZE
+        ring = (u[U.INNER_T] if race == 0 else u[U.OUTER_T]) - REFERENCE_TEMPERATURE
+        partner = (u[U.SHAFT_T] if race == 0 else u[U.HOUSING_T]) - REFERENCE_TEMPERATURE
+        tight = 0.5 * (p[P.INTERFERENCE + race] + p[numbers + P.RACE_FIT_OWN])
+        tight += p[numbers + P.RACE_FIT_RING] * ring + p[numbers + P.RACE_FIT_PARTNER] * partner
+        tight += p[numbers + P.RACE_FIT_SPIN] * speed * speed
+        growth = p[numbers + P.RACE_FIT_SHARE] * max(tight, 0.0) + p[numbers + P.RACE_SPIN] * speed * speed
+        c[held + C.INTERFERENCE] = tight
+        c[held + C.GROWTH] = growth
+        c[held + C.GROOVE_RADIUS] += growth
+
+
+@kernel
+def unmount(p, c):
+    """Take the growth by fits out of ``c`` where the preload is that of the loose bearing."""
+    if p[P.UNMOUNTED] == 0.0:
+        return
+    for race in range(2):
+        held = C.RACES + race * C.RACE_SIZE
+        c[held + C.GROOVE_RADIUS] -= c[held + C.GROWTH]
+        c[held + C.GROWTH] = 0.0
+
+
+@kernel
 def conditions(p, u, speed, c):
-    """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters the reduction factors only.
+    """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters reduction factors, fits and their rotation.
 
     Rings and balls expand about the reference temperature: groove circles, groove radii and ball radius
     scale with their own body's temperature; the balls have the mean of both rings'.
@@ -114,7 +146,11 @@ def conditions(p, u, speed, c):
         c[held + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
         c[held + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
         c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
+        c[held + C.INTERFERENCE] = 0.0
+        c[held + C.GROWTH] = 0.0
         c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
+    if p[P.FITS] != 0.0:
+        mount(p, u, speed, c)
     c[C.BALL_RADIUS] = ball
     c[C.POCKET] = p[P.POCKET_STIFFNESS]
     c[C.NEUTRAL_Y] = 0.0

@@ -149,6 +149,29 @@ def contacts(p, s, z):
 
 
 @kernel
+def fits(p, s, z):
+    """Write the angle at which unloaded balls touch both races, and what each ring's fit does.
+
+    Where the rings leave less than no clearance the angle is zero.
+    """
+    c = s[S.C : S.C + C.SIZE]
+    one = C.RACES
+    other = C.RACES + C.RACE_SIZE
+    apart = (c[one + C.GROOVE_RADIUS] - c[other + C.GROOVE_RADIUS]) / (c[one + C.FREE] + c[other + C.FREE])
+    z[Z.FREE_ANGLE] = math.acos(max(-1.0, min(1.0, apart)))
+    square = s[S.SPEED] * s[S.SPEED]
+    for race in range(2):
+        numbers = P.RACES + race * P.RACE_SIZE
+        held = C.RACES + race * C.RACE_SIZE
+        at = Z.FIT + Z.FIT_SIZE * race
+        pressure = p[numbers + P.RACE_FIT_PRESSURE] * max(c[held + C.INTERFERENCE], 0.0)
+        z[at + Z.FIT_INTERFERENCE] = 2.0 * c[held + C.INTERFERENCE]
+        z[at + Z.FIT_PRESSURE] = pressure
+        z[at + Z.FIT_HOOP] = p[numbers + P.RACE_HOOP] * pressure + p[numbers + P.RACE_SPIN_HOOP] * square
+        z[at + Z.FIT_GROWTH] = c[held + C.GROWTH]
+
+
+@kernel
 def flexure(p, s, z, mics):
     """Velocities (m/s) of the flexural coordinates, after the balls and so many microphones."""
     count = 2 * int(p[P.MODES])
@@ -177,6 +200,8 @@ def observe_motion(p, s, z, mics):
         z[Z.HEAT + i] = s[S.MEAN_HEAT + i]
     contacts(p, s, z)
     losses(s, z)
+    if p[P.FITS] != 0.0:
+        fits(p, s, z)
     flexure(p, s, z, mics)
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]

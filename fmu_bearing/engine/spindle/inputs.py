@@ -33,6 +33,8 @@ def bearing_inputs(p, u, b, out):
     out[U.OIL_T] = u[at + SP.U_OIL]
     out[U.INNER_T] = u[at + SP.U_INNER]
     out[U.OUTER_T] = u[at + SP.U_OUTER]
+    out[U.SHAFT_T] = u[SP.U_SHAFT_T]
+    out[U.HOUSING_T] = u[SP.U_HOUSING_T]
 
 
 @kernel

@@ -1,14 +1,15 @@
 """Rigid preload: the inner ring's axial place is prescribed instead of its axial force.
 
-The place is where the ring is at standstill and reference temperature under the preload: the static
-curve of the bearing plus the pedestal's deflection. Speed and temperature then change the contact loads, not
-the place. A new preload moves the ring to its new place at constant speed over one communication step.
+The place is where the ring is at standstill and reference temperature under the preload, with its fits or
+without them (``P.UNMOUNTED``): the static curve of the bearing plus the pedestal's deflection. Speed and
+temperature then change the contact loads, not the place. A new preload moves the ring to its new place at
+constant speed over one communication step.
 """
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import ST, C, S, U, W, Y
-from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.conditions import conditions, unmount
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
@@ -35,7 +36,10 @@ def static_place(p, u, w):
     still[U.OIL_T] = REFERENCE_TEMPERATURE
     still[U.INNER_T] = REFERENCE_TEMPERATURE
     still[U.OUTER_T] = REFERENCE_TEMPERATURE
+    still[U.SHAFT_T] = REFERENCE_TEMPERATURE
+    still[U.HOUSING_T] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
+    unmount(p, c)
     c[C.PRELOAD] = max(c[C.PRELOAD], _TOUCHING)
     return place_under(p, c, 0.0, found)
 

@@ -246,7 +246,7 @@ def model_bytes(model: "Model", guid: str, kernels_hash: str) -> bytes:
             output_size=sizes.outputs,
             work_size=sizes.work,
             time=S.TIME,
-            tunables=P.VISCOSITY + 1,
+            tunables=P.TUNABLE,
             variables=model.variables,
             ramped=U.SPEED,
             led=led_inputs(model.scene),

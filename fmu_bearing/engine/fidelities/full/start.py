@@ -14,7 +14,7 @@ from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
-from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.mechanics.conditions import conditions, unmount
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.follow import copy_rows
@@ -154,7 +154,10 @@ def cold_place(p, u, b, load, w):
     still[U.OIL_T] = REFERENCE_TEMPERATURE
     still[U.INNER_T] = REFERENCE_TEMPERATURE
     still[U.OUTER_T] = REFERENCE_TEMPERATURE
+    still[U.SHAFT_T] = REFERENCE_TEMPERATURE
+    still[U.HOUSING_T] = REFERENCE_TEMPERATURE
     conditions(pb, still, 0.0, c)
+    unmount(pb, c)
     c[C.PRELOAD] = max(load, TOUCHING)
     status = quasistatic(pb, c, 0.0, found)
     place = found[ST.AXIAL_SHIFT]

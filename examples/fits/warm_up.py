@@ -2,11 +2,12 @@
 
 ``python warm_up.py [--short]`` runs motor, bearing and thermal network of ``examples/spindle_cosimulation``
 twice, with the rings as drawn and with the shaft's fit, from rest to 20,000 r/min until warm, and writes
-``loose.csv``, ``fitted.csv`` and ``fits.png``. The thermal network has a shaft here, and gives its temperature
+``loose.csv``, ``fitted.csv`` and ``fits.png``. The thermal network has a shaft here. It gives its temperature
 and the housing's to the bearing's inputs ``shaft_temperature`` and ``housing_temperature``.
 
-The preload is 150 N of the loose bearing, held by the rings' place (``preload_mode = "rigid"``). Steel expands
-3.7 times as much as silicon nitride: a warm shaft tightens its fit, widens the inner ring and adds preload.
+The preload is 150 N of the loose bearing, held by the rings' place (``preload_mode = "rigid"``). Steel
+expands 3.7 times as much as silicon nitride: a warm shaft tightens its fit, widens the inner ring and adds
+preload.
 
 From ``Plan.true_until`` on the network runs ahead of what turns, see ``examples/spindle_set/cosimulate.py``.
 """
@@ -59,8 +60,8 @@ SHORT = Plan(
     true_until=0.3, thermal_rate=900.0,
 )  # fmt: skip
 RECORDED = (
-    "contact.inner.load_mean", "contact.inner.angle_mean", "friction_torque", "heat.inner_ring", "heat.outer_ring",
-    "heat.oil",
+    "contact.inner.load_mean", "contact.inner.angle_mean", "friction_torque", "heat.inner_ring",
+    "heat.outer_ring", "heat.oil",
 )  # fmt: skip
 OF_FIT = (
     "contact.free_angle", "fit.inner.interference", "fit.inner.pressure", "fit.inner.hoop_stress",

@@ -1,10 +1,10 @@
 """Temperatures of bearings and their surroundings as an FMU: lumps and a constant ambient.
 
 Lumps: inner ring, outer ring, balls, the oil between them, and the housing; with ``SHAFT`` also the shaft
-under the inner ring. A set of bearings (``BEARINGS`` above 1) has the first four of each bearing, the housing,
-and the shaft on which the inner rings sit; equal bearings share capacities and conductances. Heat enters where the bearing
-FMU says it arises (its ``heat.*`` outputs), spreads over the conductances below, and leaves over the shaft,
-the air flow and the cooled housing.
+under the inner ring. A set of bearings (``BEARINGS`` above 1) has the first four of each bearing, the
+housing, and the shaft on which the inner rings sit; equal bearings share capacities and conductances. Heat
+enters where the bearing FMU says it arises (its ``heat.*`` outputs), spreads over the conductances below, and
+leaves over the shaft, the air flow and the cooled housing.
 
 Implicit Euler in sub-steps of at most 1 ms: the fastest lump (the oil) takes a quarter second, so the error
 of a transient stays below 1 %, and the energy balance holds to rounding at any step.

@@ -194,7 +194,7 @@ SIDES = (SHAFT, HOUSING)
 def interferences(
     scene: "Tables", take: Take | None = None, member: int | None = None
 ) -> tuple[Interference | None, Interference | None]:
-    """Return the interferences of shaft and housing, of which those by classes are less by the roughness.
+    """Return the interferences of shaft and housing; those by classes are less by what roughness takes.
 
     Parameters
     ----------
@@ -214,19 +214,29 @@ def interferences(
     ToleranceError
         For classes and sizes without tolerances; no scene that was checked has them.
     """
-    shaft, housing = (_interference(scene, side, take, member) for side in SIDES)
+    own = [own_interference(scene, side, member or 0) for side in SIDES]
+    shaft, housing = (
+        of_seat(scene, side, take) if um is None else _as_given(um)
+        for side, um in zip(SIDES, own, strict=True)
+    )
     return shaft, housing
 
 
-def _interference(scene: "Tables", side: Side, take: Take | None, member: int | None) -> Interference | None:
+def _as_given(um: float) -> Interference:
+    return Interference(um, f"{um:g} um as given")
+
+
+def of_seat(scene: "Tables", side: Side, take: Take | None = None) -> Interference | None:
+    """Return the interference that the table of a seat gives; None: there is no such seat.
+
+    In a set it is that of the bearings without one of their own.
+    """
     fit = scene.fit
     seat = None if fit is None else getattr(fit, side.seat)
     if fit is None or seat is None:
         return None
-    given = own_interference(scene, side, member)
-    given = seat.interference_um if given is None else given
-    if given is not None:
-        return Interference(given, f"{given:g} um as given")
+    if seat.interference_um is not None:
+        return _as_given(seat.interference_um)
     wanted = take or fit.take
     um = by_classes(scene, side, wanted)
     low, high = by_classes(scene, side, "min"), by_classes(scene, side, "max")
@@ -238,11 +248,11 @@ def _interference(scene: "Tables", side: Side, take: Take | None, member: int | 
     return Interference(um - loss, words + (f", less by {loss:.2g} um of roughness" if loss else ""))
 
 
-def own_interference(scene: "Tables", side: Side, member: int | None) -> float | None:
+def own_interference(scene: "Tables", side: Side, member: int) -> float | None:
     """Return the interference (um) that one bearing of a set has of its own; None: that of its table."""
     if scene.spindle is None:
         return None
-    one = scene.spindle.bearing[member or 0]
+    one = scene.spindle.bearing[member]
     return one.shaft_interference_um if side is SHAFT else one.housing_interference_um
 
 

@@ -15,6 +15,7 @@ from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, TABLES, carried, pre
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.seats import SIDES
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
 
@@ -108,7 +109,7 @@ def _fit(
         if getattr(scene.fit, key) is not None and f"{where}.{key}" not in known:
             words = "a class or an offset is of the loose bearing" if key == "preload" else ""
             yield f"{where}.{key}", (origin, words)
-    for side in fit.SIDES:
+    for side in SIDES:
         key = f"{where}.{side.seat}.{side.class_key}"
         if key in known:
             place, remark = known[key]

@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from fmu_bearing.formulas.tolerances import BEARING_CLASSES, TAKES
-from fmu_bearing.scene import Scene, SceneError, fit as fits, read_scene, read_scene_text
+from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text, seats
 from fmu_bearing.scene.fit import (
     fit_of_member,
     held_loose,
@@ -120,9 +120,9 @@ def test_without_a_fit_rings_have_no_seat():
 
 
 def test_the_classes_of_a_scene_are_those_of_the_tables():
-    assert BEARING_CLASSES == fits.BEARING_CLASSES
-    assert fits.Fit.model_fields["take"].annotation == fits.Take
-    assert fits.Take.__args__ == TAKES
+    assert BEARING_CLASSES == seats.BEARING_CLASSES
+    assert seats.Fit.model_fields["take"].annotation == seats.Take
+    assert seats.Take.__args__ == TAKES
 
 
 # --- what follows from other tables ----------------------------------------------------------------
@@ -248,6 +248,8 @@ def test_a_new_class_or_interference_replaces_the_other():
     given = scene.replace({"mounting.fit.shaft.interference_um": 3.0})
     assert given.fit.shaft.shaft_class is None and interferences(given)[0].um == 3.0
     assert given.replace({"mounting.fit.shaft.shaft_class": "js4"}) == scene
+    with pytest.raises(SceneError, match=r"shaft\.shaft_class is missing, for example"):
+        scene.replace({"mounting.fit.shaft.shaft_class": None})
     with pytest.raises(SceneError, match="cannot be given with shaft_class"):
         scene.replace({"mounting.fit.shaft.interference_um": 3.0, "mounting.fit.shaft.shaft_class": "k4"})
 

@@ -14,8 +14,8 @@ from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene import base
 from fmu_bearing.scene.base import LABEL
-from fmu_bearing.scene.fit import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.scene import NAME, Tables
+from fmu_bearing.scene.seats import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.spindle import OR_CLASS
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import limits, table_of
@@ -226,6 +226,8 @@ def _conflict(path: Location, reason: str, data: dict[str, Any]) -> str:
             value = value[step]
         except (KeyError, IndexError, TypeError):
             return f"{dotted(path)} {reason}"
+    if value is None:  # taken out by `Scene.replace`, or never given
+        return f"{dotted(path)} {reason}"
     if isinstance(value, dict | list | tuple):
         return f"{dotted(path)}: {reason}"
     return f"{dotted(path)} = {shown(value)} {reason}"

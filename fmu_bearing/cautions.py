@@ -69,8 +69,9 @@ _WAVES = Caution(
     "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
 )
 _SHOULDERS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
+RESTARTS = "solver.restarts"
 _RESTARTS = Caution(
-    Z.BEARING_OUTPUTS.index("solver.restarts"),
+    Z.BEARING_OUTPUTS.index(RESTARTS),
     0.0,
     1.0,
     "no step was possible from the state reached: balls had left their races, or inputs changed too much; ",
@@ -119,6 +120,16 @@ def loose(fidelity: str) -> str:
     """Return the warning about a bearing without preload at a fidelity."""
     words = _LOOSE + _ROLLS[fidelity]
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
+
+
+def restarted(count: float) -> str:
+    """Return why figures of a run with a ``count`` of restarts (``solver.restarts``) are in doubt, or ""."""
+    if not count > 0.0:
+        return ""
+    return (
+        f"rings and balls were restarted from rest where no step was possible ({RESTARTS} = {count:.0f}): "
+        "vibration and levels of this run mean nothing; take fidelity full"
+    )
 
 
 def cautions(model: Model) -> tuple[Caution, ...]:

@@ -146,6 +146,9 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         moving = members.vector_at(lanes, SP.RATE)
         shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
         members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acc, ws, residual)
+    if equations.bends(p):
+        turned = members.turned_at(vectors, n, lanes)
+        members.add_columns(own, turned, lanes, n, -1.0, ws, acc, ws, residual)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)

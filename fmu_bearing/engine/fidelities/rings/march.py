@@ -191,6 +191,7 @@ def take_inputs(p, u, s, w, h):
         b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1
         if b >= 0:
             hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+            equations.keep_turned(p, s, w)
             own[at + SP.STAGE] = b + 2.0
             if b + 1 == members.count(p):
                 own[at + SP.STAGE] = 0.0

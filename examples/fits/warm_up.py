@@ -14,7 +14,7 @@ From ``Plan.true_until`` on the network runs ahead of what turns, see ``examples
 
 from pathlib import Path
 from sys import path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
@@ -33,19 +33,8 @@ path.insert(0, str(SPINDLE))
 from build import best_flavour, build  # noqa: E402
 from coupling import Fmu, Plan, SimulationError, run  # noqa: E402
 
-SCENE = HERE.parent / "scenes" / "7003C-spindle.toml"
-#: The seat: 2 um tight on diameter, of js5 on P4, on a hollow shaft.
-FIT: dict[str, Any] = {
-    "bearing_class": "P4",
-    "preload": "unmounted",
-    "shaft": {"shaft_class": "js5", "bore_mm": 8.0, "material": "GCr15", "temperature_degC": 22.0},
-    "housing": {
-        "interference_um": -4.0,
-        "outside_diameter_mm": 60.0,
-        "material": "GCr15",
-        "temperature_degC": 22.0,
-    },
-}
+SCENE = HERE / "7003C-ceramic.toml"
+AMBIENT = 22.0  # degC: where all begin
 #: Heat capacities (J/K) of rings of silicon nitride, 700 J/(kg K), and of the scene's rotor of steel.
 CAPACITIES = {"capacity.inner_ring": 3.9, "capacity.outer_ring": 6.1, "capacity.shaft": 550.0}
 ZERO_CELSIUS = 273.15  # K
@@ -70,12 +59,11 @@ OF_FIT = (
 
 
 def scenes() -> dict[str, Scene]:
-    """Return the spindle with rings of silicon nitride and a rigid preload, as drawn and with its fit."""
-    ceramic = dict.fromkeys(("materials.inner_ring", "materials.outer_ring", "materials.balls"), "Si3N4")
-    loose = read_scene(SCENE).model_copy(update={"sound": None}).replace(
-        {**ceramic, "mounting.preload_mode": "rigid", "mounting.preload_N": 150.0}
-    )  # fmt: skip
-    return {"loose": loose, "fitted": loose.replace({"mounting.fit": FIT})}
+    """Return the bearing with its rings as drawn and with its fit."""
+    fitted = read_scene(SCENE).replace(
+        {f"mounting.fit.{seat}.temperature_degC": AMBIENT for seat in ("shaft", "housing")}
+    )
+    return {"loose": fitted.replace({"mounting.fit": None}), "fitted": fitted}
 
 
 def cosimulate(name: str, scene: Scene, folder: Path, plan: Plan) -> NDArray[np.void]:

@@ -35,7 +35,7 @@ def tables(example, tmp_path_factory):
 def test_the_fit_follows_the_temperatures_of_the_network(tables):
     scenes, runs = tables
     run = runs["fitted"]
-    seat, _ = seats(scenes["fitted"])
+    seat, sliding = seats(scenes["fitted"])
     assert run["shaft_temperature"][-1] > run["shaft_temperature"][0] + 1.0
     for k in (1, len(run) // 2, len(run) - 1):
         # the bearing has the temperatures of the step's beginning, and the mean speed of the step
@@ -43,6 +43,9 @@ def test_the_fit_follows_the_temperatures_of_the_network(tables):
         warm = run["inner_ring_temperature"][k - 1], run["shaft_temperature"][k - 1]
         state = seat.fit.at(seat.interference, speed, *warm)
         assert run["fit.inner.interference"][k] == pytest.approx(2.0 * state.interference, rel=1e-9)
+        outside = run["outer_ring_temperature"][k - 1], run["housing_temperature"][k - 1]
+        gap = sliding.fit.at(sliding.interference, speed, *outside).interference
+        assert run["fit.outer.interference"][k] == pytest.approx(2.0 * gap, rel=1e-9)
         assert run["fit.inner.race_growth"][k] == pytest.approx(state.race, rel=1e-9)
         assert run["fit.inner.hoop_stress"][k] == pytest.approx(
             state.hoop, rel=1e-2
@@ -59,7 +62,9 @@ def test_preload_of_the_run_is_that_of_the_operating_point(example, tables):
             for lump in ("inner_ring", "outer_ring", "oil")
         }
         if scene.fit is not None:
-            keys["mounting.fit.shaft.temperature_degC"] = float(last["shaft_temperature"]) - ZERO_CELSIUS
+            for seat in ("shaft", "housing"):
+                kelvin = float(last[f"{seat}_temperature"])
+                keys[f"mounting.fit.{seat}.temperature_degC"] = kelvin - ZERO_CELSIUS
         point = operating_point(scene.replace({**keys, "operation.speed_rpm": 20000.0}))
         mean = run["preload"][-round(example.MEAN / example.SHORT.communication_step) :].mean()
         # waves of class P4 and the heavy rotor move the rings by parts of the preload's deflection

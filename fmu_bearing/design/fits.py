@@ -1,4 +1,4 @@
-"""`fits`: what the tolerances of the seats do to a scene's bearings, in five columns, each computed in full."""
+"""`fits`: what tolerances of the seats do to a scene's bearings, in five columns, each computed in full."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -7,7 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 
-from fmu_bearing.design.mounted import RINGS, Mounted, mounted, taken, with_fit
+from fmu_bearing.design.mounted import RINGS, Mounted, mounted, preloads, taken, with_fit
 from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
@@ -22,7 +22,7 @@ from fmu_bearing.scene.fit import (
     interferences,
     shaft_partner,
 )
-from fmu_bearing.scene.member import set_of, still_of, usual_load
+from fmu_bearing.scene.member import still_of
 from fmu_bearing.threads import one_thread
 
 #: States of a mounted bearing: speed (share of the scene's) and warmth (share of its temperatures).
@@ -32,7 +32,6 @@ DRAWS = 20_000
 SEED = 1
 TAKES: tuple[Take, ...] = get_args(Take)
 _TAIL = 0.5 * math.erfc(3.0 / math.sqrt(2.0))  # 0.135 %: beyond 3 sigma on one side
-_PRELOADS = {"mounted": "cold", "warm": "warm", "running": "running"}  # names of `steady.rest.preloads`
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,8 @@ class SeatPoint:
         """Return all figures by name, SI units, for machines; interference on diameter."""
         return {
             "words": self.words,
-            "interference_m": {"drawn": self.drawn} | {k: 2.0 * s.interference for k, s in self.states.items()},
+            "interference_m": {"drawn": self.drawn}
+            | {k: 2.0 * s.interference for k, s in self.states.items()},
             "pressure_Pa": {key: one.pressure for key, one in self.states.items()},
             "hoop_stress_Pa": {key: one.hoop for key, one in self.states.items()},
             "race_growth_m": {key: one.race for key, one in self.states.items()},
@@ -184,6 +184,11 @@ class Fits:
         """Return the column of a take."""
         return next(one for one in self.columns if one.take == take)
 
+    def words(self, number: int) -> str:
+        """Return where the interferences of a bearing come from; ``number``: from 1."""
+        (mean,) = [one for one in self.column("mean").bearings if one.number == number]
+        return "; ".join(f"{ring} ring {seat.words}" for ring, seat in mean.seats.items())
+
     def summary(self) -> dict[str, Any]:
         """Return all figures by name, SI units, for machines."""
         return {
@@ -252,7 +257,7 @@ def fitted(scene: SceneSource) -> Scene:
     if found.fit is None:
         table = "mounting.fit" if found.spindle is None else "spindle.fit"
         raise SceneError(
-            f"{found.name}: has no fit, its rings are as drawn: add [{table}] with a table [{table}.shaft] or "
+            f"{found.name}: has no fit, its rings are as drawn: add [{table}] with [{table}.shaft] or "
             f'[{table}.housing], as shaft_class = "js4" with bearing_class = "P4", or interference_um = 2.0'
         )
     return found
@@ -276,7 +281,9 @@ def _scenes(scene: Scene) -> tuple[dict[Take, Scene], tuple[str, ...]]:
         return found, ()
     for take, pair in _probable(scene).items():
         changes = {
-            side.seat: getattr(fit, side.seat).model_copy(update={"interference_um": um, side.class_key: None})
+            side.seat: getattr(fit, side.seat).model_copy(
+                update={"interference_um": um, side.class_key: None}
+            )
             for side, um in zip(sides, pair, strict=True)
         }
         found[take] = with_fit(scene, fit.model_copy(update=changes))
@@ -330,20 +337,8 @@ def _column(scene: Scene, take: Take, point: OperatingPoint) -> Column:
         joint = mounted(one.scene)
         angles = {key: joint.free_angle(share * joint.speed, warm) for key, (share, warm) in STATES.items()}
         drawing = {"drawing": math.radians(joint.scene.bearing.contact_angle_deg)}
-        bearings.append(FitPoint(k + 1, found, drawing | angles, _preloads(scene, k, point), one))
+        bearings.append(FitPoint(k + 1, found, drawing | angles, preloads(point, k), one))
     return Column(take, tuple(bearings), point)
-
-
-def _preloads(scene: Scene, number: int, point: OperatingPoint) -> dict[str, float]:
-    """Return the preload of a bearing, from 0, by state; empty where a constant force holds it."""
-    carried = point.statics.preloads
-    if not carried:
-        return {}
-    found = {}
-    if scene.fit is not None and scene.fit.preload != "mounted":
-        single = scene.spindle is None
-        found["drawing"] = scene.mounted.preload_N if single else usual_load(set_of(scene), number)
-    return found | {key: carried[own][number] for key, own in _PRELOADS.items()}
 
 
 def _seat(own: Mounted, scene: Scene, number: int, ring: Kind, take: Take) -> SeatPoint:

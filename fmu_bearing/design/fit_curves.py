@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.design.fits import TAKES, Fits
-from fmu_bearing.design.mounted import Mounted, mounted
+from fmu_bearing.design.mounted import Mounted
 from fmu_bearing.scene.fit import Take
 from fmu_bearing.steady.rest import carried, started, unloaded
 from fmu_bearing.threads import one_thread
@@ -107,7 +107,8 @@ def _along(
 ) -> Axis:
     """Return the curves of one bearing, from 0, over speed or warmth."""
     fine = np.linspace(shares[0], shares[-1], _FINE)
-    own = [mounted(column.bearings[number].point.scene) for column in found.columns]
+    own = [column.bearings[number].together for column in found.columns]
+    apart = [column.bearings[number].apart for column in found.columns]
     warm = own[0].scene.operation.inner_ring_temperature_degC - _COLD
 
     def scaled(share: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -117,7 +118,7 @@ def _along(
         return [(float(s) * one.speed, 1.0) if by_speed else (one.speed, float(s)) for s in fine]
 
     angles = [[one.free_angle(*state) for state in states(one)] for one in own]
-    seats = [[one.at("inner", *state) for state in states(one)] for one in own if "inner" in one.seats]
+    seats = [[one.at("inner", *state) for state in states(one)] for one in apart if "inner" in one.seats]
     return Axis(
         scaled(fine),
         scaled(shares),

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from fmu_bearing.design.fit_curves import Axis, Curves
 from fmu_bearing.design.fit_verdicts import SAFE, UNSAFE
 from fmu_bearing.design.fits import Fits
-from fmu_bearing.design.mounted import GROOVE, mounted
+from fmu_bearing.design.mounted import GROOVE
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Fit, State, breaking_chance
 from fmu_bearing.results.picture_parts import OTHERS, empty, label
@@ -60,7 +60,7 @@ def picture(found: Fits, curves: Sequence[Curves]) -> "Figure":
             label(right, words, held, f"{name}{held.split(',')[0]}")
             for panel in (left, right):
                 panel.axvline(scale * at, **_SCENE)
-                panel.set_ylim(bottom=0.0)
+            right.set_ylim(bottom=0.0)
         if "inner" in found.columns[_MEAN].bearings[k].seats:
             _hoop(upper[2], found, k, one.speed, name)
             _interference(lower[2], found, k, one.speed, name)
@@ -85,7 +85,7 @@ def _band(panel: "Axes", x: NDArray[np.float64], y: NDArray[np.float64]) -> None
 def _hoop(panel: "Axes", found: Fits, number: int, axis: Axis, name: str) -> None:
     """Draw the hoop stress over speed, and where the chance of breaking has its limits."""
     _band(panel, 1e-3 * axis.fine, 1e-6 * GROOVE * axis.hoop)
-    label(panel, _SPEED, f"hoop stress, inner ring, {GROOVE:g} of closed form, MPa", f"{name}hoop stress")
+    label(panel, _SPEED, "MPa", f"{name}hoop stress, inner ring, x {GROOVE:g}")
     one = found.columns[_MEAN].bearings[number].point.scene
     panel.axvline(1e-3 * one.operation.speed_rpm, **_SCENE)
     ring, top = one.materials.inner_ring, panel.get_ylim()[1]
@@ -93,13 +93,13 @@ def _hoop(panel: "Axes", found: Fits, number: int, axis: Axis, name: str) -> Non
         if not one.materials.steel_rings:
             _note(panel, "no strength given: ask the maker for\nbending_strength_MPa and weibull_modulus")
     else:
-        fit = mounted(one).seats["inner"].fit
+        fit = found.columns[_MEAN].bearings[number].apart.seats["inner"].fit
         strength = f"{ring.bending_strength_MPa:g} MPa in bending, m = {ring.weibull_modulus:g}"
         for chance, colour in ((SAFE, OTHERS[4]), (UNSAFE, OTHERS[1])):
             stress = limit(fit, chance, 1e6 * ring.bending_strength_MPa, ring.weibull_modulus)
             panel.axhline(1e-6 * stress, color=colour, linestyle="--", label=f"breaks with {chance:g}")
             top = max(top, 1.05e-6 * stress)
-        panel.legend(title=strength, loc="center right", fontsize="small", title_fontsize="small")
+        panel.legend(title=strength, loc="best", fontsize="small", title_fontsize="small")
     panel.set_ylim(0.0, top)
 
 
@@ -120,6 +120,8 @@ def _interference(panel: "Axes", found: Fits, number: int, axis: Axis, name: str
     point = found.columns[_MEAN].bearings[number]
     panel.axvline(1e-3 * point.point.scene.operation.speed_rpm, **_SCENE)
     panel.axhline(0.0, color="0.35", linewidth=1.0)
+    low, high = panel.get_ylim()
+    panel.set_ylim(low - 0.3 * (high - low), high)  # room for the words
     words = []
     for column in found.columns:
         loss = column.bearings[number].seats["inner"].loss_speed
@@ -127,11 +129,12 @@ def _interference(panel: "Axes", found: Fits, number: int, axis: Axis, name: str
         words.append(f"{column.take}: {at}")
         if loss is not None and 0.0 < loss / RPM < axis.fine[-1]:
             panel.plot(1e-3 * loss / RPM, 0.0, marker="o", color=OTHERS[1])
-    _note(panel, "lets go at, r/min: " + ",\n".join([", ".join(words[:3]), ", ".join(words[3:])]))
+    _note(panel, "\n".join(["lets go at, r/min:", ", ".join(words[:3]), ", ".join(words[3:])]))
 
 
 def _note(panel: "Axes", words: str) -> None:
-    panel.text(0.02, 0.02, words, transform=panel.transAxes, fontsize="small", va="bottom")
+    back = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8}
+    panel.text(0.02, 0.02, words, transform=panel.transAxes, fontsize="small", va="bottom", bbox=back)
 
 
 def _empty(panel: "Axes", words: str) -> None:

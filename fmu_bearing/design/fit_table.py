@@ -12,6 +12,8 @@ from fmu_bearing.formulas.fits import Kind, State
 #: Head of the table.
 COLUMNS = ("", *TAKES)
 _WORDS = {"drawing": "drawing", "mounted": "mounted", "warm": "warm", "running": "at speed"}
+#: Head of the table of states.
+STATE_COLUMNS = ("", *_WORDS.values())
 _MICRO, _MEGA = 1e6, 1e-6
 
 
@@ -79,3 +81,28 @@ def _by_state(
     """Yield a row per state of a figure."""
     for key in figures(points[0]):
         yield [f"{name}, {_WORDS[key]}", *(cell(figures(one)[key]) for one in points)]
+
+
+def state_rows(point: FitPoint) -> list[list[str]]:
+    """Return the rows on one bearing with one interference: a column per state, `STATE_COLUMNS`."""
+    rows = []
+    for ring, seat in point.seats.items():
+        tight = {"drawing": seat.drawn} | {key: 2.0 * one.interference for key, one in seat.states.items()}
+        rows.append(
+            [f"{ring} ring, fit on diameter, um", *(f"{_MICRO * one:+.1f}" for one in tight.values())]
+        )
+        for name, cells in (
+            ("pressure of the seat, MPa", [f"{_MEGA * one.pressure:.1f}" for one in seat.states.values()]),
+            ("hoop stress, MPa", [f"{_MEGA * one.hoop:.0f}" for one in seat.states.values()]),
+            ("growth of the race, um", [f"{_MICRO * one.race:+.2f}" for one in seat.states.values()]),
+        ):
+            rows.append([f"{ring} ring, {name}", "", *cells])
+        if seat.breaking is not None:
+            rows.append(
+                ["inner ring, chance of breaking", "", *(f"{one:.0e}" for one in seat.breaking.values())]
+            )
+    rows.append(["free contact angle, deg", *(f"{math.degrees(a):.1f}" for a in point.free_angles.values())])
+    if point.preloads:
+        known = [point.preloads.get(key) for key in _WORDS]
+        rows.append(["preload, N", *("" if force is None else f"{force:.0f}" for force in known)])
+    return rows

@@ -96,6 +96,9 @@ class FitPoint:
         where a spring holds it.
     point : BearingPoint
         The operating point.
+    apart, together : Mounted
+        In closed form, with each seat's own interference of the column, and with those of the operating
+        point; they differ in probable columns of two seats.
     """
 
     number: int
@@ -103,6 +106,8 @@ class FitPoint:
     free_angles: dict[str, float]
     preloads: dict[str, float]
     point: BearingPoint
+    apart: Mounted
+    together: Mounted
 
     @property
     def axial_stiffness(self) -> float:
@@ -232,6 +237,11 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
     >>> for column in fits(scene).columns:
     ...     (one,) = column.bearings
     ...     print(f"{column.take}: {1e-6 * one.seats['inner'].states['running'].hoop:.0f} MPa")
+    min: 4 MPa
+    probable min: 4 MPa
+    mean: 21 MPa
+    probable max: 64 MPa
+    max: 79 MPa
     """
     whole = fitted(scene)
     scenes, remarks = _scenes(whole)
@@ -241,7 +251,7 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
         key = tuple(None if one is None else one.um for one in interferences(scenes[take]))
         if key not in known:
             known[key] = operating_point(scenes[take])
-        columns.append(_column(whole, take, known[key]))
+        columns.append(column_at(whole, take, known[key]))
     return Fits(whole, tuple(columns), remarks)
 
 
@@ -288,8 +298,8 @@ def _scenes(scene: Scene) -> tuple[dict[Take, Scene], tuple[str, ...]]:
         }
         found[take] = with_fit(scene, fit.model_copy(update=changes))
     return found, (
-        "two seats: min and max are both at their limits; probable figures of both rings together are those "
-        f"of the pair of interferences of which 0.135 % of {DRAWS} draws are looser or tighter",
+        "two seats: at min and max both are at their limits; probable figures that depend on both rings are "
+        f"those of the pair of interferences than which 0.135 % of {DRAWS} draws are looser or tighter",
     )
 
 
@@ -326,7 +336,7 @@ def _um(scene: Scene, side: Side, take: Take) -> float:
     return found.um
 
 
-def _column(scene: Scene, take: Take, point: OperatingPoint) -> Column:
+def column_at(scene: Scene, take: Take, point: OperatingPoint) -> Column:
     """Return a column from its operating point; each seat has its own interference of that take."""
     bearings = []
     for k, (one, member) in enumerate(zip(point.bearings, scene.bearings(), strict=True)):
@@ -337,7 +347,7 @@ def _column(scene: Scene, take: Take, point: OperatingPoint) -> Column:
         joint = mounted(one.scene)
         angles = {key: joint.free_angle(share * joint.speed, warm) for key, (share, warm) in STATES.items()}
         drawing = {"drawing": math.radians(joint.scene.bearing.contact_angle_deg)}
-        bearings.append(FitPoint(k + 1, found, drawing | angles, preloads(point, k), one))
+        bearings.append(FitPoint(k + 1, found, drawing | angles, preloads(point, k), one, own, joint))
     return Column(take, tuple(bearings), point)
 
 

@@ -150,9 +150,9 @@ def _fits(scene: Scene) -> tuple[Caution, ...]:
         if one is not None and one.um > 0.0:
             ring = ("inner", "outer")[race]
             place = Z.FIT + Z.FIT_SIZE * race + Z.FIT_INTERFERENCE
-            before = f"the fit of the {ring} ring has let go of the {seat}: a gap of "
+            before = f"the fit of the {ring} ring lets go of the {seat} (gap now "
             after = (
-                " um on diameter; the ring is computed as centred and growing by itself; give more "
+                " um on diameter): the ring is computed as centred and growing by itself; give more "
                 f"interference (mounting.fit.{seat}), less speed, or a cooler ring"
             )
             found.append(Caution(place, 0.0, -1e6, before, after, decimals=2))

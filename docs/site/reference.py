@@ -174,6 +174,7 @@ _SETS, _OF_SETS = (
     "Sets of bearings on one shaft",
     ("nose.", "shaft.", "housing.", "bearing[", "port."),
 )
+_AT_RACES = ("contact.", "film.", "stiffness.", "fit.")
 #: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
 GROUPS = (
     ("Inputs", lambda v: v.causality == "input"),
@@ -183,7 +184,7 @@ GROUPS = (
     ("Outputs: motion", lambda v: v.causality == "output"),
     ("Constants: how the model was built", lambda v: v.variability == "constant"),
     ("Local: sound by component and type of motion", lambda v: v.name.startswith("mic[")),
-    ("Local: contacts, fits, film, stiffness", lambda v: v.name.startswith(("contact.", "film.", "stiffness.", "fit."))),
+    ("Local: contacts, fits, film, stiffness", lambda v: v.name.startswith(_AT_RACES)),
     ("Local: places, cage, shares of torque, solver", lambda v: True),
 )
 

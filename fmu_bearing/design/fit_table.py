@@ -59,7 +59,8 @@ def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
     if ring == "inner":
         losses = [one.loss_speed for one in seats]
         cells = [
-            "never" if loss is None else "loose" if loss == 0.0 else f"{1e-3 * loss / RPM:.1f}" for loss in losses
+            "never" if loss is None else "loose" if loss == 0.0 else f"{1e-3 * loss / RPM:.1f}"
+            for loss in losses
         ]
         yield ["inner ring, lets go at, 1000 r/min", *cells]
     warm = ("warm the ring", "cool the shaft") if ring == "inner" else ("cool the ring", "warm the housing")
@@ -71,7 +72,10 @@ def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
     if seats[0].breaking is not None:
         for key in STATES:
             chances = [(one.breaking or {})[key] for one in seats]
-            yield [f"chance of breaking, {_WORDS[key]}", *(f"{chance:.0e}" if chance else "0" for chance in chances)]
+            yield [
+                f"chance of breaking, {_WORDS[key]}",
+                *(f"{chance:.0e}" if chance else "0" for chance in chances),
+            ]
 
 
 def _by_state(

@@ -18,7 +18,7 @@ from fmu_bearing.engine.fidelities.condensed.transverse import carry_transverse,
 from fmu_bearing.engine.fidelities.rings.predictor import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, SP, C, F, H, L, P, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, SP, C, F, H, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import add_driven, invert_set, shaft_matrix
 from fmu_bearing.engine.spindle.follow import keep_load
@@ -103,12 +103,17 @@ def copy_trial(ws, w):
 
 
 @kernel
-def rings_residual(lv, w, ws, residual):
-    """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`."""
+def rings_residual(p, lv, w, ws, residual):
+    """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`.
+
+    A rigidly held inner ring keeps its place: the balls' own masses do not pull it.
+    """
     times(lv, L.MASS, w, T.A, w, T.D)
     for i in range(L.N):
         ws[residual + i] = w[W.F + F.BODY + i] - w[T.D + i]
     ws[residual + L.N] = 0.0
+    if p[P.RIGID] != 0.0:
+        ws[residual + Q.X] = -w[T.A + Q.X]
 
 
 @kernel
@@ -400,6 +405,8 @@ def restart_march(p, s, w):
             wb[T.A + i] = 0.0
         pull_rings(p, b, members.condensed(sb), wb, ws, residual)
     answer(p, own, ws, members.inverse(p), residual, found)
+    if not members.has_shaft(p) and p[P.RIGID] != 0.0:
+        ws[found + Q.X] = 0.0
     for i in range(lanes):
         own[members.history(p) + H.A0 * lanes + i] = ws[found + i]
     for b in range(members.count(p)):

@@ -21,7 +21,7 @@ from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
 from fmu_bearing.results.variable_names import any_sets
 from fmu_bearing.scene import Scene, read_scene
-from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
+from fmu_bearing.scene.nsk import CLASSES, PREFIX, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.units import symbol
 
@@ -136,7 +136,7 @@ def sizes():
         shape = (size.balls, size.ball, size.pitch, math.radians(size.angle))
         errors = (dynamic_rating(*shape) / size.dynamic, static_rating(*shape) / size.static)
         cells = (
-            f"`{name}`" if name in modelled() else f"{name} (no model)",
+            f"`{name}`",
             f"{size.bore:g}, {size.outside:g}, {size.width:g}",
             f"{size.dynamic:g}, {size.static:g}",
             "" if math.isnan(size.f0) else f"{size.f0:g}",

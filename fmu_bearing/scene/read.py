@@ -19,7 +19,6 @@ from fmu_bearing.scene.entries import (
     catalogue,
     entries,
     named_files,
-    too_many_balls,
 )
 from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
@@ -398,9 +397,8 @@ def _fill(
     wanted = given.pop(key)
     if not isinstance(wanted, str) or wanted not in known:
         where = ".".join(path) + ("" if is_material(path) else f".{key}")
-        reason = too_many_balls(wanted) if path == ("bearing",) else ""
-        reason = reason or f"is not in the catalogue; {suggestion(str(wanted), known)}known: {_named(known)}"
-        lines.append(f"{where} = {shown(wanted)} {reason}")
+        others = f"{suggestion(str(wanted), known)}known: {_named(known)}"
+        lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {others}")
         unresolved.append(path)
         return
     entry = copy.deepcopy(known[wanted].values)

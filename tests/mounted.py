@@ -16,11 +16,14 @@ STEEL, CERAMIC = "GCr15", "Si3N4"
 HELD = 1e12  # N/m: a pedestal that does not give way
 
 
-def mounted(fit, rpm=0.0, name="7003C-bare", rings=STEEL, balls=STEEL, load=150.0, warm=(20.0, 20.0), **more):
-    """Return a silent and perfect gate scene with a rigid preload (N) and a fit, None: as drawn.
+def mounted(
+    fit, rpm=0.0, name="7003C-bare", rings=STEEL, balls=STEEL, load=150.0, warm=(20.0, 20.0), flawed=False,
+    **more,
+):  # fmt: skip
+    """Return a silent gate scene of rigid rings with a rigid preload (N) and a fit, None: as drawn.
 
-    ``warm``: inner and outer ring (degC), oil as the outer one; ``more``: tables and keys with two
-    underscores in the place of dots.
+    ``warm``: inner and outer ring (degC), oil as the outer one; ``flawed``: with its imperfections;
+    ``more``: other values by key, with two underscores in the place of dots.
     """
     changes = {
         "materials.inner_ring": rings,
@@ -37,7 +40,7 @@ def mounted(fit, rpm=0.0, name="7003C-bare", rings=STEEL, balls=STEEL, load=150.
     if fit is not None:
         changes["mounting.fit"] = {"preload": "unmounted"} | fit
     changes |= {key.replace("__", "."): value for key, value in more.items()}
-    quiet = {"sound": None, "imperfections": None}
+    quiet = {"sound": None} | ({} if flawed else {"imperfections": None})
     return read_scene(GATES / f"{name}.toml").with_rigid_rings().model_copy(update=quiet).replace(changes)
 
 

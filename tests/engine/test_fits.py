@@ -5,19 +5,15 @@ and checked against elements; `tests/oracles/jones_harris.py` has the statics.
 """
 
 import math
-import warnings
 from typing import NamedTuple
 
-import numpy as np
 import pytest
 
-from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import C, P, S, U
+from fmu_bearing.engine.layout import U
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.scene.read import with_fidelity
 from tests.mounted import CERAMIC, STEEL, Rest, mounted
 from tests.oracles import Bearing
 from tests.oracles.jones_harris import JonesHarris

@@ -1,4 +1,6 @@
-"""Bearings with fits: gate scenes in other materials, and their quasi-static places and preloads."""
+"""Bearings with fits: gate scenes in other materials, their quasi-static places and preloads, an oracle's."""
+
+import math
 
 import numpy as np
 
@@ -11,6 +13,8 @@ from fmu_bearing.interface.table import input_values
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import read_scene
 from tests.conftest import GATES
+from tests.oracles import Bearing
+from tests.oracles.jones_harris import JonesHarris
 
 STEEL, CERAMIC = "GCr15", "Si3N4"
 HELD = 1e12  # N/m: a pedestal that does not give way
@@ -42,6 +46,48 @@ def mounted(
     changes |= {key.replace("__", "."): value for key, value in more.items()}
     quiet = {"sound": None} | ({} if flawed else {"imperfections": None})
     return read_scene(GATES / f"{name}.toml").with_rigid_rings().model_copy(update=quiet).replace(changes)
+
+
+def own_bearing(scene, growth):
+    """The bearing at temperatures of its rings, races moved by ``growth`` (m): an oracle's, and its zero.
+
+    The oracle is brought to the same groove circles by its pitch, angle and conformities. Zero (m): what is
+    added to a place of its inner ring, which counts from balls that just touch, for one from the drawing.
+    """
+    b, m, o = scene.bearing, scene.materials, scene.operation
+    rises = [getattr(o, f"{ring}_ring_temperature_degC") - 20.0 for ring in ("inner", "outer")]
+    warm = [1.0 + 1e-6 * m.inner_ring.expansion_1e6_K * rise for rise in rises]
+    drawn = 1e-3 * b.ball_diameter_mm
+    ball = drawn * (1.0 + 1e-6 * m.balls.expansion_1e6_K * sum(rises) / 2.0)
+    reach = [(f - 0.5) * drawn for f in (b.inner_conformity, b.outer_conformity)]
+    angle, pitch = math.radians(b.contact_angle_deg), 1e-3 * b.pitch_diameter_mm
+    fit = [f * g * drawn / ball for f, g in zip((b.inner_conformity, b.outer_conformity), warm, strict=True)]
+    radii = [
+        (0.5 * pitch + side * one * math.cos(angle)) * g + moved
+        for side, one, g, moved in zip((1.0, -1.0), reach, warm, growth, strict=True)
+    ]
+    free = [(f - 0.5) * ball for f in fit]
+    turned = math.acos((radii[0] - radii[1]) / sum(free))
+    own = Bearing(
+        ball_diameter=ball, pitch_diameter=2.0 * (radii[1] + free[1] * math.cos(turned)),
+        ball_count=b.ball_count, ring_modulus=1e9 * m.inner_ring.youngs_modulus_GPa,
+        ring_poisson=m.inner_ring.poisson_ratio, inner_conformity=fit[0], outer_conformity=fit[1],
+        contact_angle=turned, ball_modulus=1e9 * m.balls.youngs_modulus_GPa,
+        ball_poisson=m.balls.poisson_ratio, ball_density=m.balls.density_kg_m3 * (drawn / ball) ** 3,
+    )  # fmt: skip
+    zero = sum(free) * math.sin(turned)
+    zero -= sum(one * g for one, g in zip(reach, warm, strict=True)) * math.sin(angle)
+    return own, turned, zero
+
+
+def own_oracle(scene, growth, friction_limit=0.05):
+    """Jones and Harris of `own_bearing`, with contacts as stiff as drawn; its angle (rad) and zero (m)."""
+    cold = scene.replace({f"operation.{ring}_ring_temperature_degC": 20.0 for ring in ("inner", "outer")})
+    drawn = JonesHarris(own_bearing(cold, (0.0, 0.0))[0])
+    own, turned, zero = own_bearing(scene, growth)
+    oracle = JonesHarris(own, friction_limit=friction_limit)
+    oracle.inner_constant, oracle.outer_constant = drawn.inner_constant, drawn.outer_constant
+    return oracle, turned, zero
 
 
 class Rest:

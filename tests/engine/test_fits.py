@@ -14,9 +14,7 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.prepare.model import prepare
-from tests.mounted import CERAMIC, STEEL, Rest, mounted
-from tests.oracles import Bearing
-from tests.oracles.jones_harris import JonesHarris
+from tests.mounted import CERAMIC, STEEL, Rest, mounted, own_oracle
 
 SHAFT_K5 = {"bearing_class": "P4", "shaft": {"shaft_class": "k5"}}
 HOLLOW = {"bearing_class": "P4", "shaft": {"shaft_class": "js5", "bore_mm": 8.0, "material": STEEL}}
@@ -150,38 +148,6 @@ def test_preloads_of_the_gates(gate):
     assert spacer == pytest.approx(gate.spacer, abs=0.02)
 
 
-def own_bearing(scene, growth):
-    """The bearing at temperatures of its rings, races moved by ``growth`` (m): an oracle's, and its zero.
-
-    The oracle is brought to the same groove circles by its pitch, angle and conformities. Zero (m): what is
-    added to a place of its inner ring, which counts from balls that just touch, for one from the drawing.
-    """
-    b, m, o = scene.bearing, scene.materials, scene.operation
-    rises = [getattr(o, f"{ring}_ring_temperature_degC") - 20.0 for ring in ("inner", "outer")]
-    warm = [1.0 + 1e-6 * m.inner_ring.expansion_1e6_K * rise for rise in rises]
-    drawn = 1e-3 * b.ball_diameter_mm
-    ball = drawn * (1.0 + 1e-6 * m.balls.expansion_1e6_K * sum(rises) / 2.0)
-    reach = [(f - 0.5) * drawn for f in (b.inner_conformity, b.outer_conformity)]
-    angle, pitch = math.radians(b.contact_angle_deg), 1e-3 * b.pitch_diameter_mm
-    fit = [f * g * drawn / ball for f, g in zip((b.inner_conformity, b.outer_conformity), warm, strict=True)]
-    radii = [
-        (0.5 * pitch + side * one * math.cos(angle)) * g + moved
-        for side, one, g, moved in zip((1.0, -1.0), reach, warm, growth, strict=True)
-    ]
-    free = [(f - 0.5) * ball for f in fit]
-    turned = math.acos((radii[0] - radii[1]) / sum(free))
-    own = Bearing(
-        ball_diameter=ball, pitch_diameter=2.0 * (radii[1] + free[1] * math.cos(turned)),
-        ball_count=b.ball_count, ring_modulus=1e9 * m.inner_ring.youngs_modulus_GPa,
-        ring_poisson=m.inner_ring.poisson_ratio, inner_conformity=fit[0], outer_conformity=fit[1],
-        contact_angle=turned, ball_modulus=1e9 * m.balls.youngs_modulus_GPa,
-        ball_poisson=m.balls.poisson_ratio, ball_density=m.balls.density_kg_m3 * (drawn / ball) ** 3,
-    )  # fmt: skip
-    zero = sum(free) * math.sin(turned)
-    zero -= sum(one * g for one, g in zip(reach, warm, strict=True)) * math.sin(angle)
-    return own, turned, zero
-
-
 @each_gate
 def test_an_equilibrium_of_its_own(gate):
     """Jones and Harris with the figures of the table: the 7003C within 5 nm, the 7009C within 10 nm.
@@ -192,12 +158,7 @@ def test_an_equilibrium_of_its_own(gate):
     load, large = gate.bearing.get("load", 150.0), "name" in gate.bearing
     rest = Rest(scene)
     growth = [1e-6 * (0.0 if one is None else one[3]) for one in (gate.inner, gate.outer)]
-    own, turned, zero = own_bearing(scene, growth)
-    limit = scene.lubricant.traction_max
-    oracle = JonesHarris(own, friction_limit=limit)
-    # contacts are as stiff as drawn
-    drawn = JonesHarris(own_bearing(still(gate), (0.0, 0.0))[0])
-    oracle.inner_constant, oracle.outer_constant = drawn.inner_constant, drawn.outer_constant
+    oracle, turned, zero = own_oracle(scene, growth, scene.lubricant.traction_max)
     state = oracle.solve((load, 0.0, 0.0), rest.u[U.SPEED])
     assert math.degrees(turned) == pytest.approx(gate.free[1], abs=0.003)
     place = state.displacement[0] + zero

@@ -46,7 +46,7 @@ def test_table_csv_and_numbers(run, file, tmp_path):
     [
         (("--plot", "x.gif"), ".png"),
         (("-o", "x.txt"), "the table is written as .csv"),
-        (("--set", "mounting.fit.shaft.interference_um=2"), "cannot be given with shaft_class"),
+        (("--set", "mounting.fit.shaft.shaft_class=z9"), "mounting.fit.shaft.shaft_class"),
     ],
 )
 def test_refusals(run, file, words, says):

@@ -60,7 +60,8 @@ def picture(found: Fits, curves: Sequence[Curves]) -> "Figure":
             label(right, words, held, f"{name}{held.split(',')[0]}")
             for panel in (left, right):
                 panel.axvline(scale * at, **_SCENE)
-            right.set_ylim(bottom=0.0)
+            if not one.held_by_force:
+                right.set_ylim(bottom=0.0)
         if "inner" in found.columns[_MEAN].bearings[k].seats:
             _hoop(upper[2], found, k, one.speed, name)
             _interference(lower[2], found, k, one.speed, name)

@@ -262,10 +262,12 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     other = "mounting" if is_set else "spindle"
     homes = [(where, one) for where, one in _tables(Tables) if where != table and where != _plain(table)]
     mine = [(where, one) for where, one in homes if where[:1] != (other,)]
+    elsewhere = any("fit" not in where and key in one.model_fields for where, one in homes)
     exact = [
         where
         for where, one in mine
         if (key in one.model_fields or key in _RESOLVED.get(where, ())) and (*where, key) != (other,)
+        if not ("fit" in where and elsewhere)  # a seat has names of other tables, as material
     ]
     if 1 <= len(exact) <= _HOMES:
         hint = f"; it belongs in {' or '.join(_place(where, key) for where in exact)}"
@@ -273,7 +275,9 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     elif near := nearest(key, known):
         hint = f"; did you mean '{near}'?"
     elif hint := _of_others(
-        key, is_set, [where for where, one in homes if where and key in one.model_fields]
+        key,
+        is_set,
+        [where for where, one in homes if where and key in one.model_fields and "fit" not in where],
     ):
         pass
     elif away := nearest(key, [name for _, one in mine for name in one.model_fields if "_" in name]):

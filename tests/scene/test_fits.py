@@ -528,6 +528,20 @@ def test_changes_of_the_other_kind_are_directed():
         pair.replace({"mounting.fit.shaft.interference_um": 1.0})
 
 
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ('bearing_class = "P4"', "it belongs in [mounting.fit]"),
+        ('shaft_class = "js4"', "it belongs in [mounting.fit.shaft]"),
+        ("preload = 3.0", "one bearing has preload_N in [mounting]"),  # not the word of a fit
+        ("shaft = 3.0", "one bearing has [mounting.rotor]"),
+    ],
+)
+def test_keys_of_fits_are_named_where_no_other_table_has_them(line, hint):
+    text = SINGLE.replace("[operation]\n", f"[operation]\n{line}\n")
+    assert refused("", text) == f"operation.{line.split()[0]} is not a key of a scene; {hint}"
+
+
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem)
 def test_examples_have_no_fit(path):
     scene = read_scene(path)

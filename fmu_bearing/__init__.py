@@ -55,6 +55,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fmu_bearing.accuracy.changes import changes
+    from fmu_bearing.design.fits import fits
     from fmu_bearing.design.fresh import new_scene
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
@@ -98,6 +99,7 @@ _PLACES = {
     "campbell": "modal.campbell.over_speed",
     "changes": "accuracy.changes",
     "compare": "recording.studies.compare",
+    "fits": "design.fits",
     "identify": "identification",
     "measure": "recording.measurements",
     "modes": "modal.modes.points",
@@ -134,6 +136,7 @@ __all__ = [
     "campbell",
     "changes",
     "compare",
+    "fits",
     "identify",
     "measure",
     "modes",

@@ -12,6 +12,7 @@
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity, changes
 ``stiffness``   K and C over speed, preload and frequency, and of a set's shaft
+``fits``        what tolerances of shaft and housing do
 ``sweep``       a scene over a grid of its values
 ``identify``    numbers of a scene from measured levels
 ``realtime``    what steps cost beside the clock, by fidelity
@@ -26,6 +27,7 @@
 from fmu_bearing.cli import (  # noqa: F401
     build,
     compare,
+    fits,
     identify,
     info,
     modes,

@@ -10,6 +10,7 @@ from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
 from fmu_bearing.cli.settings import at_speed, source_of
 
 if TYPE_CHECKING:
+    from fmu_bearing.design.fits import Column
     from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint
     from fmu_bearing.design.verdict import Verdict
     from fmu_bearing.steady.statics import Statics
@@ -43,12 +44,15 @@ def info(
     lines = cautions(point, found)
     if as_json:
         judged = {"verdicts": [one.as_dict() for one in found], "cautions": lines}
-        print_json(point.summary() | judged)
+        seats = {} if point.scene.fit is None else {"fits": _seats(point).summary()}
+        print_json(point.summary() | judged | seats)
         return
     if point.scene.spindle is None:
         _show_bearing(point.bearings[0])
     else:
         _show_set(point.statics)
+    if point.scene.fit is not None:
+        _show_fits(point)
     _show_heat(point)
     _show_verdicts(found, len(point.bearings))
     for line in lines:
@@ -92,6 +96,25 @@ def _show_set(found: "Statics") -> None:
     )  # fmt: skip
     show("bearings: load; largest ball load, angle, pressure", columns, _loads(found))
     show("shaft", ("", "value"), _shaft(found))
+
+
+def _seats(point: "OperatingPoint") -> "Column":
+    """Return the seats with the interference that the scene takes."""
+    from fmu_bearing.design.fits import column_at
+
+    assert point.scene.fit is not None
+    return column_at(point.scene, point.scene.fit.take, point)
+
+
+def _show_fits(point: "OperatingPoint") -> None:
+    """Print what the seats of each bearing do, from the drawing to speed."""
+    from fmu_bearing.design.fit_table import STATE_COLUMNS, state_rows
+    from fmu_bearing.results.table import show
+
+    for one in _seats(point).bearings:
+        name = f", bearing {one.number}" if len(point.bearings) > 1 else ""
+        words = "; ".join(f"{ring} ring {seat.words}" for ring, seat in one.seats.items())
+        show(f"fits{name}: {words}", STATE_COLUMNS, state_rows(one))
 
 
 def _show_heat(point: "OperatingPoint") -> None:

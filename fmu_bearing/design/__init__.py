@@ -4,6 +4,12 @@
 ``rating``           ratings and makers' limits of the bearing of a scene
 ``heat``             watts by where friction loses them, and by what they warm
 ``operating_point``  a scene's bearings at their operating point, without a run
+``mounted``          a bearing on its seats in closed form
+``fits``             `fits`: what the tolerances of the seats do, in five columns
+``fit_table``        its tables for people
+``fit_curves``       its curves over speed and temperature
+``fit_pictures``     their pictures
+``fit_verdicts``     verdicts on the seats
 ``verdict``          figure, limit, source and judgement
 ``verdicts``         the verdicts on each bearing, and on all together
 ``fresh``            `new_scene`: a scene at an operating point that the verdicts find good

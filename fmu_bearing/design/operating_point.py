@@ -26,7 +26,8 @@ from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
-from fmu_bearing.scene.member import SceneBearing, set_of, still_of
+from fmu_bearing.scene.fit import held_loose
+from fmu_bearing.scene.member import SceneBearing, set_of, still_of, usual_load
 from fmu_bearing.steady.rest import parts, started
 from fmu_bearing.steady.statics import BearingLoad, Point, Statics, point
 from fmu_bearing.threads import one_thread
@@ -273,6 +274,8 @@ def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
     spindle, cold = set_of(scene), found.preloads.get("cold")
     carried = 0.0 if cold is None else max(cold[one.number - 1], 0.0)
     spacer = spindle.preload is not None and spindle.preload.kind == "spacer"
+    if spacer and scene.fit is not None and held_loose(scene):  # its class is that of the loose bearing
+        carried = usual_load(spindle, one.number - 1)
     mounting = {"preload_N": float(f"{carried:.4g}"), "preload_mode": "rigid" if spacer else "force"}
     place = spindle.bearing[one.number - 1]
     rings = ("inner_ring_temperature_degC", "outer_ring_temperature_degC")

@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from fmu_bearing.design.fit_verdicts import fit_verdicts, mounted_preload
+from fmu_bearing.design.mounted import preloads
 from fmu_bearing.design.operating_point import RINGS, BearingPoint, OperatingPoint
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
@@ -49,7 +51,10 @@ def verdicts(point: OperatingPoint) -> tuple[Verdict, ...]:
     pressure, inner race, GPa 1.89 limit: 1.50 heaviest class; 2.0 marks races
     preload class, N 500: 2.8 x heavy limit: light 29.8, medium 89.4, heavy 179
     """
-    found = [one for bearing in point.bearings for one in bearing_verdicts(bearing)]
+    found: list[Verdict] = []
+    for place, bearing in enumerate(point.bearings):
+        own = bearing_verdicts(bearing)
+        found += [*own, *mounted_preload(bearing, preloads(point, place), own)]
     return *found, *_set_life(point), *_lift_off(point), _whirl(point)
 
 
@@ -63,6 +68,7 @@ def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
         _speed(bearing),
     ]
     found += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
+    found += fit_verdicts(bearing)
     return [replace(one, bearing=bearing.load.number) for one in found]
 
 
@@ -220,6 +226,10 @@ def _preload(point: BearingPoint) -> Iterator[Verdict]:
     label, found = "preload class, N", preload_classes(point.scene)
     if found is None or preload == 0.0:
         why = unclassed(point.scene) or "no preload"
+        yield unjudged("preload_class", label, why, preload, f"{preload:g}")
+        return
+    if point.scene.fit is not None and point.scene.fit.preload == "mounted":
+        why = "classes are of the loose bearing, and this preload is of the mounted one"
         yield unjudged("preload_class", label, why, preload, f"{preload:g}")
         return
     heavy, advice = found.loads["heavy"], ""

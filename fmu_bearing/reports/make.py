@@ -22,6 +22,7 @@ from fmu_bearing.reports.modes.modes_section import section as what_vibrates
 from fmu_bearing.reports.page.blocks import Absent, Section
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections import ball_contacts, conditions, friction, ring_motion, summary
+from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.verdict_table import judged, overall_of
 from fmu_bearing.reports.sections.what_to_change import section as what_to_change
 from fmu_bearing.reports.set_page import set_page
@@ -345,6 +346,12 @@ def _sections(
         ("friction", "Friction and heat", lambda: friction.friction(subject)),
         ("assumptions", "Assumptions and choices", lambda: conditions.assumptions(subject)),
     ]
+    fitted = subject.recording.scene
+    if fitted is not None and fitted.fit is not None:
+        turning = fitted.replace({"operation.speed_rpm": subject.speed / RPM})
+        plan.insert(
+            1, ("fits", "Fits of the rings", lambda: Section("fits", "Fits of the rings", seats(turning)))
+        )
     found = []
     for key, title, make_one in plan:
         if key == "changes" and changes is False:

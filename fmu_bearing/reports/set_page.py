@@ -17,6 +17,7 @@ from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Card, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
+from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.reports.sections.verdict_table import overall_of
 from fmu_bearing.reports.sound.set_sound import sound_of_set
@@ -76,6 +77,8 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
         ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
         ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
     )
+    if scene.fit is not None:
+        plan = (*plan, ("fits", "Fits of the rings", lambda: seats(scene)))
     sections = []
     for key, heading, blocks in plan:
         try:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
-from fmu_bearing.scene import fit_file
+from fmu_bearing.scene import fit_conflicts, fit_file
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
@@ -74,6 +74,7 @@ class Scene(Tables):
     def conflicts(self) -> Iterator[Conflict]:
         """Yield conflicts between tables, and what such a scene cannot have."""
         yield from super().conflicts()
+        yield from fit_conflicts.conflicts(self)
         yield from conflicts_of(self)
 
     def bearings(self) -> "tuple[SceneBearing[Scene], ...]":

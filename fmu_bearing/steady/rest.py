@@ -147,21 +147,43 @@ def preloads(run: Instance) -> dict[str, list[float]]:
     signs = np.array([one.sign for one in run.model.scene.bearings()])
     if run.p[P.RIGID] == 0.0 and len(set(signs)) == 1:
         return {}
-    found = {}
-    for key in ("cold", "warm", "running"):
-        free = Instance(run.model, tell=silent)
-        free.u[:] = run.u
-        for at_p, _ in parts_of(free.p):
-            free.p[at_p][P.GRAVITY] = 0.0
-        for one in run.model.variables:
-            if one.array != "u":
-                continue
-            if one.name.startswith(("nose.", "radial_load.")) or (
-                key != "running" and one.name == "shaft_speed"
-            ):
-                free.u[one.index] = 0.0
-            if key == "cold" and one.name.endswith("temperature"):
-                free.u[one.index] = REFERENCE_TEMPERATURE
-        _initialise(free)
-        found[key] = [float(force) for force in signs * forces(free)[:, 0]]
-    return found
+    states = {"cold": (0.0, 0.0), "warm": (0.0, 1.0), "running": (1.0, 1.0)}
+    return {key: carried(unloaded(run, *shares)) for key, shares in states.items()}
+
+
+def carried(run: Instance) -> list[float]:
+    """Return what each bearing of a started scene carries along its axis, N."""
+    signs = np.array([one.sign for one in run.model.scene.bearings()])
+    return [float(force) for force in signs * forces(run)[:, 0]]
+
+
+def unloaded(run: Instance, speed: float, warmth: float) -> Instance:
+    """Return another engine of the same scene, started without load and weight.
+
+    Parameters
+    ----------
+    run : Instance
+    speed, warmth : float
+        Shares of the shaft speed and of all temperatures above 20 degC.
+
+    Raises
+    ------
+    EngineError
+        Where there is no equilibrium; a ``ValueError``.
+    """
+    free = Instance(run.model, tell=silent)
+    free.u[:] = run.u
+    for at_p, _ in parts_of(free.p):
+        free.p[at_p][P.GRAVITY] = 0.0
+    for one in run.model.variables:
+        if one.array != "u":
+            continue
+        if one.name.startswith(("nose.", "radial_load.")):
+            free.u[one.index] = 0.0
+        elif one.name == "shaft_speed":
+            free.u[one.index] *= speed
+        elif one.name.endswith("temperature") and warmth != 1.0:  # 1 leaves every bit
+            rise = free.u[one.index] - REFERENCE_TEMPERATURE
+            free.u[one.index] = REFERENCE_TEMPERATURE + warmth * rise
+    _initialise(free)
+    return free

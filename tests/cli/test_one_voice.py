@@ -10,20 +10,20 @@ from fmu_bearing.cli import app
 from tests.pages import DOCS
 
 RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
-SCENES = {*RUN, "build", "info", "modes", "stiffness", "realtime", "choose"}
+SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose"}
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
-    "sensitivity", "sweep", "identify", "realtime",
+    "sensitivity", "sweep", "identify", "realtime", "fits",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
-    "--speed": {*RUN, "info", "modes", "realtime", "choose", "scene new"} - {"sweep", "identify"},
+    "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new"} - {"sweep", "identify"},
     "--fidelity": {*RUN, "build", "realtime"} - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
-    "--plot": {"simulate", "sound", "compare", "modes", "stiffness", "tradeoff", "sweep", "identify"},
+    "--plot": {"simulate", "sound", "compare", "modes", "stiffness", "fits", "tradeoff", "sweep", "identify"},
     "--output": WRITE - {"scene new"},
     "--force": WRITE,
     "--quick": {"tradeoff", "sensitivity"},

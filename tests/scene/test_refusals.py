@@ -340,7 +340,8 @@ def test_unknown_catalogue_names_are_all_reported_and_nothing_beneath_them():
         "lubricant.catalogue = 3 is not in the catalogue; known: spindle-oil",
         "materials.inner_ring = 'gcr15' is not in the catalogue; did you mean 'GCr15'? "
         "known: GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
-        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
+        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK, "
+        "aluminium",
     ]
 
 

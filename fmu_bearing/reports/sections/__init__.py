@@ -8,5 +8,6 @@
 ``what_to_change``    choices ranked by level, life and torque
 ``ring_motion``       velocities, orbits
 ``ball_contacts``     loads and angles around the circle
+``seats``             what the fits of the rings do
 ``friction``          torque, shares, heats
 """

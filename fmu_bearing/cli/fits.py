@@ -1,0 +1,74 @@
+"""``fmu-bearing fits``: what the tolerances of the seats do to a scene's bearings."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, tell
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Force,
+    Json,
+    Plot,
+    SceneFile,
+    Settings,
+    Speed,
+    output as written_to,
+)
+from fmu_bearing.cli.settings import at_speed, source_of
+from fmu_bearing.files import check_file
+from fmu_bearing.progress import steps
+
+
+@app.command()
+def fits(
+    scene: SceneFile,
+    speed: Speed = None,
+    settings: Settings = None,
+    plot: Plot = None,
+    output: Annotated[Path | None, written_to("Write the table to this file as well (.csv).")] = None,
+    force: Force = False,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
+) -> None:
+    """Show what the fits on shaft and in housing do, from the loosest to the tightest that classes allow.
+
+    Each column is computed in full: interference, pressure, hoop stress, contact angle, preload, stiffness,
+    life. --plot draws angle, preload, hoop stress and interference over speed and temperature.
+    """
+    from fmu_bearing.design.fit_curves import curves
+    from fmu_bearing.design.fit_pictures import picture
+    from fmu_bearing.design.fit_table import COLUMNS, fit_rows
+    from fmu_bearing.design.fits import fits as study
+    from fmu_bearing.results.picture_parts import check_picture, save
+    from fmu_bearing.results.table import show, write_csv
+
+    with refusals():
+        if output is not None and check_file(output).suffix != ".csv":
+            raise Refusal(f"--output {output} is refused: the table is written as .csv")
+        if plot is not None:
+            check_picture(plot)
+        check_new(force, output, plot)
+        found = study(
+            source_of(scene, at_speed(speed, settings)), partial(steps, what="fits", unit="columns")
+        )
+        if plot is not None:
+            save(picture(found, curves(found, partial(steps, what="curves", unit="fits"))), plot)
+        tables = {one.number: fit_rows(found, one.number) for one in found.columns[0].bearings}
+        if output is not None:
+            output.parent.mkdir(parents=True, exist_ok=True)
+            rows = [[str(number), *row] for number, table in tables.items() for row in table]
+            write_csv(output, ("bearing", *COLUMNS), rows)
+    files = [one for one in (output, plot) if one is not None]
+    if as_json:
+        print_json(found.summary() | {"files": files})
+        return
+    for number, table in tables.items():
+        name = f"bearing {number}, " if len(tables) > 1 else ""
+        show(f"{found.scene.name}: {name}{found.words(number)}", COLUMNS, table)
+    for line in found.remarks:
+        typer.echo(line)
+    if files:
+        tell(f"written: {', '.join(map(str, files))}")

@@ -1,0 +1,114 @@
+"""The table of `fits` for people: a row per figure, a column per interference."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+
+from fmu_bearing.design.fits import STATES, TAKES, FitPoint, Fits, SeatPoint
+from fmu_bearing.design.mounted import RINGS
+from fmu_bearing.design.verdict import shown_hours
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.formulas.fits import Kind, State
+
+#: Head of the table.
+COLUMNS = ("", *(take.replace("probable", "prob.") for take in TAKES))
+_WORDS = {"drawing": "drawing", "mounted": "mounted", "warm": "warm", "running": "at speed"}
+#: Head of the table of states.
+STATE_COLUMNS = ("", *_WORDS.values())
+_MICRO, _MEGA = 1e6, 1e-6
+
+
+def fit_rows(found: Fits, number: int) -> list[list[str]]:
+    """Return the rows on one bearing; ``number``: from 1."""
+    points = [column.bearings[number - 1] for column in found.columns]
+    rows: list[list[str]] = []
+    for ring in RINGS:
+        if ring in points[0].seats:
+            rows += _seat_rows(ring, [one.seats[ring] for one in points])
+    rows += _by_state(
+        "free angle, deg", points, lambda one: one.free_angles, lambda x: f"{math.degrees(x):.1f}"
+    )
+    rows += _by_state("preload, N", points, lambda one: one.preloads, lambda x: f"{x:.0f}")
+    for ring in RINGS:
+        angles = [math.degrees(one.point.contacts[ring]["angle_mean"]) for one in points]
+        rows.append([f"contact angle, {ring} race, deg", *(f"{angle:.1f}" for angle in angles)])
+    pressures = [max(one.point.contacts[ring]["pressure_max"] for ring in RINGS) for one in points]
+    rows.append(["pressure of balls, GPa", *(f"{1e-9 * value:.2f}" for value in pressures)])
+    rows.append(["axial stiffness, N/um", *(f"{_MEGA * one.axial_stiffness:.1f}" for one in points)])
+    rows.append(["radial stiffness, N/um", *(f"{_MEGA * one.radial_stiffness:.1f}" for one in points)])
+    lives = [one.point.life for one in points]
+    if any(life is not None for life in lives):
+        rows.append(["L10r, h", *("-" if life is None else shown_hours(life) for life in lives)])
+    return rows
+
+
+def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
+    """Yield the rows on the seat of one ring."""
+    if any(abs(one.drawn - 2.0 * one.states["mounted"].interference) > 1e-9 for one in seats):
+        yield [f"{ring} ring, fit drawn, um", *(f"{_MICRO * one.drawn:+.1f}" for one in seats)]
+
+    def rows(name: str, cell: Callable[[State], str]) -> Iterator[list[str]]:
+        for key in STATES:
+            yield [f"{ring} ring, {name} {_WORDS[key]}", *(cell(one.states[key]) for one in seats)]
+
+    yield from rows("fit, um,", lambda one: f"{2.0 * _MICRO * one.interference:+.1f}")
+    if not any(one.pressure for seat in seats for one in seat.states.values()) and ring == "outer":
+        return  # loose in all columns: nothing presses
+    yield from rows("seat, MPa,", lambda one: f"{_MEGA * one.pressure:.1f}")
+    yield from rows("hoop, MPa,", lambda one: f"{_MEGA * one.hoop:.0f}")
+    yield from rows("race, um,", lambda one: f"{_MICRO * one.race:+.2f}")
+    if ring == "inner":
+        losses = [one.loss_speed for one in seats]
+        cells = [
+            "never" if loss is None else "loose" if loss == 0.0 else f"{1e-3 * loss / RPM:.1f}"
+            for loss in losses
+        ]
+        yield ["inner ring, lets go at, 1000 r/min", *cells]
+    warm = ("warm the ring", "cool the shaft") if ring == "inner" else ("cool the ring", "warm the housing")
+    for words, kelvins in zip(
+        warm, ([one.ring_kelvin for one in seats], [one.partner_kelvin for one in seats]), strict=True
+    ):
+        cells = ["never" if kelvin is None else f"{kelvin:.0f}" for kelvin in kelvins]
+        yield [f"to slip it on, {words}, K", *cells]
+    if seats[0].breaking is not None:
+        for key in STATES:
+            chances = [(one.breaking or {})[key] for one in seats]
+            yield [
+                f"chance of breaking, {_WORDS[key]}",
+                *(f"{chance:.0e}" if chance else "0" for chance in chances),
+            ]
+
+
+def _by_state(
+    name: str,
+    points: Sequence[FitPoint],
+    figures: Callable[[FitPoint], dict[str, float]],
+    cell: Callable[[float], str],
+) -> Iterator[list[str]]:
+    """Yield a row per state of a figure."""
+    for key in figures(points[0]):
+        yield [f"{name}, {_WORDS[key]}", *(cell(figures(one)[key]) for one in points)]
+
+
+def state_rows(point: FitPoint) -> list[list[str]]:
+    """Return the rows on one bearing with one interference: a column per state, `STATE_COLUMNS`."""
+    rows = []
+    for ring, seat in point.seats.items():
+        tight = {"drawing": seat.drawn} | {key: 2.0 * one.interference for key, one in seat.states.items()}
+        rows.append(
+            [f"{ring} ring, fit on diameter, um", *(f"{_MICRO * one:+.1f}" for one in tight.values())]
+        )
+        for name, cells in (
+            ("pressure of the seat, MPa", [f"{_MEGA * one.pressure:.1f}" for one in seat.states.values()]),
+            ("hoop stress, MPa", [f"{_MEGA * one.hoop:.0f}" for one in seat.states.values()]),
+            ("growth of the race, um", [f"{_MICRO * one.race:+.2f}" for one in seat.states.values()]),
+        ):
+            rows.append([f"{ring} ring, {name}", "", *cells])
+        if seat.breaking is not None:
+            rows.append(
+                ["inner ring, chance of breaking", "", *(f"{one:.0e}" for one in seat.breaking.values())]
+            )
+    rows.append(["free contact angle, deg", *(f"{math.degrees(a):.1f}" for a in point.free_angles.values())])
+    if point.preloads:
+        known = [point.preloads.get(key) for key in _WORDS]
+        rows.append(["preload, N", *("" if force is None else f"{force:.0f}" for force in known)])
+    return rows

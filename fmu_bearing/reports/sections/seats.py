@@ -1,0 +1,26 @@
+"""What the fits of the rings do: from the drawing to speed, and over their tolerances."""
+
+from fmu_bearing.design.fit_table import COLUMNS, STATE_COLUMNS, fit_rows, state_rows
+from fmu_bearing.design.fits import fits
+from fmu_bearing.instance import EngineError
+from fmu_bearing.reports.page.blocks import Absent, Block, Table
+from fmu_bearing.scene import Scene
+
+
+def seats(scene: Scene) -> list[Block]:
+    """Return two tables per bearing of a scene with fits, at its speed."""
+    try:
+        found = fits(scene)
+    except EngineError as problem:
+        raise Absent(f"no equilibrium at a limit of the fits: {problem}") from None
+    assert found.scene.fit is not None
+    take = found.scene.fit.take
+    blocks: list[Block] = []
+    for one in found.column(take).bearings:
+        name = f"bearing {one.number}: " if found.scene.spindle is not None else ""
+        words = f"{name}{found.words(one.number)}"
+        blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(one), stacked=True))
+        note = " ".join(f"{line[0].upper()}{line[1:]}." for line in found.remarks)
+        caption = f"Fits over their tolerances, {words}; each column is computed in full"
+        blocks.append(Table(caption, COLUMNS, fit_rows(found, one.number), note=note, folded=True))
+    return blocks

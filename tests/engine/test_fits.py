@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import pytest
 
+from fmu_bearing import statics
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.instance import Instance
@@ -143,6 +144,8 @@ def test_preloads_of_the_gates(gate):
     found = [loose.preload(cold=True), loose.preload(), tight.preload()]
     assert found == pytest.approx([*gate.unmounted, gate.mounted], rel=2e-3)
     assert tight.preload(cold=True) == pytest.approx(load, rel=1e-6)
+    at_rest = statics(mounted(gate.fit, **gate.bearing)).preloads["cold"]
+    assert at_rest == pytest.approx([gate.unmounted[0]], rel=2e-3)
     drawn = loose.place(load, cold=True, loose=True)
     spacer = [1e6 * (loose.place(load, cold) - drawn) for cold in (True, False)]
     assert spacer == pytest.approx(gate.spacer, abs=0.02)

@@ -211,6 +211,21 @@ def test_a_tight_fit_grows_less_with_speed():
     assert 1e6 * (growth - first) == pytest.approx(0.16, abs=0.005)
 
 
+@pytest.mark.parametrize("mode", ["force", "rigid"])
+@pytest.mark.parametrize("fidelity", FIDELITIES)
+def test_jumps_of_a_temperature_keep_the_balance(fidelity, mode):
+    """A shaft 20 K warmer and colder again: the race moves by 1.6 um at once, which counts as work."""
+    fit = {"shaft": {"interference_um": 2.0, "temperature_degC": 20.0}}
+    run, _ = started(mounted(fit, 2e4, **SPRINGS | {"mounting__preload_mode": mode}), fidelity)
+    growth = []
+    for k in range(60):
+        run.set("shaft_temperature", 293.15 + (20.0 if k // 10 % 2 else 0.0))
+        run.step(1e-3)
+        growth.append(run.get("fit.inner.race_growth"))
+        assert abs(run.get("energy.residual")) < RESIDUAL[fidelity]
+    assert np.ptp(growth) > 1.5e-6
+
+
 @pytest.mark.parametrize("fidelity", FIDELITIES)
 def test_a_state_within_a_run_up_continues_with_equal_bits(fidelity):
     """Saved before the fit lets go, and after it."""

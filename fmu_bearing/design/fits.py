@@ -11,6 +11,7 @@ from fmu_bearing.design.mounted import RINGS, Mounted, mounted, preloads, taken,
 from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
+from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.fit import (
     SIDES,
@@ -250,7 +251,11 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
     for take in track(TAKES):
         key = tuple(None if one is None else one.um for one in interferences(scenes[take]))
         if key not in known:
-            known[key] = operating_point(scenes[take])
+            try:
+                known[key] = operating_point(scenes[take])
+            except EngineError as problem:
+                um = ", ".join(f"{one:+.1f} um" for one in key if one is not None)
+                raise EngineError(f"{problem}; with the {take} interference, {um}: give other fits") from None
         columns.append(column_at(whole, take, known[key]))
     return Fits(whole, tuple(columns), remarks)
 

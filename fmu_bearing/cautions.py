@@ -69,8 +69,9 @@ _WAVES = Caution(
     "imperfections.highest_order or highest_frequency_kHz, or one scene for low and one for high speeds",
 )
 _SHOULDERS = (_shoulder("inner", "outer"), _shoulder("outer", "inner"))
+RESTARTS = "solver.restarts"
 _RESTARTS = Caution(
-    Z.BEARING_OUTPUTS.index("solver.restarts"),
+    Z.BEARING_OUTPUTS.index(RESTARTS),
     0.0,
     1.0,
     "no step was possible from the state reached: balls had left their races, or inputs changed too much; ",
@@ -121,6 +122,16 @@ def loose(fidelity: str) -> str:
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
+def restarted(count: float) -> str:
+    """Return why figures of a run with a ``count`` of restarts (``solver.restarts``) are in doubt, or ""."""
+    if not count > 0.0:
+        return ""
+    return (
+        f"rings and balls were restarted from rest where no step was possible ({RESTARTS} = {count:.0f}): "
+        "vibration and levels of this run mean nothing; take fidelity full"
+    )
+
+
 def cautions(model: Model) -> tuple[Caution, ...]:
     """Return the warnings checked after initialisation and after each step, each given once."""
     fidelity = FIDELITIES[int(model.parameters[P.FIDELITY])]
@@ -139,9 +150,9 @@ def _fits(scene: Scene) -> tuple[Caution, ...]:
         if one is not None and one.um > 0.0:
             ring = ("inner", "outer")[race]
             place = Z.FIT + Z.FIT_SIZE * race + Z.FIT_INTERFERENCE
-            before = f"the fit of the {ring} ring has let go of the {seat}: a gap of "
+            before = f"the fit of the {ring} ring lets go of the {seat} (gap now "
             after = (
-                " um on diameter; the ring is computed as centred and growing by itself; give more "
+                " um on diameter): the ring is computed as centred and growing by itself; give more "
                 f"interference (mounting.fit.{seat}), less speed, or a cooler ring"
             )
             found.append(Caution(place, 0.0, -1e6, before, after, decimals=2))

@@ -142,7 +142,7 @@ def test_every_command_is_described(site):
 def test_every_size_of_a_maker_is_listed_with_its_marks(site):
     page = text(site, "sizes.html")
     for name, size in sizes().items():
-        row = re.search(rf"<tr>\s*<td>(?:<code>{name}</code>|{name} \(no model\))</td>(.*?)</tr>", page, re.S)
+        row = re.search(rf"<tr>\s*<td><code>{name}</code></td>(.*?)</tr>", page, re.S)
         assert row is not None, name
         assert f"<em>{size.balls} x {size.ball:g}</em>" in row[1]
         assert f"<td>{size.dynamic:g}, {size.static:g}</td>" in row[1]

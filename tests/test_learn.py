@@ -6,10 +6,12 @@ import re
 
 import pytest
 
+from fmu_bearing.design.fits import fits
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import preload_classes
 from fmu_bearing.design.verdicts import GYROSCOPIC, HIGH_PRESSURE, verdicts
 from fmu_bearing.formulas import iso76, iso281, makers
+from fmu_bearing.prepare.fits import seats
 from fmu_bearing.recording.record import record
 from fmu_bearing.scene import read_scene
 from tests.conftest import EXAMPLES
@@ -92,6 +94,44 @@ def settled(scene, preload=None, speed=None, water=None):
         values = {"mounting.preload_N": preload, "operation.speed_rpm": speed}
         given = {key: value for key, value in values.items() if value is not None}
         return steady.steady(read_scene(scene).replace(given))
+
+
+CERAMIC_ON_SHAFT = EXAMPLES.parent / "fits" / "7003C-ceramic.toml"
+
+
+@functools.cache
+def fitted(kelvin=40.0, shaft_class="js5", **more):
+    """Study of the ceramic bearing on its shaft, all parts at one temperature (degC)."""
+    warm = {f"operation.{ring}_ring_temperature_degC": kelvin for ring in ("inner", "outer")}
+    warm |= {f"mounting.fit.{seat}.temperature_degC": kelvin for seat in ("shaft", "housing")}
+    more = {key.replace("__", "."): value for key, value in more.items()}
+    scene = read_scene(CERAMIC_ON_SHAFT).replace(
+        warm | {"mounting.fit.shaft.shaft_class": shaft_class} | more
+    )
+    return fits(scene)
+
+
+def pair(take="mean", **keys):
+    """Its bearing with one interference."""
+    return fitted(**keys).column(take).bearings[0]
+
+
+def at_seat(state, take="mean", **keys):
+    return pair(take, **keys).seats["inner"].states[state]
+
+
+def per_kelvin_of_the_shaft():
+    one = seats(read_scene(CERAMIC_ON_SHAFT))[0].fit
+    return one.hoop * one.pressure * one.partner
+
+
+def degrees_per_um():
+    """What 1 um of race radius takes off the free angle of the 7003C."""
+    b = read_scene(SPINDLE).bearing
+    apart = (b.inner_conformity + b.outer_conformity - 1.0) * b.ball_diameter_mm
+    return b.contact_angle_deg - math.degrees(
+        math.acos(math.cos(math.radians(b.contact_angle_deg)) + 1e-3 / apart)
+    )
 
 
 #: Figures of each page in words, and where they come from.
@@ -177,6 +217,24 @@ FIGURES = {
         "32.1 degC instead": lambda: settled(SPINDLE, water=2.0)[0][1, "outer_ring"],
         "44.3 degC instead": lambda: settled(SPINDLE, water=2.0)[0][1, "oil"],
     },
+    "fits.md": {
+        "1.5 of its 15": lambda: degrees_per_um(),
+        "3.7 times as": lambda: 11.8 / 3.2,
+        "24 MPa after": lambda: 1e-6 * at_seat("mounted").hoop,
+        "61 MPa at 40": lambda: 1e-6 * at_seat("running").hoop,
+        "134 MPa for": lambda: 1e-6 * at_seat("running", "max").hoop,
+        "255 N instead": lambda: pair().preloads["running"],
+        "390 N. The": lambda: pair("max").preloads["running"],
+        "97 MPa are": lambda: 1e-6 * at_seat("running", kelvin=60.0).hoop,
+        "170 MPa at most": lambda: 1e-6 * at_seat("running", "max", kelvin=60.0).hoop,
+        "66 MPa and": lambda: 1e-6 * at_seat("running", kelvin=60.0, shaft_class="h4").hoop,
+        "265 N, the": lambda: pair(kelvin=60.0, shaft_class="h4").preloads["running"],
+        "121 MPa and": lambda: 1e-6 * at_seat("running", "max", kelvin=60.0, shaft_class="h4").hoop,
+        "365 N |": lambda: pair("max", kelvin=60.0, shaft_class="h4").preloads["running"],
+        "2.4 MPa off": lambda: 1e-6 * per_kelvin_of_the_shaft(),
+        "320 N in the mean": lambda: pair(kelvin=60.0).preloads["running"],
+        "458 N at most": lambda: pair("max", kelvin=60.0).preloads["running"],
+    },
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),
         "1986 Hz": lambda: resonance(point()),
@@ -185,7 +243,12 @@ FIGURES = {
 }
 
 
-@pytest.mark.parametrize("page", PAGES)
+def _studied(page):
+    """The page; fits has three studies of five columns, 5 s each."""
+    return pytest.param(page, marks=pytest.mark.heavy) if page == "fits.md" else page
+
+
+@pytest.mark.parametrize("page", [_studied(page) for page in PAGES])
 def test_figures_of_a_page_are_those_of_the_package(page):
     text = " ".join((LEARN / page).read_text(encoding="utf-8").split())
     for shown, value in FIGURES[page].items():
@@ -273,8 +336,9 @@ def test_a_wanted_life_is_judged():
 
 
 def weighed(page):
-    """The page; tutorial (a report) and noise (dozens of runs) take some 20 s each."""
-    return pytest.param(page, marks=pytest.mark.heavy) if page in ("tutorial.md", "noise.md") else page
+    """The page; tutorial (a report), noise (dozens of runs) and fits (studies) take some 20 s each."""
+    heavy = page in ("tutorial.md", "noise.md", "fits.md")
+    return pytest.param(page, marks=pytest.mark.heavy) if heavy else page
 
 
 @pytest.mark.parametrize("page", [weighed(page) for page in PAGES])

@@ -21,7 +21,7 @@ from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
 from fmu_bearing.results.variable_names import any_sets
 from fmu_bearing.scene import Scene, read_scene
-from fmu_bearing.scene.nsk import CLASSES, PREFIX, modelled, sizes as printed_sizes
+from fmu_bearing.scene.nsk import CLASSES, PREFIX, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.units import symbol
 
@@ -136,7 +136,7 @@ def sizes():
         shape = (size.balls, size.ball, size.pitch, math.radians(size.angle))
         errors = (dynamic_rating(*shape) / size.dynamic, static_rating(*shape) / size.static)
         cells = (
-            f"`{name}`" if name in modelled() else f"{name} (no model)",
+            f"`{name}`",
             f"{size.bore:g}, {size.outside:g}, {size.width:g}",
             f"{size.dynamic:g}, {size.static:g}",
             "" if math.isnan(size.f0) else f"{size.f0:g}",
@@ -172,8 +172,9 @@ def _catalogue():
 #: The group of what only sets have, and how its names begin.
 _SETS, _OF_SETS = (
     "Sets of bearings on one shaft",
-    ("nose.", "shaft.", "shaft_temperature", "housing", "bearing[", "port."),
+    ("nose.", "shaft.", "housing.", "bearing[", "port."),
 )
+_AT_RACES = ("contact.", "film.", "stiffness.", "fit.")
 #: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
 GROUPS = (
     ("Inputs", lambda v: v.causality == "input"),
@@ -183,7 +184,7 @@ GROUPS = (
     ("Outputs: motion", lambda v: v.causality == "output"),
     ("Constants: how the model was built", lambda v: v.variability == "constant"),
     ("Local: sound by component and type of motion", lambda v: v.name.startswith("mic[")),
-    ("Local: contacts, film, stiffness", lambda v: v.name.startswith(("contact.", "film.", "stiffness."))),
+    ("Local: contacts, fits, film, stiffness", lambda v: v.name.startswith(_AT_RACES)),
     ("Local: places, cage, shares of torque, solver", lambda v: True),
 )
 
@@ -222,14 +223,19 @@ def fmu():
 
 
 def _all_variables():
-    """Variables of scenes that together have everything: sound in bands, bending rings, a cage, a set.
+    """Variables of scenes that together have everything: sound in bands, bending rings, a cage, fits, a set.
 
     Of the set those that no single bearing has.
     """
     spindle = read_scene(SCENES / "7003C-spindle.toml")
     spindle = spindle.model_copy(update={"sound": spindle.sound.model_copy(update={"third_octaves": True})})
     bending = read_scene(SCENES / "7009C-full-ceramic.toml")
-    single = [*variables(spindle, 0.0), *variables(bending, 0.0)]
+    seats = {"shaft": ("interference_um", 2.0), "housing": ("interference_um", -4.0)}
+    fitted = spindle.replace(
+        {"mounting.fit": {k: {key: value, "temperature_degC": 40.0} for k, (key, value) in seats.items()}}
+        | {"mounting.fit.housing.outside_diameter_mm": 60.0}
+    )
+    single = [*variables(spindle, 0.0), *variables(fitted, 0.0), *variables(bending, 0.0)]
     names = {variable.name for variable in single}
     sets = {one.name: one for found in any_sets(spindle) for one in variables(found, 0.0)}
     return [*single, *(one for name, one in sets.items() if name.split("].", 1)[-1] not in names)]

@@ -85,7 +85,12 @@ def best_flavour() -> str:
 
 
 def build(
-    script: Path, folder: Path, flavour: str = "python", platforms: Sequence[str] = (), bearings: int = 1
+    script: Path,
+    folder: Path,
+    flavour: str = "python",
+    platforms: Sequence[str] = (),
+    bearings: int = 1,
+    shaft: bool = False,
 ) -> Path:
     """Build the FMU of a pythonfmu slave, or of the C model of the same name, and return its path.
 
@@ -102,17 +107,23 @@ def build(
         Platforms of a native FMU; default: this machine's.
     bearings : int
         How many bearings a thermal network has; more than one are the bearings of a set.
+    shaft : bool
+        Whether the thermal network of a single bearing has a shaft, too.
 
     Raises
     ------
     BuildError
-        If a library cannot be made, or more than one bearing is asked of a model that has no such number.
+        If a library cannot be made, or bearings or a shaft are asked of a model that has no such choice.
     """
     source = script.read_bytes()
-    if bearings != 1:
-        source, found = re.subn(rb"^BEARINGS = 1$", b"BEARINGS = %d" % bearings, source, flags=re.M)
-        if found != 1:
-            raise BuildError(f"{script.name} has no number of bearings")
+    for usual, asked in (
+        (b"BEARINGS = 1", b"BEARINGS = %d" % bearings),
+        (b"SHAFT = False", b"SHAFT = %r" % shaft),
+    ):
+        if asked != usual:
+            source, found = re.subn(rb"^%s$" % usual, asked, source, flags=re.M)
+            if found != 1:
+                raise BuildError(f"{script.name} has no choice {usual.decode()}")
     files, slave = _python_parts(script.stem, source)
     root = _complete(files["modelDescription.xml"], slave, flavour)
     if flavour == "native":

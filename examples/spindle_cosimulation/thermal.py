@@ -1,10 +1,10 @@
 """Temperatures of bearings and their surroundings as an FMU: lumps and a constant ambient.
 
-Lumps: inner ring, outer ring, balls, the oil between them, and the housing. A set of bearings (``BEARINGS``
-above 1) has the first four of each bearing, the housing, and the shaft on which the inner rings sit; equal
-bearings share capacities and conductances. Heat enters where the bearing
-FMU says it arises (its ``heat.*`` outputs), spreads over the conductances below, and leaves over the shaft,
-the air flow and the cooled housing.
+Lumps: inner ring, outer ring, balls, the oil between them, and the housing; with ``SHAFT`` also the shaft
+under the inner ring. A set of bearings (``BEARINGS`` above 1) has the first four of each bearing, the
+housing, and the shaft on which the inner rings sit; equal bearings share capacities and conductances. Heat
+enters where the bearing FMU says it arises (its ``heat.*`` outputs), spreads over the conductances below, and
+leaves over the shaft, the air flow and the cooled housing.
 
 Implicit Euler in sub-steps of at most 1 ms: the fastest lump (the oil) takes a quarter second, so the error
 of a transient stays below 1 %, and the energy balance holds to rounding at any step.
@@ -19,6 +19,8 @@ from pythonfmu import DefaultExperiment, Fmi2Causality, Fmi2Slave, Fmi2Variabili
 
 # How many on one shaft. `build.py` writes the number of a set here, for an FMU carries no other module.
 BEARINGS = 1
+# Whether a single bearing has a shaft, too, whose temperature a fit depends on; a set always has.
+SHAFT = False
 MAX_SUB_STEP = 1e-3  # s
 
 # 22 degC, the laboratory of the multi-source paper.
@@ -61,10 +63,11 @@ SHAFT_CONDUCTANCES = {("inner_ring", "shaft"): 2.7, ("shaft", "ambient"): 0.87}
 IN_BEARING = ("inner_ring", "outer_ring", "balls", "oil")
 SOURCES = ("inner_ring", "outer_ring", "oil")
 
-if BEARINGS > 1:
+if SHAFT or BEARINGS > 1:
     CAPACITIES["shaft"] = SHAFT_CAPACITY
     del CONDUCTANCES["inner_ring", "ambient"]
     CONDUCTANCES |= SHAFT_CONDUCTANCES
+if BEARINGS > 1:
     PREFIXES = [f"bearing[{number}]." for number in range(1, BEARINGS + 1)]
 else:
     PREFIXES = [""]

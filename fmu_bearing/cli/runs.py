@@ -138,9 +138,12 @@ def plot(
 
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
     """Return why a run's figures are in doubt: levels, or all where a ring whirls by itself at its start."""
+    from fmu_bearing.cautions import RESTARTS, restarted
     from fmu_bearing.modal.campbell.weak import doubt, is_of_levels
 
     assert run.scene is not None
+    if RESTARTS in run.names and (again := restarted(run[RESTARTS].max(initial=0.0))):
+        return again
     found = doubt(run.scene, start)
     if is_of_levels(found) and not any(unit == "dB" for unit in run.units.values()):
         return ""

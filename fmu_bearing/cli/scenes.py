@@ -14,7 +14,7 @@ from fmu_bearing.cli.options import Catalogues, Force, Json, SceneFile
 from fmu_bearing.files import write_whole
 from fmu_bearing.scene import Scene, SceneError, read_scene
 from fmu_bearing.scene.designation import suggestion
-from fmu_bearing.scene.entries import Entry, entries, entry_text, too_many_balls
+from fmu_bearing.scene.entries import Entry, entries, entry_text
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
@@ -258,13 +258,13 @@ def show_catalogue(
         if kind not in KINDS:
             raise Refusal(f"there is no catalogue of '{kind}': choose from {', '.join(KINDS)}")
         known = entries(kind)
-        if name is not None and name not in known and not (kind == KINDS[0] and name in sizes()):
+        if name is not None and name not in known:
             raise Refusal(
                 f"there is no '{name}' among the {kind}: {suggestion(name, known)}"
                 f"`fmu-bearing scene catalogue {kind}` lists them"
             )
     if name is not None:
-        _show_entry(name, known.get(name), as_json)
+        _show_entry(name, known[name], as_json)
     elif as_json:
         print_json({one: entry.values for one, entry in known.items()})
     elif kind == KINDS[0]:
@@ -299,17 +299,14 @@ def _show_bearings(known: Mapping[str, Entry]) -> None:
     tell(f"balls of {PREFIX}... are derived; one in full: `fmu-bearing scene catalogue bearings NAME`")
 
 
-def _show_entry(name: str, entry: Entry | None, as_json: bool) -> None:
+def _show_entry(name: str, entry: Entry, as_json: bool) -> None:
     """Print an entry with its remarks, and what a maker prints of it."""
     size = sizes().get(name)
     printed = None if size is None else size.printed()
     if as_json:
-        print_json({"values": None if entry is None else entry.values, "printed": printed})
+        print_json({"values": entry.values, "printed": printed})
         return
-    if entry is not None:
-        typer.echo(entry_text(entry, name).rstrip())
-    else:
-        tell(f"{name}: no model: {too_many_balls(name)}")
+    typer.echo(entry_text(entry, name).rstrip())
     if printed is None:
         return
     classes = printed.pop("preload")

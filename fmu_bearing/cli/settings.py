@@ -160,6 +160,8 @@ def _check_key(
     if _table(key) in type(scene).model_fields:
         return  # the scene itself says what is wrong with it
     keys = [one for one in fields_of(scene) if getattr(scene, _table(one)) is not None]
+    if scene.fit is None:  # whose keys have names of other tables, as preload
+        keys = [one for one in keys if ".fit." not in one]
     known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in inputs}
     near = known.get(nearest(key, known), "")
     unit = f" ({units[near]})" if units.get(near) else ""

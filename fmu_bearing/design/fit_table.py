@@ -10,7 +10,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State
 
 #: Head of the table.
-COLUMNS = ("", *TAKES)
+COLUMNS = ("", *(take.replace("probable", "prob.") for take in TAKES))
 _WORDS = {"drawing": "drawing", "mounted": "mounted", "warm": "warm", "running": "at speed"}
 #: Head of the table of states.
 STATE_COLUMNS = ("", *_WORDS.values())
@@ -51,15 +51,18 @@ def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
             yield [f"{ring} ring, {name} {_WORDS[key]}", *(cell(one.states[key]) for one in seats)]
 
     yield from rows("fit, um,", lambda one: f"{2.0 * _MICRO * one.interference:+.1f}")
+    if not any(one.pressure for seat in seats for one in seat.states.values()) and ring == "outer":
+        return  # loose in all columns: nothing presses
     yield from rows("seat, MPa,", lambda one: f"{_MEGA * one.pressure:.1f}")
     yield from rows("hoop, MPa,", lambda one: f"{_MEGA * one.hoop:.0f}")
     yield from rows("race, um,", lambda one: f"{_MICRO * one.race:+.2f}")
     if ring == "inner":
         losses = [one.loss_speed for one in seats]
         cells = [
-            "never" if loss is None else "loose" if loss == 0.0 else f"{loss / RPM:.0f}" for loss in losses
+            "never" if loss is None else "loose" if loss == 0.0 else f"{1e-3 * loss / RPM:.1f}"
+            for loss in losses
         ]
-        yield ["inner ring, lets go at, r/min", *cells]
+        yield ["inner ring, lets go at, 1000 r/min", *cells]
     warm = ("warm the ring", "cool the shaft") if ring == "inner" else ("cool the ring", "warm the housing")
     for words, kelvins in zip(
         warm, ([one.ring_kelvin for one in seats], [one.partner_kelvin for one in seats]), strict=True
@@ -69,7 +72,10 @@ def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
     if seats[0].breaking is not None:
         for key in STATES:
             chances = [(one.breaking or {})[key] for one in seats]
-            yield [f"chance of breaking, {_WORDS[key]}", *(f"{chance:.0e}" for chance in chances)]
+            yield [
+                f"chance of breaking, {_WORDS[key]}",
+                *(f"{chance:.0e}" if chance else "0" for chance in chances),
+            ]
 
 
 def _by_state(

@@ -1,7 +1,8 @@
 """The state of an FMU instance: copied, restored, written to bytes and read again.
 
-Layout of the bytes: magic and version, the model's fingerprint, a checksum of what follows, then the
-arrays, little-endian, each with its length.
+Layout of the bytes: magic and version, the engine's hash, the model's fingerprint, a checksum of what
+follows, then the arrays, little-endian, each with its length. The fingerprint depends on the engine, too: the
+engine's own hash is there for the reason of a refusal.
 """
 
 import hashlib
@@ -11,9 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.engine.sources import engine_digest
+
 __all__ = ["State", "StateError"]
 
-_MAGIC = b"fmu-bearing state 1\n"
+_MAGIC = b"fmu-bearing state 2\n"
+_DIGEST = 32  # bytes of a hash
+_SHOWN = 8  # bytes of a hash that a message gives, as the shim does
+_BODY = len(_MAGIC) + 3 * _DIGEST  # where it begins
 _HEAD = struct.Struct("<d7Q")  # time; phase, settled, lengths of the arrays and of the notes
 
 
@@ -55,7 +61,7 @@ class State:
         sizes = (array.size for array in arrays)
         head = _HEAD.pack(self.time, self.phase, self.settled, *sizes, len(notes))
         body = head + b"".join(array.astype("<f8").tobytes() for array in arrays) + notes
-        return _MAGIC + bytes.fromhex(fingerprint) + hashlib.sha256(body).digest() + body
+        return _MAGIC + engine_digest() + bytes.fromhex(fingerprint) + hashlib.sha256(body).digest() + body
 
     @classmethod
     def from_bytes(cls, data: bytes, fingerprint: str) -> "State":
@@ -64,15 +70,25 @@ class State:
         Raises
         ------
         StateError
-            If the bytes are no state, of another version, of another model, or damaged.
+            If the bytes are no state, of another version, of another engine, of another model, or damaged.
         """
         if not data.startswith(_MAGIC):
             raise StateError("these bytes are not a state that this version of fmu-bearing can read")
-        start = len(_MAGIC)
-        if data[start : start + 32] != bytes.fromhex(fingerprint):
-            raise StateError("the state belongs to another model")
-        body = data[start + 64 :]
-        if hashlib.sha256(body).digest() != data[start + 32 : start + 64]:
+        made_by, model, checksum = (data[at : at + _DIGEST] for at in range(len(_MAGIC), _BODY, _DIGEST))
+        if made_by != engine_digest():
+            raise StateError(
+                f"the state was made by another version of the engine, {made_by[:_SHOWN].hex()}, and this "
+                f"FMU has {engine_digest()[:_SHOWN].hex()}: set it in the FMU that made it, or take a new "
+                "one here"
+            )
+        if model != bytes.fromhex(fingerprint):
+            raise StateError(
+                f"the state belongs to another model, {model[:_SHOWN].hex()}, and this is "
+                f"{fingerprint[: 2 * _SHOWN]}: its scene is another, or was prepared by another version of "
+                "fmu-bearing; set it in an FMU of that model, or take a new one here"
+            )
+        body = data[_BODY:]
+        if hashlib.sha256(body).digest() != checksum:
             raise StateError("the state is damaged: its checksum does not hold")
         if len(body) < _HEAD.size:
             raise StateError("the state is cut off")

@@ -1,13 +1,13 @@
-"""Closed formulas of the field on plain numbers: contacts, ratings, makers' rules.
+"""Closed formulas of the field on plain numbers: contacts, ratings, makers' rules, fits.
 
-============== =================================================================================
-``hertz``      contact of two bodies
-``axial``      axial load and displacement of a bearing at rest
-``iso281``     dynamic load rating, equivalent load, basic and modified life, viscosity ratio
-``iso76``      static load rating and safety
-``iso16281``   reference rating life from the loads of the balls
-``makers``     preload classes, speed limits and the least preload by makers' catalogues
-``fits``       rings on a shaft and in a housing: pressure, growth of the races, hoop stress, speed of loss
-``tolerances`` ISO 492 and ISO 286: limits of bores, outside diameters, shafts and housings
-============== =================================================================================
+==============  =====================================================================================
+``hertz``       contact of two bodies
+``axial``       axial load and displacement of a bearing at rest
+``iso281``      dynamic load rating, equivalent load, basic and modified life, viscosity ratio
+``iso76``       static load rating and safety
+``iso16281``    reference rating life from the loads of the balls
+``makers``      preload classes, speed limits and the least preload by makers' catalogues
+``fits``        a ring on its shaft or in its housing: pressure, race, hoop stress, speed of loss
+``tolerances``  ISO 492 and ISO 286: limits of bores, outside diameters, shafts and housings
+==============  =====================================================================================
 """

@@ -355,7 +355,8 @@ def mounting_kelvin(interference: float, seat_radius: float, expansion: float) -
 def creep_interference(seat_radius: float, width: float, radial_load: float) -> float:
     """Return the interference on the radius (m) below which a radial load (N) lets the inner ring creep.
 
-    By makers' rule, 0.08 sqrt(d F / B) um on diameter with bore d and width B.
+    0.08 sqrt(d F / B) um on diameter, with bore d and width B: named as NSK's (technical report E728g, 3.2)
+    by the specification of fits. The report was not read, so a verdict must call this limit assumed.
     """
     return 0.5 * 0.08e-6 * math.sqrt(2.0 * seat_radius * radial_load / width)
 

@@ -9,8 +9,9 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.fit import SMALLEST_RATIO, interferences
+from fmu_bearing.scene.fit import interferences
 from fmu_bearing.scene.preload import classes
+from fmu_bearing.scene.seats import SMALLEST_RATIO
 from fmu_bearing.scene.sound import Radiator
 from fmu_bearing.scene.spindle import Spindle
 

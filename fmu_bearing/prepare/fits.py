@@ -10,8 +10,9 @@ from fmu_bearing.elastic.section import INNER, OUTER, ring_section
 from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas.fits import Fit, Kind, Solid, fit
 from fmu_bearing.scene import Scene, SceneError, si
-from fmu_bearing.scene.fit import Take, held_loose, housing_partner, interferences, shaft_partner
+from fmu_bearing.scene.fit import held_loose, housing_partner, interferences, shaft_partner
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.seats import Take
 
 _CLOSE = 1e-12  # rad: contact angle of the loose bearing
 _ROUNDS = 30

@@ -19,6 +19,8 @@ from fmu_bearing.scene.spindle import SetBearing, Spindle
 __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]
 
 _HELD = 1e-6  # inertia of a ring that is held over that of what holds it, where modes are looked for
+# rad/s, chosen: above the rings' modes. A mode of the free shaft counts 1 / (1 + (its frequency / 5 kHz)^2)
+_SLOW = 2.0 * math.pi * 5e3
 _SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
 _TURN, _OUTER = Q.TURN, Q.OUTER
 
@@ -252,6 +254,10 @@ def _block(
     total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
     tables[SP.AT_SCALE] = np.diag(total)[:, None] / total[0, 0]
     tables[SP.AT_INVERSE] = np.asarray(np.linalg.inv(total), dtype=np.float64)
+    stiff = np.zeros((n, n))
+    stiff[: shaft.count, : shaft.count] = shaft.stiffness
+    slow = np.linalg.inv(np.eye(n) + tables[SP.AT_INVERSE] @ stiff / _SLOW**2)
+    tables[SP.AT_SLOW] = np.asarray(slow, dtype=np.float64)
     lanes = SP.padded_size(n)
     columns = {place: _columns(table, lanes) for place, table in tables.items()}
     motions = [

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.cautions import RESTARTS
 from fmu_bearing.engine.layout import SD, SP, P, S, Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
@@ -81,8 +82,8 @@ def record(
         In place of the scene's ``sound.radiation_model`` (``compact`` without sound). Each radiation model of
         the papers needs its own channels and must be chosen here; all others share one set of channels.
     outputs : iterable of str
-        Variables kept at the communication points; of a set ``contact.inner.load_mean`` and so on for each
-        of its bearings.
+        Variables kept at the communication points, besides ``solver.restarts``; of a set
+        ``contact.inner.load_mean`` and so on for each of its bearings.
     microphones : bool
         Compute the scene's own microphones during the run, so that variables such as ``mic[1].leq`` can be
         kept. Without them the engine computes a single far microphone and runs faster.
@@ -140,7 +141,8 @@ def record(
     bearing.initialise()
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
-    kept = _Readings(bearing, variables_of(scene, outputs), first + size + TAIL, watch)
+    names = variables_of(scene, dict.fromkeys((*outputs, RESTARTS)))
+    kept = _Readings(bearing, names, first + size + TAIL, watch)
     _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
     return Recording(
         scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),

@@ -24,7 +24,8 @@
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
 ``member``        the bearings of a scene, each as the scene of a single one
-``fit``           fits of the rings: seats, classes, interferences, partners
+``seats``         fits of the rings: the tables of the seats
+``fit``           interferences by classes, partners of the rings
 ``fit_conflicts`` what does not fit together with fits
 ``fit_file``      fits in the file: the class by grade, preloads of the loose bearing
 ``exclusions``    what a scene cannot have, why, and the way out

@@ -80,7 +80,7 @@ def _of_package(kind: str) -> Mapping[str, Entry]:
     text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
     found = {name: Entry(values, text) for name, values in tomllib.loads(text).items()}
     if kind == "bearings":
-        for name, size in nsk.modelled().items():
+        for name, size in nsk.sizes().items():
             text = nsk.entry_text(size)
             found[name] = Entry(tomllib.loads(text)[name], text)
     return found
@@ -163,11 +163,3 @@ def anchored(text: str, folder: Path) -> str:
     if files:
         document[KEY] = [str(real_path(path)) for path in files]
     return tomlkit.dumps(document)
-
-
-def too_many_balls(name: Any) -> str:
-    """Say why a size that NSK prints is not in the catalogue of bearings; empty for other names."""
-    size = nsk.sizes().get(name) if isinstance(name, str) else None
-    if size is None:
-        return ""
-    return f"has {size.balls} balls by its ratings, and a model at most {nsk.most_balls()}"

@@ -1,175 +1,31 @@
-"""Fits of the rings on shaft and in housing: their tables, and interferences by tolerance classes."""
+"""Fits of the rings of a scene: interferences by tolerance classes, the partners of the rings."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
-
-from pydantic import Field
+from typing import NamedTuple
 
 from fmu_bearing.formulas import tolerances
-from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
-from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.seats import HOUSING, SHAFT, SIDES, Fit, HousingFit, Seat, ShaftFit, Side, Take
+from fmu_bearing.scene.shaft import Shaft
 
-if TYPE_CHECKING:
-    from fmu_bearing.scene.scene import Tables
-    from fmu_bearing.scene.shaft import Shaft
+__all__ = [
+    "Fit",
+    "HousingFit",
+    "Interference",
+    "ShaftFit",
+    "bore_at",
+    "by_classes",
+    "fit_of_member",
+    "held_loose",
+    "housing_outside",
+    "housing_partner",
+    "interferences",
+    "of_seat",
+    "partner_temperatures",
+    "shaft_partner",
+]
 
-#: Classes of ISO 492 whose tolerances are known.
-BearingClass = Literal["P5", "P4", "P2"]
-BEARING_CLASSES: tuple[BearingClass, ...] = get_args(BearingClass)
-#: Which interference of those that the classes allow; probable: 3 sigma of both parts at their limits.
-Take = Literal["min", "probable min", "mean", "probable max", "max"]
-#: Classes of ISO 286 whose tolerances are known, as patterns.
-SHAFT_CLASS, HOUSING_CLASS = (f"^({'|'.join(names)})$" for names in (SHAFT_CLASSES, HOUSING_CLASSES))
 _LOSS = 0.4  # of the roughness Rz, on diameter, where interferences come from measured diameters
-#: Largest interference (um): 1/500 of the largest diameter.
-LARGEST_UM = 4000.0
-#: Least diameter over interference: below it rings and shafts yield.
-SMALLEST_RATIO = 500.0
-
-
-class Seat(Part):
-    """One seat of a ring: how tight it is, and the partner of the ring."""
-
-    interference_um: float | None = Field(
-        default=None,
-        ge=-LARGEST_UM,
-        le=LARGEST_UM,
-        examples=[2.0],
-        description="Interference on diameter at 20 degC and standstill, + tight, in the place of a class; "
-        "no roughness is taken off it, um.",
-    )
-    roughness_Rz_um: float = Field(
-        default=0.0,
-        ge=0,
-        le=50,
-        examples=[1.6],
-        description="Sum of the roughness depths Rz of both surfaces; 0.4 of it is taken off an interference "
-        "that follows from classes, um.",
-    )
-    long: bool = Field(
-        default=True,
-        examples=[True],
-        description="Whether the partner is longer than the ring and supported by what is beside the seat; "
-        "false: as wide as the ring.",
-    )
-    temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[40.0],
-        description="Temperature of the partner of a single bearing (absent: it follows the ring), degC.",
-    )
-
-
-class ShaftFit(Seat):
-    """The seat of the inner ring on the shaft: a class or an interference, and the shaft under it."""
-
-    shaft_class: str | None = Field(
-        default=None,
-        pattern=SHAFT_CLASS,
-        examples=["js4"],
-        description="Tolerance class of the shaft (ISO 286): g, h, js, k or m with grade 4, 5 or 6.",
-    )
-    bore_mm: float | None = Field(
-        default=None,
-        ge=0,
-        le=1000,
-        examples=[8.0],
-        description="Bore of the shaft; absent: of a set that of spindle.shaft.sections_mm at the bearing, "
-        "else a solid shaft, mm.",
-    )
-    material: Material | None = Field(
-        default=None,
-        examples=["GCr15"],
-        description="Material of the shaft; absent: of a set that of [spindle.shaft], else that of the inner "
-        "ring.",
-    )
-
-    def conflicts(self) -> Iterator[Conflict]:
-        """Yield a seat whose interference is given twice."""
-        yield from _twice(self, "shaft_class")
-
-
-class HousingFit(Seat):
-    """The seat of the outer ring in the housing: a class or an interference, and the housing around it."""
-
-    housing_class: str | None = Field(
-        default=None,
-        pattern=HOUSING_CLASS,
-        examples=["JS5"],
-        description="Tolerance class of the housing's bore (ISO 286): H, JS, K or M with grade 4, 5 or 6.",
-    )
-    outside_diameter_mm: float | None = Field(
-        default=None,
-        ge=3,
-        le=3000,
-        examples=[60.0],
-        description="Outside diameter of the housing around the seat; absent: diameter_mm of "
-        "[mounting.housing], of a set of [spindle.housing], mm.",
-    )
-    material: Material | None = Field(
-        default=None,
-        examples=["aluminium"],
-        description="Material of the housing; absent: of a set that of [spindle.housing], else that of the "
-        "outer ring.",
-    )
-
-    def conflicts(self) -> Iterator[Conflict]:
-        """Yield a seat whose interference is given twice."""
-        yield from _twice(self, "housing_class")
-
-
-def _twice(seat: Seat, key: str) -> Iterator[Conflict]:
-    if getattr(seat, key) is not None and seat.interference_um is not None:
-        yield Conflict(
-            "interference_um",
-            f'cannot be given with {key} = "{getattr(seat, key)}", which gives the interference, too: leave '
-            "out one of the two",
-        )
-
-
-class Fit(Part):
-    """How tight the rings sit; a seat that is left out is loose and its ring is as drawn."""
-
-    bearing_class: BearingClass | None = Field(
-        default=None,
-        examples=["P4"],
-        description="Tolerance class of the bearing's bore and outside diameter (ISO 492); absent: the grade "
-        "that [imperfections] of the file names.",
-    )
-    take: Take = Field(
-        default="mean",
-        examples=["mean"],
-        description="Which interference of those that the classes allow is run, of both seats; probable: "
-        "3 sigma of both diameters at their limits.",
-    )
-    contact_angle: Literal["unmounted", "mounted"] = Field(
-        default="unmounted",
-        examples=["unmounted"],
-        description="What bearing.contact_angle_deg is: of the loose bearing, as makers give it, or of the "
-        "mounted one at 20 degC and standstill.",
-    )
-    preload: Literal["unmounted", "mounted"] | None = Field(
-        default=None,
-        examples=["unmounted"],
-        description="What a rigid or spacer preload is: of the loose bearing, as makers give it, or measured "
-        "on the spindle. Asked for beside preload_N; a class or an offset is of the loose bearing.",
-    )
-    shaft: ShaftFit | None = Field(
-        default=None, description="Seat of the inner ring; absent: the ring is loose."
-    )
-    housing: HousingFit | None = Field(
-        default=None, description="Seat of the outer ring; absent: the ring is loose."
-    )
-
-    def conflicts(self) -> Iterator[Conflict]:
-        """Yield fits without a seat."""
-        if self.shaft is None and self.housing is None:
-            yield Conflict(
-                "",
-                "has no seat: give a table shaft or housing under it, as shaft.interference_um = 2.0",
-            )
 
 
 class Interference(NamedTuple):
@@ -179,24 +35,10 @@ class Interference(NamedTuple):
     words: str
 
 
-class Side(NamedTuple):
-    """What distinguishes the two seats: of which ring, which keys."""
-
-    seat: str
-    ring: str
-    class_key: str
-    diameter_key: str
-
-
-SHAFT = Side("shaft", "inner", "shaft_class", "bore_mm")
-HOUSING = Side("housing", "outer", "housing_class", "outside_diameter_mm")
-SIDES = (SHAFT, HOUSING)
-
-
 def interferences(
-    scene: "Tables", take: Take | None = None, member: int | None = None
+    scene: Tables, take: Take | None = None, member: int | None = None
 ) -> tuple[Interference | None, Interference | None]:
-    """Return the interferences of shaft and housing, of which those by classes are less by the roughness.
+    """Return the interferences of shaft and housing; those by classes are less by what roughness takes.
 
     Parameters
     ----------
@@ -216,19 +58,29 @@ def interferences(
     ToleranceError
         For classes and sizes without tolerances; no scene that was checked has them.
     """
-    shaft, housing = (_interference(scene, side, take, member) for side in SIDES)
+    own = [own_interference(scene, side, member or 0) for side in SIDES]
+    shaft, housing = (
+        of_seat(scene, side, take) if um is None else _as_given(um)
+        for side, um in zip(SIDES, own, strict=True)
+    )
     return shaft, housing
 
 
-def _interference(scene: "Tables", side: Side, take: Take | None, member: int | None) -> Interference | None:
+def _as_given(um: float) -> Interference:
+    return Interference(um, f"{um:g} um as given")
+
+
+def of_seat(scene: Tables, side: Side, take: Take | None = None) -> Interference | None:
+    """Return the interference that the table of a seat gives; None: there is no such seat.
+
+    In a set it is that of the bearings without one of their own.
+    """
     fit = scene.fit
     seat = None if fit is None else getattr(fit, side.seat)
     if fit is None or seat is None:
         return None
-    given = own_interference(scene, side, member)
-    given = seat.interference_um if given is None else given
-    if given is not None:
-        return Interference(given, f"{given:g} um as given")
+    if seat.interference_um is not None:
+        return _as_given(seat.interference_um)
     wanted = take or fit.take
     um = by_classes(scene, side, wanted)
     low, high = by_classes(scene, side, "min"), by_classes(scene, side, "max")
@@ -240,15 +92,15 @@ def _interference(scene: "Tables", side: Side, take: Take | None, member: int | 
     return Interference(um - loss, words + (f", less by {loss:.2g} um of roughness" if loss else ""))
 
 
-def own_interference(scene: "Tables", side: Side, member: int | None) -> float | None:
+def own_interference(scene: Tables, side: Side, member: int) -> float | None:
     """Return the interference (um) that one bearing of a set has of its own; None: that of its table."""
     if scene.spindle is None:
         return None
-    one = scene.spindle.bearing[member or 0]
+    one = scene.spindle.bearing[member]
     return one.shaft_interference_um if side is SHAFT else one.housing_interference_um
 
 
-def by_classes(scene: "Tables", side: Side, take: Take) -> float:
+def by_classes(scene: Tables, side: Side, take: Take) -> float:
     """Return the interference (um) of a seat by its classes, before the loss by roughness.
 
     Raises
@@ -267,7 +119,7 @@ def by_classes(scene: "Tables", side: Side, take: Take) -> float:
     return tolerances.interference(around, ring, take, housing=True)
 
 
-def shaft_partner(scene: "Tables", member: int | None = None) -> tuple[Material, float]:
+def shaft_partner(scene: Tables, member: int | None = None) -> tuple[Material, float]:
     """Return material and bore (mm) of the shaft under an inner ring, of a set at a bearing from 0."""
     seat = None if scene.fit is None else scene.fit.shaft
     assert seat is not None, "an inner ring without a seat"
@@ -280,14 +132,14 @@ def shaft_partner(scene: "Tables", member: int | None = None) -> tuple[Material,
     return material or scene.materials.inner_ring, bore
 
 
-def bore_at(scene: "Tables", member: int) -> float:
+def bore_at(scene: Tables, member: int) -> float:
     """Return the bore (mm) of a set's shaft, given in sections, in the plane of a bearing from 0."""
     assert scene.spindle is not None
     place = scene.spindle.bearing[member].position_mm
     return _bore(scene.spindle.shaft, place)
 
 
-def _bore(shaft: "Shaft", place: float) -> float:
+def _bore(shaft: Shaft, place: float) -> float:
     end = 0.0
     for length, _, bore in shaft.sections_mm:
         end += length
@@ -296,7 +148,7 @@ def _bore(shaft: "Shaft", place: float) -> float:
     return shaft.sections_mm[-1][2]
 
 
-def housing_partner(scene: "Tables") -> tuple[Material, float]:
+def housing_partner(scene: Tables) -> tuple[Material, float]:
     """Return material and outside diameter (mm) of the housing around an outer ring."""
     seat = None if scene.fit is None else scene.fit.housing
     assert seat is not None, "an outer ring without a seat"
@@ -307,7 +159,7 @@ def housing_partner(scene: "Tables") -> tuple[Material, float]:
     return material or scene.materials.outer_ring, outside
 
 
-def fit_of_member(scene: "Tables", member: int) -> Fit | None:
+def fit_of_member(scene: Tables, member: int) -> Fit | None:
     """Return the fit of one bearing of a set, from 0, as that of a single one, defaults resolved."""
     fit = scene.fit
     if fit is None:
@@ -329,7 +181,7 @@ def fit_of_member(scene: "Tables", member: int) -> Fit | None:
     return fit.model_copy(update=seats)
 
 
-def housing_outside(scene: "Tables") -> float | None:
+def housing_outside(scene: Tables) -> float | None:
     """Return the outside diameter (mm) of the housing around the seat: its own, or that of the body."""
     seat = None if scene.fit is None else scene.fit.housing
     if seat is not None and seat.outside_diameter_mm is not None:
@@ -340,12 +192,12 @@ def housing_outside(scene: "Tables") -> float | None:
     return None if body is None else body.diameter_mm
 
 
-def partner_temperatures(scene: "Tables") -> tuple[float, float]:
+def partner_temperatures(scene: Tables) -> tuple[float, float]:
     """Return the temperatures (degC) of shaft and housing at the start; absent: those of the rings."""
     return _temperature(scene, SHAFT), _temperature(scene, HOUSING)
 
 
-def _temperature(scene: "Tables", side: Side) -> float:
+def _temperature(scene: Tables, side: Side) -> float:
     fit = scene.fit
     if scene.spindle is not None:
         own = getattr(scene.spindle, side.seat).temperature_degC
@@ -356,6 +208,6 @@ def _temperature(scene: "Tables", side: Side) -> float:
     return ring if own is None else own
 
 
-def held_loose(scene: "Tables") -> bool:
+def held_loose(scene: Tables) -> bool:
     """Whether a rigid or spacer preload is that of the loose bearing; bearings that just touch are, too."""
     return scene.fit is not None and scene.fit.preload != "mounted"

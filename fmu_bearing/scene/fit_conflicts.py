@@ -1,11 +1,12 @@
 """What does not fit together with fits of the rings: refusals that need more than their own table."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from fmu_bearing.formulas.tolerances import ToleranceError
 from fmu_bearing.scene.base import Conflict
-from fmu_bearing.scene.fit import (
+from fmu_bearing.scene.fit import bore_at, by_classes, housing_outside
+from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.seats import (
     BEARING_CLASSES,
     SHAFT,
     SIDES,
@@ -15,16 +16,10 @@ from fmu_bearing.scene.fit import (
     Seat,
     ShaftFit,
     Side,
-    bore_at,
-    by_classes,
-    housing_outside,
 )
 
-if TYPE_CHECKING:
-    from fmu_bearing.scene.scene import Tables
 
-
-def conflicts(tables: "Tables") -> Iterator[Conflict]:
+def conflicts(tables: Tables) -> Iterator[Conflict]:
     """Yield fits that do not fit the other tables of a scene."""
     fit = tables.fit
     yield from _without_table(tables)
@@ -50,14 +45,14 @@ def conflicts(tables: "Tables") -> Iterator[Conflict]:
     yield from _preload(tables, fit, where)
 
 
-def _own(tables: "Tables", side: Side) -> list[tuple[str, float | None]]:
+def _own(tables: Tables, side: Side) -> list[tuple[str, float | None]]:
     """Return key and value of what each bearing of a set has of its own."""
     key = f"{side.seat}_interference_um"
     members = () if tables.spindle is None else tables.spindle.bearing
     return [(f"spindle.bearing[{k}].{key}", getattr(one, key)) for k, one in enumerate(members, start=1)]
 
 
-def _without_table(tables: "Tables") -> Iterator[Conflict]:
+def _without_table(tables: Tables) -> Iterator[Conflict]:
     """Yield interferences of single bearings of a set without the table that says what the partner is."""
     for side in SIDES:
         if tables.fit is None or getattr(tables.fit, side.seat) is None:
@@ -69,7 +64,7 @@ def _without_table(tables: "Tables") -> Iterator[Conflict]:
                     )
 
 
-def _given(tables: "Tables", fit: Fit, seat: Seat, side: Side, where: str) -> Iterator[Conflict]:
+def _given(tables: Tables, fit: Fit, seat: Seat, side: Side, where: str) -> Iterator[Conflict]:
     """Yield seats whose interference is not given, or is larger than any ring bears."""
     diameter = getattr(tables.bearing, side.diameter_key)
     most = 1e3 * diameter / SMALLEST_RATIO
@@ -96,7 +91,7 @@ def _given(tables: "Tables", fit: Fit, seat: Seat, side: Side, where: str) -> It
         )
 
 
-def _by_classes(tables: "Tables", fit: Fit, side: Side, key: str, most: float) -> Iterator[Conflict]:
+def _by_classes(tables: Tables, fit: Fit, side: Side, key: str, most: float) -> Iterator[Conflict]:
     """Yield classes without tolerances, or with interferences larger than any ring bears."""
     if fit.bearing_class is None:
         yield Conflict(
@@ -120,7 +115,7 @@ def _by_classes(tables: "Tables", fit: Fit, side: Side, key: str, most: float) -
         )
 
 
-def _wall(tables: "Tables", side: Side, where: str) -> Iterator[Conflict]:
+def _wall(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
     """Yield effective diameters inside the groove: a ring of such a section has no race."""
     bearing = tables.bearing
     if side is SHAFT:
@@ -137,7 +132,7 @@ def _wall(tables: "Tables", side: Side, where: str) -> Iterator[Conflict]:
         )
 
 
-def _bending(tables: "Tables", side: Side, where: str) -> Iterator[Conflict]:
+def _bending(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
     """Yield rings that bend on a loose seat although a fit holds them."""
     mount = tables.mounting or tables.spindle
     flexure = None if mount is None else mount.flexure
@@ -151,7 +146,7 @@ def _bending(tables: "Tables", side: Side, where: str) -> Iterator[Conflict]:
         )
 
 
-def _shaft(tables: "Tables", seat: ShaftFit, where: str) -> Iterator[Conflict]:
+def _shaft(tables: Tables, seat: ShaftFit, where: str) -> Iterator[Conflict]:
     """Yield a shaft that is not known, or leaves nothing under the seat."""
     spindle, limit = tables.spindle, tables.bearing.bore_mm
     key = f"{where}.shaft"
@@ -181,7 +176,7 @@ def _shaft(tables: "Tables", seat: ShaftFit, where: str) -> Iterator[Conflict]:
                 )
 
 
-def _housing(tables: "Tables", seat: HousingFit, where: str) -> Iterator[Conflict]:
+def _housing(tables: Tables, seat: HousingFit, where: str) -> Iterator[Conflict]:
     """Yield a housing whose wall is not known, or leaves nothing around the seat."""
     outside, limit = housing_outside(tables), tables.bearing.outside_diameter_mm
     body = f"{where.split('.')[0]}.housing.diameter_mm"
@@ -200,7 +195,7 @@ def _housing(tables: "Tables", seat: HousingFit, where: str) -> Iterator[Conflic
         )
 
 
-def _preload(tables: "Tables", fit: Fit, where: str) -> Iterator[Conflict]:
+def _preload(tables: Tables, fit: Fit, where: str) -> Iterator[Conflict]:
     """Yield a place held by a preload that may be that of the loose or of the mounted bearing."""
     if fit.preload is not None:
         return

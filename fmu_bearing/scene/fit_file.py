@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fmu_bearing.scene.fit import BEARING_CLASSES, SIDES
+from fmu_bearing.scene.seats import BEARING_CLASSES, SIDES
 
 #: Tables of fits: of one bearing, of a set.
 TABLES = (("mounting", "fit"), ("spindle", "fit"))

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
-from fmu_bearing.scene.fit import Fit
+from fmu_bearing.scene.seats import Fit
 
 
 class Rotor(Part):

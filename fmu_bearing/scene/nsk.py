@@ -17,9 +17,7 @@ from collections.abc import Iterator
 from importlib import resources
 from typing import Any, NamedTuple
 
-from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
-from fmu_bearing.scene.values import limits
 
 PREFIX = "NSK-"
 #: Names of the preload classes, as the columns of the file begin.
@@ -103,16 +101,6 @@ def _size(row: dict[str, str]) -> Size:
         PREFIX + row["designation"], bore, outside, width, angle, dynamic, static, f0, grease, oil, mass,
         int(row["balls_derived"]), value("ball_mm_derived"), preload,
     )  # fmt: skip
-
-
-def most_balls() -> int:
-    """Return the highest number of balls of a model."""
-    return int(limits(Bearing.model_fields["ball_count"])[1])
-
-
-def modelled() -> dict[str, Size]:
-    """Return the sizes that a model can have: all but those with too many balls."""
-    return {name: size for name, size in sizes().items() if size.balls <= most_balls()}
 
 
 def entry_text(size: Size) -> str:

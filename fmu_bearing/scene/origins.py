@@ -6,14 +6,16 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
-from tomlkit.container import Container
+from tomlkit.container import Container, OutOfOrderTableProxy
 from tomlkit.items import AoT, Table
 
+from fmu_bearing.scene import fit, fit_file
 from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, entries, named_files
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, TABLES, carried, preload, preload_table
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.seats import SIDES
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
 
@@ -73,6 +75,7 @@ def origins(path: str | Path) -> list[Origin]:
         known.pop("imperfections.unbalance_um", None)  # a set takes none from a grade
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
     known |= _preload(document, scene)
+    known |= dict(_fit(document, scene, known))
     return [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
 
 
@@ -92,6 +95,27 @@ def _preload(document: Mapping[str, Any], scene: Tables) -> dict[str, tuple[str,
             found = preload(table, scene.bearing, scene.materials, carried(document), path)
             known |= {} if found is None else {".".join((*path, FORCE)): ("file", found.words)}
     return known
+
+
+def _fit(
+    document: Mapping[str, Any], scene: Tables, known: Mapping[str, tuple[str, str]]
+) -> Iterator[tuple[str, tuple[str, str]]]:
+    """Yield the origin of what a fit takes from other tables, and in words what its classes give."""
+    where = "mounting.fit" if scene.mounting is not None else "spindle.fit"
+    if scene.fit is None:
+        return
+    grade = document.get("imperfections", {}).get("grade")
+    for key, origin in (("bearing_class", f"grade {grade}"), ("preload", "file")):
+        if getattr(scene.fit, key) is not None and f"{where}.{key}" not in known:
+            words = "a class or an offset is of the loose bearing" if key == "preload" else ""
+            yield f"{where}.{key}", (origin, words)
+    for side in SIDES:
+        key = f"{where}.{side.seat}.{side.class_key}"
+        if key in known:
+            place, remark = known[key]
+            found = fit.of_seat(scene, side)
+            assert found is not None
+            yield key, (place, "; ".join(filter(None, (remark, found.words))))
 
 
 def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
@@ -116,20 +140,20 @@ def _references(document: Mapping[str, Any]) -> Iterator[tuple[str, str, str, st
                 name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
                 if name is not None:
                     yield f"{table}.{body}", str(name), kind, f"catalogue {name}"
-    spindle = document.get("spindle")
-    for body in ("shaft", "housing"):
-        part = spindle.get(body) if isinstance(spindle, Mapping) else None
-        entry = part.get("material") if isinstance(part, Mapping) else None
+    for path, body in fit_file.bodies(document):
+        entry = body.get("material")
         name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
         if name is not None:
-            yield f"spindle.{body}.material", str(name), "materials", f"catalogue {name}"
+            yield f"{'.'.join(path)}.material", str(name), "materials", f"catalogue {name}"
     imperfections = document.get("imperfections")
     if isinstance(imperfections, Mapping) and "grade" in imperfections:
         grade = str(imperfections["grade"])
         yield "imperfections", grade, "grades", f"grade {grade}"
 
 
-def _remarks(table: Container | Table, path: str, above: str = "") -> Iterator[tuple[str, str]]:
+def _remarks(
+    table: Container | Table | OutOfOrderTableProxy, path: str, above: str = ""
+) -> Iterator[tuple[str, str]]:
     """Yield the dotted key and the remark of every value; a table's remark holds for all in it."""
     if isinstance(table, Table) and not table.is_super_table():  # which shares the remark of its first one
         above = _words(table) or above
@@ -138,7 +162,7 @@ def _remarks(table: Container | Table, path: str, above: str = "") -> Iterator[t
         if isinstance(item, AoT):
             for k, member in enumerate(item):
                 yield from _remarks(member, f"{dotted}[{k + 1}]", above)
-        elif isinstance(item, Table | Container):
+        elif isinstance(item, Table | Container | OutOfOrderTableProxy):  # the last: in several pieces
             yield from _remarks(item, dotted, above)
         elif isinstance(item, Mapping):  # an inline table
             yield from ((f"{dotted}.{name}", _words(item)) for name in item)

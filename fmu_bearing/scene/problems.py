@@ -14,8 +14,8 @@ from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene import base
 from fmu_bearing.scene.base import LABEL
-from fmu_bearing.scene.fit import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.scene import NAME, Tables
+from fmu_bearing.scene.seats import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.spindle import OR_CLASS
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import limits, table_of
@@ -226,6 +226,8 @@ def _conflict(path: Location, reason: str, data: dict[str, Any]) -> str:
             value = value[step]
         except (KeyError, IndexError, TypeError):
             return f"{dotted(path)} {reason}"
+    if value is None:  # taken out by `Scene.replace`, or never given
+        return f"{dotted(path)} {reason}"
     if isinstance(value, dict | list | tuple):
         return f"{dotted(path)}: {reason}"
     return f"{dotted(path)} = {shown(value)} {reason}"
@@ -260,10 +262,12 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     other = "mounting" if is_set else "spindle"
     homes = [(where, one) for where, one in _tables(Tables) if where != table and where != _plain(table)]
     mine = [(where, one) for where, one in homes if where[:1] != (other,)]
+    elsewhere = any("fit" not in where and key in one.model_fields for where, one in homes)
     exact = [
         where
         for where, one in mine
         if (key in one.model_fields or key in _RESOLVED.get(where, ())) and (*where, key) != (other,)
+        if not ("fit" in where and elsewhere)  # a seat has names of other tables, as material
     ]
     if 1 <= len(exact) <= _HOMES:
         hint = f"; it belongs in {' or '.join(_place(where, key) for where in exact)}"
@@ -271,7 +275,9 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     elif near := nearest(key, known):
         hint = f"; did you mean '{near}'?"
     elif hint := _of_others(
-        key, is_set, [where for where, one in homes if where and key in one.model_fields]
+        key,
+        is_set,
+        [where for where, one in homes if where and key in one.model_fields and "fit" not in where],
     ):
         pass
     elif away := nearest(key, [name for _, one in mine for name in one.model_fields if "_" in name]):

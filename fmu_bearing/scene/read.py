@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
-from fmu_bearing.scene import fit_file
+from fmu_bearing.scene import fit_conflicts, fit_file
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
@@ -19,7 +19,6 @@ from fmu_bearing.scene.entries import (
     catalogue,
     entries,
     named_files,
-    too_many_balls,
 )
 from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
@@ -75,6 +74,7 @@ class Scene(Tables):
     def conflicts(self) -> Iterator[Conflict]:
         """Yield conflicts between tables, and what such a scene cannot have."""
         yield from super().conflicts()
+        yield from fit_conflicts.conflicts(self)
         yield from conflicts_of(self)
 
     def bearings(self) -> "tuple[SceneBearing[Scene], ...]":
@@ -397,9 +397,8 @@ def _fill(
     wanted = given.pop(key)
     if not isinstance(wanted, str) or wanted not in known:
         where = ".".join(path) + ("" if is_material(path) else f".{key}")
-        reason = too_many_balls(wanted) if path == ("bearing",) else ""
-        reason = reason or f"is not in the catalogue; {suggestion(str(wanted), known)}known: {_named(known)}"
-        lines.append(f"{where} = {shown(wanted)} {reason}")
+        others = f"{suggestion(str(wanted), known)}known: {_named(known)}"
+        lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {others}")
         unresolved.append(path)
         return
     entry = copy.deepcopy(known[wanted].values)

@@ -8,11 +8,10 @@ from typing import Self
 import tomlkit
 from pydantic import Field
 
-from fmu_bearing.scene import fit_conflicts, housing
+from fmu_bearing.scene import housing
 from fmu_bearing.scene.base import Conflict, Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fidelity import Fidelity
-from fmu_bearing.scene.fit import Fit
 from fmu_bearing.scene.fmu import Fmu
 from fmu_bearing.scene.housing import SKIN
 from fmu_bearing.scene.imperfections import Imperfections
@@ -20,6 +19,7 @@ from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.operation import Operation
+from fmu_bearing.scene.seats import Fit
 from fmu_bearing.scene.sound import Place, Sound
 from fmu_bearing.scene.spindle import Spindle
 
@@ -63,7 +63,6 @@ class Tables(Part):
             yield Conflict(
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
-        yield from fit_conflicts.conflicts(self)
         yield from self._orders()
         if self.sound is not None:
             if self.sound.radiator == "housing" and own is None and self.spindle is None:

@@ -86,7 +86,10 @@ def set_parts(shape: SetShape, preload: str) -> Iterator[str]:
         f"sections_mm = {lines} # assumed: length, diameter, bore of nose, seats, rear\n"
         'material = "GCr15" # assumed\nflexible = true # assumed: it bends'
     )
-    yield '[spindle.housing] # assumed: it does not move\nmaterial = "GCr15" # assumed'
+    yield (
+        '[spindle.housing] # assumed: it does not move\nmaterial = "GCr15" # assumed\n'
+        "# How tight the rings sit on shaft and in housing is in [spindle.fit]; without it they are as drawn."
+    )
     for place, sign in zip(shape.places, shape.directions, strict=True):
         slides = '\nseat = "sliding"' if shape.spring is not None and sign == shape.directions[-1] else ""
         yield f'[[spindle.bearing]]\nposition_mm = {place}\ncarries = "{sign}x"{slides}'

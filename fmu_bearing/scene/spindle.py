@@ -7,9 +7,9 @@ from typing import Literal
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
-from fmu_bearing.scene.fit import LARGEST_UM, Fit
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.mounting import Flexure
+from fmu_bearing.scene.seats import LARGEST_UM, Fit
 from fmu_bearing.scene.shaft import LONG, Shaft
 
 _MOST = 16  # bearings of a set

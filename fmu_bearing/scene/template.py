@@ -231,6 +231,7 @@ pedestal_rotational_ratio_mm2 = 200.0 # assumed
 pedestal_damping_ratio = 0.05 # assumed
 radial_load_y_N = 0.0
 radial_load_z_N = 0.0
+# How tight the rings sit on shaft and in housing is in [mounting.fit]; without it they are as drawn.
 
 [mounting.tilt_support] # assumed: a far bearing of {far} N/m, one pitch diameter away
 stiffness_N_m_rad = {tilt}

@@ -91,3 +91,35 @@ def test_build_says_so(run, whirling, tmp_path):
     assert built.exit_code == 0 and f"caution: {WORDS}" in built.output.replace("\n", " ")
     with zipfile.ZipFile(tmp_path / "a.fmu") as fmu:
         assert f"F{WORDS[1:]}" in fmu.read("documentation/index.html").decode()
+
+
+def test_a_level_of_a_run_that_restarted_is_in_doubt(run, example, tmp_path):
+    """A load that no preload of 500 N carries, on a soft pedestal; no mode is weak here."""
+    scene = with_fidelity(example("7003C-bare"), model="rings").replace({"mounting.preload_N": 500.0})
+    scene = scene.replace({"mounting.pedestal_stiffness_N_m": 1e5})
+    push = {"radial_load.z": lambda t: 0.0 if t < 5e-3 else 3000.0}
+    quick = {"settle": 2e-3, "progress": False, "warn": False, "outputs": ()}
+    with pytest.warns(UserWarning, match="restarted from rest"):
+        made = record(scene, 0.05, inputs=push, **quick)
+    assert made.restarts >= 1
+    path = tmp_path / "restarted.npz"
+    made.save(path)
+    shown = run("sound", path, "--no-wav", "--no-directivity", "--no-spread", "--json", "-o", tmp_path / "a")
+    words = f"restarted from rest where no step was possible (solver.restarts = {made.restarts})"
+    assert words in shown.data["doubt"]
+    found = compare(made, record(scene, 0.02, **quick))
+    assert words in found.summary()["a"]["doubt"] and "restarted" not in found.summary()["b"]["doubt"]
+    names = "friction_torque,solver.restarts"
+    table = tmp_path / "loads.csv"
+    table.write_text("time,radial_load.z\n0,0\n0.005,0\n0.0051,3000\n0.05,3000\n")
+    ended = run(
+        "simulate", _written(scene, tmp_path), "-t", "0.02", "-i", table, "-v", names, "--json",
+        "-o", tmp_path / "b.csv",
+    )  # fmt: skip
+    assert "restarted from rest" in ended.data["doubt"]
+
+
+def _written(scene, folder):
+    path = folder / "scene.toml"
+    path.write_text(scene.to_toml(), "utf-8")
+    return path

@@ -5,7 +5,7 @@ import pytest
 from fmu_bearing import Dimensions, modes, new_scene, operating_point, verdicts
 from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene import SceneError, origins, read_scene_text
-from fmu_bearing.scene.nsk import modelled, sizes
+from fmu_bearing.scene.nsk import sizes
 from tests.marks import heavy_but
 
 #: Of each series the least, a middle and the largest size, at both angles; the papers' bearings; dimensions.
@@ -39,7 +39,7 @@ def test_a_fresh_scene_is_good(bearing, kind):
 # every fifth size: angles take turns, and so do kinds, in pairs
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [(name, ("hybrid", "steel")[k // 2 % 2]) for k, name in enumerate(list(modelled())[::5])],
+    [(name, ("hybrid", "steel")[k // 2 % 2]) for k, name in enumerate(list(sizes())[::5])],
 )
 def test_a_fresh_scene_of_any_size_is_good(name, kind):
     sound_and_good(name, kind)

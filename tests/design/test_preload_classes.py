@@ -8,7 +8,7 @@ from fmu_bearing import operating_point
 from fmu_bearing.design.verdicts import bearing_verdicts
 from fmu_bearing.formulas import makers
 from fmu_bearing.scene import read_scene_text
-from fmu_bearing.scene.nsk import modelled, sizes
+from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.preload import classes, nsk_size
 from fmu_bearing.scene.template import new_scene
 from tests.spindle.sets import scene as set_scene
@@ -45,10 +45,10 @@ RIGID_SPEED = {"extra light": 0.8, "light": 0.8, "medium": 0.7, "heavy": 0.5}
 
 
 def of_size(point, size, force):
-    """The point with a size's bearing; more balls than a model takes are left out, which no class reads."""
+    """The point with a size's bearing."""
     values = {
         "designation": size.name, "bore_mm": size.bore, "outside_diameter_mm": size.outside,
-        "width_mm": size.width, "contact_angle_deg": size.angle, "ball_count": min(size.balls, 24),
+        "width_mm": size.width, "contact_angle_deg": size.angle, "ball_count": size.balls,
         "ball_diameter_mm": size.ball, "pitch_diameter_mm": size.pitch,
     }  # fmt: skip
     bearing = point.scene.bearing.model_copy(update=values)
@@ -109,7 +109,7 @@ def test_one_of_a_set_is_judged_as_a_loose_bearing(name, preload):
 
 @pytest.mark.heavy
 # every third size, at both angles: `test_every_printed_load_reads_its_own_class` reads the loads of all
-@pytest.mark.parametrize("name", list(modelled())[::3])
+@pytest.mark.parametrize("name", list(sizes())[::3])
 def test_every_class_of_a_size_by_itself_and_in_a_set(name):
     size = sizes()[name]
     speed = 0.3 * size.oil_speed

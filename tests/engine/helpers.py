@@ -5,7 +5,7 @@ from scipy.special import comb
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import STRIDE, P, S, W, Z
+from fmu_bearing.engine.layout import STRIDE, P, S, U, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.surfaces import form_rows
@@ -60,9 +60,7 @@ class Run:
                 mounting.pedestal_stiffness_N_m if pedestal is None else pedestal,
                 0.0,
                 0.0,
-                293.15,
-                293.15,
-                293.15,
+                *[293.15] * (U.SIZE - U.OIL_T),
             ]
         )
         self.s = np.zeros(S.size(self.p))

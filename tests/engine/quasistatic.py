@@ -17,7 +17,7 @@ class Bearing:
         self.p = pack(scene, np.empty(0))
         for name, value in parameters.items():
             self.p[getattr(P, name)] = value
-        self.u = np.array([0.0, 0.0, 1e8, 0, 0, 293.15, 293.15, 293.15])
+        self.u = np.array([0.0, 0.0, 1e8, 0, 0, *[293.15] * (U.SIZE - U.OIL_T)])
         self.c = np.zeros(C.SIZE)
         self.w = np.zeros(W.size(self.p))
         self.out = np.zeros(EQ.SIZE)

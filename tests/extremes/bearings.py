@@ -13,6 +13,12 @@ from tests.conftest import GATES
 
 SILENT = {"sound": None}
 PERFECT = {"sound": None, "imperfections": None}
+#: Changes that give the 7009C the most balls that the engine has room for, smaller ones.
+THIRTY_TWO = {
+    "bearing.ball_count": 32,
+    "bearing.ball_diameter_mm": 4.762,
+    "bearing.cage.pocket_diameter_mm": 4.95,
+}
 RINGS = [f"{ring}_ring.velocity.{axis}" for ring in ("inner", "outer") for axis in "xyz"]
 
 

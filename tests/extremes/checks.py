@@ -24,7 +24,7 @@ def plausible(instance: Instance, trace: Trace, slip: float, fastest: float = FA
     assert np.abs(trace.columns(RINGS)).max() <= fastest
     for side in ("inner", "outer"):
         mean, most = trace.column(f"contact.{side}.load_mean"), trace.column(f"contact.{side}.load_max")
-        # the mean is a sum of up to 24 roundings
+        # the mean is a sum of up to 32 roundings
         assert (mean >= 0.0).all() and (most >= mean * (1.0 - 1e-12)).all()
         pressure = trace.column(f"contact.{side}.pressure_max")
         assert (pressure >= 0.0).all() and ((pressure > 0.0) == (most > 0.0)).all()

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 from fmu_bearing.instance import EngineError
-from tests.extremes.bearings import bearing, work
+from tests.extremes.bearings import THIRTY_TWO, bearing, work
 from tests.extremes.cases import COMPUTED, FULL, WORK
 
 # The Runge-Kutta methods may try at most this many steps per largest internal step of a call, and so many
@@ -67,9 +67,9 @@ def astray(run):
     return max(across, wanted) > 1e-3
 
 
-def walk(scene, start, moves, fidelity, method):
+def walk(scene, start, moves, fidelity, method, changes=None):
     """Initialise, then one input and one step after the other; every refusal is undone and gone on from."""
-    run = bearing(scene, {"sound": None}, {}, fidelity, method)
+    run = bearing(scene, {"sound": None} | (changes or {}), {}, fidelity, method)
     for name, value in start.items():
         put(run, name, value)
     try:
@@ -128,6 +128,13 @@ def test_a_short_walk(fidelity, method, start, moves):
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
 def test_a_short_walk_of_condensed_fidelities(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)
+
+
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+@settings(max_examples=5, **HEALTH)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
+def test_a_short_walk_of_32_balls(fidelity, method, start, moves):
+    walk("7009C-full-ceramic", start, moves, fidelity, method, THIRTY_TWO)
 
 
 #: Walks that take balls off the inner race: a ring that is 118 K colder at once, no preload at full speed.

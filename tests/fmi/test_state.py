@@ -6,13 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi import resources
 from fmu_bearing.fmi.session import Session
 from fmu_bearing.fmi.state import State, StateError
 
 from .conftest import DISCARD, ERROR, OK, STEP, Master
 
-_BODY = 20 + 32 + 32  # magic, fingerprint, checksum
+_BODY = 20 + 3 * 32  # magic, hash of the engine, fingerprint, checksum
 
 
 def test_continuing_after_restore_gives_the_same_bits(master):
@@ -69,8 +70,8 @@ def test_refusals_belong_to_the_state(master, expected):
     assert bearing.release(good) == bearing.release(bad) == OK
 
 
-@pytest.mark.parametrize("damage", ["flip", "short", "empty", "long", "version", "model"])
-def test_foreign_or_damaged_state_is_refused(master, expected, damage):
+@pytest.mark.parametrize("damage", ["flip", "short", "empty", "long", "version", "engine", "model"])
+def test_foreign_or_damaged_state_is_refused(master, expected, damage, model):
     bearing = master().start()
     good = bearing.keep()
     data = bytearray(bearing.to_bytes(good))
@@ -88,9 +89,18 @@ def test_foreign_or_damaged_state_is_refused(master, expected, damage):
     elif damage == "version":
         data[:9] = b"something"
         reason = "these bytes are not a state that this version of fmu-bearing can read"
-    else:
-        data[20] ^= 1
-        reason = "the state belongs to another model"
+    else:  # the same words of both builds, whose magic has 20 and 16 bytes
+        start = (20 if data.startswith(b"fmu-bearing state") else 16) + (0 if damage == "engine" else 32)
+        data[start] ^= 1
+        reason = {
+            "engine": "the state was made by another version of the engine, {has}, and this FMU has {own}: "
+            "set it in the FMU that made it, or take a new one here",
+            "model": "the state belongs to another model, {has}, and this is {own}: its scene is another, or "
+            "was prepared by another version of fmu-bearing; set it in an FMU of that model, or take a new "
+            "one here",
+        }[damage]
+        own = {"engine": engine_digest().hex(), "model": resources.fingerprint(model)}[damage]
+        reason = reason.format(has=data[start : start + 8].hex(), own=own[:16])
     before = bearing.everything()
     answer, state = bearing.from_bytes(bytes(data))
     assert (state.value is None) == (answer == ERROR)

@@ -9,7 +9,7 @@ import pytest
 from . import toy
 from .master import ERROR, OK
 
-HEAD = 16 + 32 + 32  # magic, fingerprint, checksum
+HEAD = 16 + 3 * 32  # magic, hash of the kernels, fingerprint, checksum
 
 
 def test_continuing_after_restore_gives_the_same_bits(master):
@@ -65,7 +65,7 @@ def test_same_state_gives_the_same_bytes(master):
 
 
 @pytest.mark.parametrize(
-    "damage", ["flip", "phase", "short", "tiny", "empty", "long", "twice", "version", "model"]
+    "damage", ["flip", "phase", "short", "tiny", "empty", "long", "twice", "version", "kernels", "model"]
 )
 def test_foreign_or_damaged_state_is_refused(master, damage):
     one = master().start()
@@ -87,9 +87,19 @@ def test_foreign_or_damaged_state_is_refused(master, damage):
     elif damage == "version":
         data[14] ^= 3
         reason = "not a state that this version"
+    elif damage == "kernels":
+        data[16] ^= 1
+        reason = (
+            f"the state was made by another version of the engine, {data[16:24].hex()}, and this FMU has "
+            f"{toy.KERNELS[:16]}: set it in the FMU that made it, or take a new one here"
+        )
     else:
-        data[20] ^= 1
-        reason = "another model"
+        data[48] ^= 1
+        reason = (
+            f"the state belongs to another model, {data[48:56].hex()}, and this is "
+            f"{toy.CONTENTS.fingerprint[:16]}: its scene is another, or was prepared by another version of "
+            "fmu-bearing; set it in an FMU of that model, or take a new one here"
+        )
     before = one.everything()
     status, state = one.from_bytes(bytes(data))
     assert status == ERROR

@@ -336,11 +336,12 @@ def test_unknown_catalogue_names_are_all_reported_and_nothing_beneath_them():
     lines = problems(text=text)
     assert lines == [
         "bearing.catalogue = '7003D' is not in the catalogue; did you mean '7003C'? known: 7003C, 7009C, "
-        "58 from NSK-7900C on (`fmu-bearing scene catalogue`)",
+        "60 from NSK-7900C on (`fmu-bearing scene catalogue`)",
         "lubricant.catalogue = 3 is not in the catalogue; known: spindle-oil",
         "materials.inner_ring = 'gcr15' is not in the catalogue; did you mean 'GCr15'? "
         "known: GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
-        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
+        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK, "
+        "aluminium",
     ]
 
 

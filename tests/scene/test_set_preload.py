@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from fmu_bearing.scene import SceneError, read_scene_text
-from fmu_bearing.scene.nsk import modelled
+from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import new_scene
 from fmu_bearing.steady.statics import statics
@@ -109,10 +109,10 @@ def test_a_triplet_has_0_68_and_1_36_of_the_pair():
     """
     constant_angle = (2.0 / (1.0 + 2.0 ** (2.0 / 3.0))) ** 1.5
     assert constant_angle == pytest.approx(0.680, abs=5e-4)
-    for name in list(modelled())[::6]:
+    for name in list(sizes())[::6]:
         for line in ("extra light", "light", "medium", "heavy"):
             found = read("TBT", f'preload_class = "{line}"', bearing=name)
-            ratio = found.spindle.preload.preload_N / modelled()[name].preload[line].force
+            ratio = found.spindle.preload.preload_N / sizes()[name].preload[line].force
             assert constant_angle < ratio < 1.035 * constant_angle, (name, line)
     least = read("TBT", "preload_offset_um = 0.01")
     assert least.spindle.preload.preload_N == pytest.approx(

@@ -41,6 +41,7 @@ SIZE_U = _at()
 AT_ROWS = _at()  # ROW numbers per bearing
 AT_MASS = _at()  # n x n, without rings that are driven
 AT_INVERSE = _at()  # n x n: inverse of the mass with them
+AT_SLOW = _at()  # n x n: takes the fast motion from a shaft that bends, see rings/equations
 AT_STIFFNESS = _at()  # n x n, of the shaft and of springs at sliding rings
 AT_DAMPING = _at()
 AT_GYROSCOPIC = _at()  # per rad/s of the shaft's speed
@@ -173,7 +174,8 @@ LOAD = _bearing(PLANE)  # N, N m: of the inner ring on the balls, at the last co
 HELD_OFFSET = _bearing()  # m: that the bearing's quasi-static point was held with (fidelity rings)
 ANSWER = _bearing(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
 PER_BEARING = _bearing.next
-# fidelity rings, behind the inverse: numbers, then the vectors of history and B^-1 J_x by padded columns
+# fidelity rings, behind the inverse: numbers, then the vectors of history, and by padded columns B^-1 J_x and
+# what is added to the masses (`members.turned_at`)
 MARCH = 0  # numbers of the march: see history
 _march = Places(_H.NUMBERS)
 HELD_NOSE = _march(PLANE)  # N, N m: what the bearings' quasi-static points were held with: loads on the nose,
@@ -285,7 +287,7 @@ def line_size(count):
 def state_size(bearings, count, mics=0, lines=False):
     """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels, ``lines``."""
     own = S_HEAD + MOTION * padded_size(count) + bearings * PER_BEARING + count * padded_size(count)
-    own += MARCHED + (_H.VECTORS + count) * padded_size(count) + bearings * mics
+    own += MARCHED + (_H.VECTORS + 2 * count) * padded_size(count) + bearings * mics
     table = _L.MOST_LINES * bearings * line_size(count) + TAIL_MEAN + padded_size(count)
     return own + (table if lines else 0)
 

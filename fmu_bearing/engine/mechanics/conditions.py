@@ -117,6 +117,15 @@ def mount(p, u, speed, c):
 
 
 @kernel
+def regrow(p, u, speed, c):
+    """Let the races in ``c``, which are mounted, grow to another ``speed`` (rad/s)."""
+    for race in range(2):
+        held = C.RACES + race * C.RACE_SIZE
+        c[held + C.GROOVE_RADIUS] -= c[held + C.GROWTH]
+    mount(p, u, speed, c)
+
+
+@kernel
 def unmount(p, c):
     """Take the growth by fits out of ``c`` where the preload is that of the loose bearing."""
     if p[P.UNMOUNTED] == 0.0:

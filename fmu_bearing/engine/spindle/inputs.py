@@ -7,8 +7,8 @@ import math
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, C, P, Q, U, W
-from fmu_bearing.engine.mechanics.conditions import conditions
+from fmu_bearing.engine.layout import SP, C, P, Q, S, U, W
+from fmu_bearing.engine.mechanics.conditions import conditions, regrow
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import has_housing, hold_load
 
@@ -44,6 +44,18 @@ def bearing_conditions(p, u, b, speed, w):
     bearing_inputs(p, u, b, given)
     wb = members.work(p, w, b)
     conditions(members.parameters(p, b), given, speed, wb[W.CONDITIONS : W.CONDITIONS + C.SIZE])
+
+
+@kernel
+def grow(p, u, s, w, speed):
+    """Let the races of all bearings grow to ``speed`` (rad/s), which is reached within a communication step.
+
+    Growth that changed at communication points alone would be heard at their rate.
+    """
+    given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+    for b in range(members.count(p)):
+        bearing_inputs(p, u, b, given)
+        regrow(members.parameters(p, b), given, speed, members.state(p, s, b)[S.C : S.C + C.SIZE])
 
 
 @kernel

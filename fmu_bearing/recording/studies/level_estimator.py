@@ -46,6 +46,7 @@ class LevelEstimator:
         self.places, self.radiation_model, self.weighting = places, radiation_model, weighting
         self.duration, self.settle = duration, settle
         self.frequency: NDArray[np.float64] = np.empty(0)
+        self.restarts = 0  # of the run that restarted most
         self._circles: list[Circle] = []
 
     def spectrum(self, scene: Scene) -> NDArray[np.float64]:
@@ -59,6 +60,7 @@ class LevelEstimator:
             outputs=(),
             warn=False,
         )
+        self.restarts = max(self.restarts, made.restarts)
         blocks = Blocks(made.channels, RESOLUTION)
         self.frequency = blocks.frequency
         self._circles = self._circles or made.paths(self.places, self.radiation_model)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
+from fmu_bearing.cautions import restarted
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.weak import doubt, weakness
 from fmu_bearing.recording.channels.microphone_places import Places
@@ -251,9 +252,10 @@ def at_speed(recording: Recording) -> Scene:
 def doubt_of(recording: Recording) -> str:
     """Return why the levels of a recording are in doubt; empty: they are not, or nothing is known of it."""
     try:
-        return doubt(at_speed(recording))
+        found = doubt(at_speed(recording))
     except ValueError:
-        return ""
+        found = ""
+    return "; ".join(filter(None, (restarted(recording.restarts), found)))
 
 
 def _drawn(scene: Scene, flaws: Imperfections, fidelity: str) -> Scene:

@@ -24,7 +24,7 @@ from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
 from fmu_bearing.engine.spindle.follow import copy_rows
-from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
+from fmu_bearing.engine.spindle.inputs import bearing_conditions, grow, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
 from fmu_bearing.engine.spindle.sound import emit
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
@@ -97,6 +97,14 @@ def take_inputs(p, u, s, w, h):
     after = total_energy(p, s, w)
     if changed:
         s[S.WORK] += after - before
+
+
+@kernel
+def grow_races(p, u, s, w, speed):
+    """Let the races grow to ``speed`` (rad/s), the end of an internal step; what that does counts as work."""
+    before = total_energy(p, s, w)
+    grow(p, u, s, w, speed)
+    s[S.WORK] += total_energy(p, s, w) - before
 
 
 @kernel
@@ -261,8 +269,11 @@ def march(p, u, s, w, h):
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
+    growing = p[P.FITS] != 0.0 and s[S.SPEED_RATE] != 0.0
     while steps.unfinished(remaining, h, end):
         length = steps.even_length(remaining, min(s[S.STEP], longest))
+        if growing:
+            grow_races(p, u, s, w, s[S.SPEED] + length * s[S.SPEED_RATE])
         left -= 1.0
         if left < 0.0:
             return NOT_CONVERGED

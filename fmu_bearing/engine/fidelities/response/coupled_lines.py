@@ -13,6 +13,7 @@ from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.response.bearing import turned
 from fmu_bearing.engine.fidelities.response.lines import STILL, across, add_moves, counts_by, line_table
 from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
+from fmu_bearing.engine.fidelities.rings.equations import add_turned, keep_turned
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, L, P, S, T
@@ -52,6 +53,7 @@ def prepare_equations(p, s, w, speed):
     lanes = members.padded_size(p)
     size = members.coordinates(p) * lanes
     _, table = equations_at(p)
+    keep_turned(p, s, w)
     prepare_matrix(p, s, w, speed, L.MASS, 1.0, 0.0, 0.0, table + SP.LINE_MASS * size)
     prepare_matrix(p, s, w, speed, L.JV, 0.0, 1.0, 0.0, table + SP.LINE_DAMPING * size)
     prepare_matrix(p, s, w, speed, L.JX, 0.0, 0.0, 1.0, table + SP.LINE_STIFFNESS * size)
@@ -79,6 +81,8 @@ def prepare_matrix(p, s, w, speed, matrix, by_mass, by_rate, by_place, to):
     sign = 1.0 if by_mass != 0.0 else -1.0
     for i in range(n * n):
         ws[spare + i] += sign * ws[rings + i]
+    if by_mass != 0.0:
+        add_turned(p, members.set_state(p, s), ws, spare)
     keep_columns(ws, spare, n, members.padded_size(p), ws, to)
 
 

@@ -15,7 +15,7 @@ from fmu_bearing.engine.fidelities.condensed.transverse import (
 from fmu_bearing.engine.fidelities.rings import equations, predictor
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, SP, C, H, L, P, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, SP, C, H, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import shaft_forces
 
@@ -146,6 +146,9 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         moving = members.vector_at(lanes, SP.RATE)
         shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
         members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acc, ws, residual)
+    if equations.bends(p):
+        turned = members.turned_at(vectors, n, lanes)
+        members.add_columns(own, turned, lanes, n, -1.0, ws, acc, ws, residual)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
@@ -160,7 +163,7 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         if together:
             equations.pull_rings(p, b, lv, wb, ws, residual)
         else:
-            equations.rings_residual(lv, wb, ws, residual)
+            equations.rings_residual(pb, lv, wb, ws, residual)
     return True
 
 
@@ -172,6 +175,8 @@ def correct_once(p, s, w, own, ws, vectors, n, lanes, h):
     newmark = members.vector_at(lanes, SP.NEWMARK)
     residual = members.vector_at(lanes, SP.RESIDUAL)
     equations.answer(p, own, ws, members.inverse_at(vectors, n, lanes), residual, d)
+    if not members.has_shaft(p) and p[P.RIGID] != 0.0:
+        ws[d + Q.X] = ws[residual + Q.X]
     for i in range(0, lanes, FOUR):
         change = load(ws, d + i)
         store(ws, acc + i, load(ws, acc + i) + change)

@@ -18,7 +18,7 @@ from fmu_bearing.engine.fidelities.condensed.transverse import carry_transverse,
 from fmu_bearing.engine.fidelities.rings.predictor import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, SP, C, F, H, L, P, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, SP, C, F, H, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import add_driven, invert_set, shaft_matrix
 from fmu_bearing.engine.spindle.follow import keep_load
@@ -103,12 +103,17 @@ def copy_trial(ws, w):
 
 
 @kernel
-def rings_residual(lv, w, ws, residual):
-    """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`."""
+def rings_residual(p, lv, w, ws, residual):
+    """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`.
+
+    A rigidly held inner ring keeps its place: the balls' own masses do not pull it.
+    """
     times(lv, L.MASS, w, T.A, w, T.D)
     for i in range(L.N):
         ws[residual + i] = w[W.F + F.BODY + i] - w[T.D + i]
     ws[residual + L.N] = 0.0
+    if p[P.RIGID] != 0.0:
+        ws[residual + Q.X] = -w[T.A + Q.X]
 
 
 @kernel
@@ -247,6 +252,58 @@ def highest_mode(p, own, ws):
 
 
 @kernel
+def keep_turned(p, s, w):
+    """Store what takes turned masses from the fast motion of a shaft that bends.
+
+    Turned masses, the antisymmetric part A of a set's, damp one whirl of the rings' modes at the expense of
+    the other (`condensed.modes`), right at those modes' frequencies of some kHz. They would do the same at
+    any frequency, and make one whirl of the shaft's own modes grow, whose whirls fidelity `full` damps
+    equally. So A becomes R^T A R with R = (1 + M^-1 K / omega^2)^-1 of the free shaft (``SP.AT_SLOW``).
+    """
+    if not bends(p):
+        return
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    n = members.coordinates(p)
+    lanes = members.padded_size(p)
+    at = members.matrix(p)
+    product = at + n * n
+    slow = members.table(p, SP.AT_SLOW)
+    to = members.turned_at(members.history(p), n, lanes)
+    for i in range(n * n):
+        ws[at + i] = 0.0
+    for b in range(members.count(p)):
+        add_driven(p, b, members.condensed(members.state(p, s, b)), L.MASS, 1, L.COLUMN, ws, at)
+    for i in range(n):
+        for k in range(n):
+            total = 0.0
+            for j in range(n):
+                total += 0.5 * (ws[at + i * n + j] - ws[at + j * n + i]) * p[slow + k * lanes + j]
+            ws[product + i * n + k] = total
+    for k in range(n):
+        for i in range(lanes):
+            own[to + k * lanes + i] = 0.0
+        for i in range(n):
+            total = 0.5 * (ws[at + k * n + i] - ws[at + i * n + k])
+            for j in range(n):
+                total += p[slow + i * lanes + j] * ws[product + j * n + k]
+            own[to + k * lanes + i] = total
+
+
+@kernel
+def add_turned(p, own, ws, at):
+    """Add what `keep_turned` has stored to the set's masses at ``ws[at:]``, by rows."""
+    if not bends(p):
+        return
+    n = members.coordinates(p)
+    lanes = members.padded_size(p)
+    stored = members.turned_at(members.history(p), n, lanes)
+    for i in range(n):
+        for k in range(n):
+            ws[at + i * n + k] += own[stored + k * lanes + i]
+
+
+@kernel
 def renew(p, s, w):
     """Jacobians at the present state and the highest mode; the inverse is left that of the masses.
 
@@ -261,10 +318,12 @@ def renew(p, s, w):
     for b in range(members.count(p)):
         if not differentiate(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)):
             return False
+    keep_turned(p, s, w)
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, 0.0, 0.0, at)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         add_driven(p, b, lv, L.MASS, 1, L.COLUMN, ws, at)
+    add_turned(p, own, ws, at)
     if not invert_set(p, own, ws):
         return False
     stiffness_matrix(p, s, own, ws, at)
@@ -310,6 +369,7 @@ def factor_step(p, s, w, h):
         wb = members.work(p, w, b)
         step_matrix(members.condensed(members.state(p, s, b)), 0.5 * h, by_place, wb)
         add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, at)
+    add_turned(p, own, ws, at)
     first = at + n * n
     second = first + n * n
     stiffness_matrix(p, s, own, ws, second)
@@ -345,6 +405,8 @@ def restart_march(p, s, w):
             wb[T.A + i] = 0.0
         pull_rings(p, b, members.condensed(sb), wb, ws, residual)
     answer(p, own, ws, members.inverse(p), residual, found)
+    if not members.has_shaft(p) and p[P.RIGID] != 0.0:
+        ws[found + Q.X] = 0.0
     for i in range(lanes):
         own[members.history(p) + H.A0 * lanes + i] = ws[found + i]
     for b in range(members.count(p)):

@@ -26,6 +26,7 @@ from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import grow
 from fmu_bearing.engine.spindle.sound import emit
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
@@ -191,6 +192,7 @@ def take_inputs(p, u, s, w, h):
         b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1
         if b >= 0:
             hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+            equations.keep_turned(p, s, w)
             own[at + SP.STAGE] = b + 2.0
             if b + 1 == members.count(p):
                 own[at + SP.STAGE] = 0.0
@@ -231,9 +233,12 @@ def go_on(p, u, s, w, h, remaining, end):
     tolerance = steps.velocity_tolerance(p, speed)
     longest = longest_of_all(p, own, max(abs(s[S.SPEED]), abs(speed)))
     left = steps.most_attempts(h, longest, 100.0)
+    growing = p[P.FITS] != 0.0 and s[S.SPEED_RATE] != 0.0
     while steps.unfinished(remaining, h, end):
         cap = min(s[S.STEP], longest)
         length = steps.even_length(remaining, cap)
+        if growing:
+            grow(p, u, s, w, s[S.SPEED] + length * s[S.SPEED_RATE])
         error = try_step(p, s, w, length, tolerance)
         left -= 1.0
         if not (0.0 <= error <= 1.0):

@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-static const char MAGIC[16] = "fmu-bearing s 2";
+static const char MAGIC[16] = "fmu-bearing s 3";
 
 enum { ALL_PHASES = PHASE_INSTANTIATED | PHASE_INITIALISING | PHASE_STEPPING | PHASE_TERMINATED | PHASE_FAILED };
+enum { SHOWN = 8 }; /* bytes of a hash that a message gives */
 
 /* Bytes of a state of this instance. */
 size_t state_size(const Instance *it)
@@ -38,6 +39,7 @@ void state_take(Instance *it, State *state)
     char *at = (char *)(state + 1);
     instance_track(it);
     memcpy(state->magic, MAGIC, sizeof MAGIC);
+    memcpy(state->kernels, head->kernels, DIGEST_SIZE);
     memcpy(state->fingerprint, head->fingerprint, DIGEST_SIZE);
     memset(state->checksum, 0, DIGEST_SIZE);
     state->size = state_size(it);
@@ -81,14 +83,45 @@ void state_put_back(Instance *it, const State *state)
     instance_forget(it);
 }
 
+/* Append the first digits of a hash. */
+static void add_hash(Text *text, const unsigned char *hash)
+{
+    const char *digits = "0123456789abcdef";
+    int i;
+    for (i = 0; i < SHOWN; i++) {
+        text_add_bytes(text, &digits[hash[i] >> 4], 1);
+        text_add_bytes(text, &digits[hash[i] & 15], 1);
+    }
+}
+
+/* Whether two hashes differ; if so, append the reason: what the state has, what this is, and the way out. */
+static int differs(const unsigned char *has, const unsigned char *own, const char *reason, const char *is,
+                   const char *way_out, Text *why)
+{
+    if (memcmp(has, own, DIGEST_SIZE) == 0) return 0;
+    text_add(why, "state not taken: ", reason, NULL);
+    add_hash(why, has);
+    text_add(why, is, NULL);
+    add_hash(why, own);
+    text_add(why, way_out, NULL);
+    return 1;
+}
+
 /* Whether a block is a state of this model. */
 int state_belongs(const Instance *it, const State *state, Text *why)
 {
+    const ModelHead *head = it->model.head;
     const char *problem = NULL;
     if (memcmp(state->magic, MAGIC, sizeof MAGIC) != 0) {
         problem = "these bytes are not a state that this version of fmu-bearing can read";
-    } else if (memcmp(state->fingerprint, it->model.head->fingerprint, DIGEST_SIZE) != 0) {
-        problem = "the state belongs to another model";
+    } else if (differs(state->kernels, head->kernels, "the state was made by another version of the engine, ",
+                       ", and this FMU has ", ": set it in the FMU that made it, or take a new one here", why) ||
+               differs(state->fingerprint, head->fingerprint, "the state belongs to another model, ",
+                       ", and this is ",
+                       ": its scene is another, or was prepared by another version of fmu-bearing; set it in an FMU "
+                       "of that model, or take a new one here",
+                       why)) {
+        return 0;
     } else if (state->size != state_size(it)) {
         problem = "the state is damaged: its size is wrong";
     }

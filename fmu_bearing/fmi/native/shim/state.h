@@ -6,6 +6,7 @@
 
 typedef struct State {
     unsigned char magic[16];
+    unsigned char kernels[DIGEST_SIZE];     /* that made it: the reason where the fingerprint differs */
     unsigned char fingerprint[DIGEST_SIZE]; /* of the model it belongs to */
     unsigned char checksum[DIGEST_SIZE];    /* of all that follows; set in bytes only */
     uint64_t size;                          /* of the block in bytes */

@@ -154,13 +154,13 @@ def _creep(point: BearingPoint, own: Mounted) -> Iterator[Verdict]:
     if tight < needed:
         advice = (
             f"creep: the inner ring has {1e6 * tight:+.2f} um of interference at the operating point, below "
-            f"the {1e6 * needed:.2f} um that a radial load of {point.radial:.0f} N takes off (makers): take a "
-            "tighter class, or clamp the ring"
+            f"the {1e6 * needed:.2f} um that a radial load of {point.radial:.0f} N takes off (makers): take "
+            "a tighter class, or clamp the ring"
         )
     yield Verdict(
         "creep", "interference against creep, um", tight, f"{1e6 * tight:+.2f}", f"{1e6 * needed:.2f}",
-        "0.08 sqrt(d F / B): a maker's catalogue, Fits and internal clearances, eq. 9.1", "watch" if advice else "good",
-        advice,
+        "0.08 sqrt(d F / B): a maker's catalogue, Fits and internal clearances, eq. 9.1",
+        "watch" if advice else "good", advice,
     )  # fmt: skip
     torque = creep_torque(state.pressure, seat.seat_radius, seat.width, _FRICTION)
     friction = abs(point.friction_torque)

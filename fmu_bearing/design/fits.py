@@ -11,6 +11,7 @@ from fmu_bearing.design.mounted import RINGS, Mounted, mounted, preloads, taken,
 from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
+from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.fit import (
     SIDES,
@@ -245,13 +246,15 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
     """
     whole = fitted(scene)
     scenes, remarks = _scenes(whole)
-    known: dict[tuple[float | None, ...], OperatingPoint] = {}
-    columns = []
+    several = whole.fit is not None and bool(_tolerated(whole.fit))
+    columns, point = [], None
     for take in track(TAKES):
-        key = tuple(None if one is None else one.um for one in interferences(scenes[take]))
-        if key not in known:
-            known[key] = operating_point(scenes[take])
-        columns.append(column_at(whole, take, known[key]))
+        if several or point is None:
+            try:
+                point = operating_point(scenes[take])
+            except EngineError as problem:
+                raise EngineError(f"{problem}; at the {take} interference of the fits: give others") from None
+        columns.append(column_at(whole, take, point))
     return Fits(whole, tuple(columns), remarks)
 
 
@@ -309,7 +312,7 @@ def _probable(scene: Scene) -> dict[Take, tuple[float, float]]:
     Draws are sorted by what both races take from the clearance at the operating point, which angle, preload
     and all that follows from them depend on.
     """
-    one = scene.bearings()[0].scene
+    one = _without_own(scene).bearings()[0].scene
     found = mounted(one)
     draw = np.random.default_rng(SEED)
     drawn, taken_away = [], np.zeros(DRAWS)
@@ -327,6 +330,15 @@ def _probable(scene: Scene) -> dict[Take, tuple[float, float]]:
         return float(drawn[0][places].mean()), float(drawn[1][places].mean())
 
     return {"probable min": middle(order[:window]), "probable max": middle(order[-window:])}
+
+
+def _without_own(scene: Scene) -> Scene:
+    """Return a set whose bearings have no interference of their own; a single bearing as it is."""
+    if scene.spindle is None:
+        return scene
+    none = dict.fromkeys(f"{side.seat}_interference_um" for side in SIDES)
+    bearings = tuple(one.model_copy(update=none) for one in scene.spindle.bearing)
+    return scene.model_copy(update={"spindle": scene.spindle.model_copy(update={"bearing": bearings})})
 
 
 def _um(scene: Scene, side: Side, take: Take) -> float:

@@ -190,11 +190,13 @@ def test_as_many_draws_as_of_three_sigma_lie_beyond_the_probable_pairs(both):
         assert np.mean(sign * drawn > sign * own) == pytest.approx(0.00135, abs=0.0006)
 
 
-def test_a_set_has_each_bearing_and_its_own_interference():
+@pytest.mark.parametrize("number", [1, 2])
+def test_a_set_has_each_bearing_and_its_own_interference(number):
     fit = {"spindle.fit": {"bearing_class": "P4", "preload": "unmounted", "shaft": {"shaft_class": "js5"}}}
-    scene = read_scene(DB).replace(fit | {"spindle.bearing[2].shaft_interference_um": 3.0})
+    scene = read_scene(DB).replace(fit | {f"spindle.bearing[{number}].shaft_interference_um": 3.0})
     found = fits(scene)
-    first, second = ([column.bearings[k] for column in found.columns] for k in range(2))
+    first, second = ([column.bearings[k] for column in found.columns] for k in (2 - number, number - 1))
+    assert first[0].preloads["running"] < first[2].preloads["running"] < first[4].preloads["running"]
     assert [1e6 * one.seats["inner"].drawn for one in second] == pytest.approx([3.0] * 5)
     assert [1e6 * one.seats["inner"].drawn for one in first][::2] == pytest.approx([-4.0, 2.0, 8.0])
     assert first[2].preloads["drawing"] == second[2].preloads["drawing"] == 150.0
@@ -202,10 +204,22 @@ def test_a_set_has_each_bearing_and_its_own_interference():
     for one in (first[2], second[2]):  # without load both carry the same
         assert one.preloads["running"] == pytest.approx(first[2].preloads["running"], rel=1e-6)
     run = point(found.column("mean").point.scene).run
-    for k, one in enumerate((first[2], second[2]), start=1):
+    for k, one in zip((3 - number, number), (first[2], second[2]), strict=True):
         assert run.get(f"bearing[{k}].contact.free_angle") == pytest.approx(
             one.free_angles["running"], abs=1e-6
         )
+
+
+def test_a_probable_pair_is_of_the_classes_although_one_bearing_has_its_own():
+    fit = {"bearing_class": "P4", "preload": "unmounted"}
+    fit |= {"shaft": {"shaft_class": "js5"}, "housing": HOUSING}
+    scene = read_scene(DB).replace({"spindle.fit": fit})
+    own = scene.replace({"spindle.bearing[1].shaft_interference_um": 7.0})
+    pairs = [
+        fits(one).column("probable min").bearings[1].together.seats["inner"].interference
+        for one in (scene, own)
+    ]
+    assert pairs[0] == pairs[1] < 1e-6
 
 
 def test_a_set_of_one_is_the_single_bearing():

@@ -180,13 +180,7 @@ def test_a_solid_shaft_of_the_rings_material():
     assert started(scene).get("fit.inner.pressure") == pytest.approx(wanted, rel=1e-12)
 
 
-TOO_FAR = pytest.mark.xfail(
-    reason="the search of the axial place ends 20 um behind the drawing's", strict=True,
-    raises=AssertionError,
-)  # fmt: skip
-
-
-@pytest.mark.parametrize("um", [20.0, pytest.param(30.0, marks=TOO_FAR)])
+@pytest.mark.parametrize("um", [20.0, 30.0])
 def test_a_mounted_preload_is_carried_however_far_the_ring_goes_back(um):
     """7009C: 16 um and 34 um behind the place of balls that just touch as drawn."""
     tight = {"shaft": {"interference_um": um}, "preload": "mounted"}

@@ -12,7 +12,7 @@ from fmu_bearing.design.mounted import GROOVE, Mounted, mounted, taken
 from fmu_bearing.design.operating_point import BearingPoint
 from fmu_bearing.design.verdict import Judgement, Verdict, overall, unjudged
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.formulas.fits import creep_interference, creep_torque, mounting_kelvin
+from fmu_bearing.formulas.fits import REFERENCE, creep_interference, creep_torque, mounting_kelvin
 from fmu_bearing.scene.fit import shaft_partner
 
 #: Chance that a ring breaks at once which is good, and from which on the design is changed: assumed.
@@ -126,10 +126,27 @@ def _loss(own: Mounted, low: Mounted) -> Verdict:
             f"({least:+.1f} um at the operating point): take a tighter class, pair shafts and rings by their "
             "measured diameters, or clamp the ring along its axis"
         )
+    hot = _hotter(own)
+    if hot:
+        judgement = "watch" if judgement == "good" else judgement
+        advice = "; ".join(part for part in (advice, hot) if part)
     return Verdict(
         "fit_loss", label, margin if math.isfinite(margin) else None, text, f"{LOSS_MARGIN:g}, 1 change",
         source, judgement, advice,
     )  # fmt: skip
+
+
+def _hotter(own: Mounted) -> str:
+    """Return what an inner ring that is hotter than its shaft takes off its fit; empty: it is not."""
+    ring, shaft = own.temperatures("inner")
+    seat = own.seats["inner"].fit
+    taken = -2e6 * (seat.ring * (ring - REFERENCE) + seat.partner * (shaft - REFERENCE))
+    if ring - shaft <= 0.0 or taken <= 0.0:
+        return ""
+    return (
+        f"the inner ring is {ring - shaft:.3g} K hotter than the shaft that holds it, which takes {taken:.2g} um "
+        "off its fit: give both temperatures as they will be"
+    )
 
 
 def _over(at: float, speed: float) -> float:

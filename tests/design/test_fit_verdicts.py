@@ -113,6 +113,19 @@ def test_the_least_interference_decides_when_the_fit_lets_go(steel, ceramic):
     assert verdict.value is None and verdict.text == "never, never at min" and verdict.judgement == GOOD
 
 
+def test_a_ring_hotter_than_its_shaft_is_to_be_watched(steel):
+    """10 K on 17 mm of steel take 2.0 um off; a shaft as warm as its ring takes nothing."""
+    tight = {"mounting.fit.shaft.shaft_class": None, "mounting.fit.shaft.interference_um": 20.0}
+    given = changed(steel.bearings[0], **tight, **{"operation.inner_ring_temperature_degC": 50.0})
+    hot = changed(given, **{"mounting.fit.shaft.temperature_degC": 40.0})
+    verdict = found(hot)["fit_loss"]
+    assert (
+        verdict.judgement == WATCH and "10 K hotter" in verdict.advice and "takes 2 um off" in verdict.advice
+    )
+    even = found(changed(given, **{"mounting.fit.shaft.temperature_degC": 50.0}))["fit_loss"]
+    assert even.judgement == GOOD and not even.advice
+
+
 @pytest.mark.parametrize(("share", "judgement"), [(0.99, GOOD), (1.01, WATCH)])
 def test_creep(steel, share, judgement):
     """0.08 um sqrt(d F / B) on diameter, d and B in mm: here 1.705 um at speed."""

@@ -144,8 +144,8 @@ def _hotter(own: Mounted) -> str:
     if ring - shaft <= 0.0 or taken <= 0.0:
         return ""
     return (
-        f"the inner ring is {ring - shaft:.3g} K hotter than the shaft that holds it, which takes {taken:.2g} um "
-        "off its fit: give both temperatures as they will be"
+        f"the inner ring is {ring - shaft:.3g} K hotter than the shaft that holds it, which takes "
+        f"{taken:.2g} um off its fit: give both temperatures as they will be"
     )
 
 

@@ -8,7 +8,9 @@ GROOVE_RADIUS = _race()  # m: and its radius
 FREE = _race()  # m: distance of ball and groove centre without load
 ROLLING = _race()  # N m: rolling moment factor at the oil's viscosity
 INTERFERENCE = _race()  # m on the radius, + tight: of the ring on its shaft, in its housing
-GROWTH = _race()  # m: of the race by fit and rotation, in GROOVE_RADIUS
+GROWTH = _race()  # m: of the race by fit and rotation, in GROOVE_START
+GROWTH_RATE = _race()  # m/s: within a communication step of fidelity full
+GROOVE_START = _race()  # m: GROOVE_RADIUS at the state; in a step that grows it is that of a stage
 RACE_SIZE = _race.next
 
 _at = Places()
@@ -37,5 +39,5 @@ POCKET = _at()  # N/m^1.5: contact of ball and pocket
 NEUTRAL_Y = _at()  # m: where the pedestal's springs are free; zero but while a start is searched
 NEUTRAL_Z = _at()
 USED = _at.next  # places from here on are spare: nothing writes them
-_SPARE = _at(3)
+_SPARE = _at(1)
 SIZE = _at.next

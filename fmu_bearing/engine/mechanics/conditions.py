@@ -13,6 +13,7 @@ _SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
 _ROLLING = 0.66  # power of the viscosity in the rolling resistance,
 _SHEARED = 0.64  # and in its loss to inlet shear heating
+_STILL = 1e-15  # m: growth
 _ROUNDS = 8  # of Newton's method: 1e-12 after six
 
 
@@ -114,6 +115,7 @@ def mount(p, u, speed, c):
         c[held + C.INTERFERENCE] = tight
         c[held + C.GROWTH] = growth
         c[held + C.GROOVE_RADIUS] += growth
+        c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
 
 
 @kernel
@@ -123,6 +125,43 @@ def regrow(p, u, speed, c):
         held = C.RACES + race * C.RACE_SIZE
         c[held + C.GROOVE_RADIUS] -= c[held + C.GROWTH]
     mount(p, u, speed, c)
+
+
+@kernel
+def ramp(p, u, speed, now, c, h):
+    """Let the races in ``c`` grow, in the time ``h`` (s), from what they are in ``now`` to ``speed`` (rad/s).
+
+    Growth that changed at communication points alone would be heard at their rate.
+    """
+    regrow(p, u, speed, c)
+    for race in range(2):
+        held = C.RACES + race * C.RACE_SIZE
+        away = c[held + C.GROWTH] - now[held + C.GROWTH]
+        # rounding is not worth a rate, which would cost an evaluation each step
+        if abs(away) > _STILL:
+            c[held + C.GROWTH_RATE] = away / h
+            c[held + C.GROWTH] = now[held + C.GROWTH]
+            c[held + C.GROOVE_RADIUS] -= away
+            c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
+
+
+@kernel
+def grow_to(c, t):
+    """Let the races be those of the time ``t`` (s) after the state."""
+    for race in range(2):
+        held = C.RACES + race * C.RACE_SIZE
+        c[held + C.GROOVE_RADIUS] = c[held + C.GROOVE_START] + t * c[held + C.GROWTH_RATE]
+
+
+@kernel
+def grow_on(c, h):
+    """Move the races on with the state by the time ``h`` (s)."""
+    for race in range(2):
+        held = C.RACES + race * C.RACE_SIZE
+        grown = h * c[held + C.GROWTH_RATE]
+        c[held + C.GROWTH] += grown
+        c[held + C.GROOVE_START] += grown
+        c[held + C.GROOVE_RADIUS] = c[held + C.GROOVE_START]
 
 
 @kernel
@@ -157,6 +196,8 @@ def conditions(p, u, speed, c):
         c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
         c[held + C.INTERFERENCE] = 0.0
         c[held + C.GROWTH] = 0.0
+        c[held + C.GROWTH_RATE] = 0.0
+        c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
         c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
     if p[P.FITS] != 0.0:
         mount(p, u, speed, c)

@@ -4,7 +4,7 @@ from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
-from fmu_bearing.engine.layout import FOUR, STRIDE, F, P, Q, W, X, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, P, Q, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces, has_wavy_balls
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pockets
@@ -177,6 +177,19 @@ def ball_accelerations(p, y, w, f):
 
 
 @kernel
+def growth_power(p, c, w):
+    """Power (W) of races that grow: their rates times the balls' elastic loads along the radius."""
+    total = 0.0
+    for race in range(2):
+        rate = c[C.RACES + race * C.RACE_SIZE + C.GROWTH_RATE]
+        if rate != 0.0:
+            row = W.RACE + race * R.SIZE
+            for j in range(int(p[P.BALLS])):
+                total -= rate * w[row + R.ELASTIC + j] * w[row + R.COSA + j]
+    return total
+
+
+@kernel
 def add_up(p, c, y, angle, speed, speed_rate, w, f):
     """From the forces in the rows of ``w`` to the right-hand side ``f``."""
     ball_accelerations(p, y, w, f)
@@ -194,7 +207,7 @@ def add_up(p, c, y, angle, speed, speed_rate, w, f):
     f[F.HEAT_OUTER] = 0.5 * outer
     f[F.HEAT_OIL] = 0.5 * (inner + outer) + cage + drag
     f[F.TORQUE] = torque
-    f[F.WORK] = 0.0
+    f[F.WORK] = growth_power(p, c, w)
     body_equations(p, c, y, angle, speed, speed_rate, w, f)
     if p[P.MODES] != 0.0:
         flexure_equations(p, y, speed, speed_rate, w, f)

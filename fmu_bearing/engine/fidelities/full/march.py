@@ -16,15 +16,16 @@ from fmu_bearing.engine.fidelities.full.jacobians import (
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
-from fmu_bearing.engine.fidelities.full.step import runge_kutta_step
+from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, W, Y
+from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
+from fmu_bearing.engine.mechanics.conditions import grow_on, ramp
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
 from fmu_bearing.engine.spindle.follow import copy_rows
-from fmu_bearing.engine.spindle.inputs import bearing_conditions, grow, growth_rate, loads_differ, take_loads
+from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
 from fmu_bearing.engine.spindle.sound import emit
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
@@ -61,6 +62,10 @@ def inputs_differ(p, u, s, w, h):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[SP.U_SPEED]), w)
+        if p[P.FITS] != 0.0:
+            given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
+            fresh = wb[W.CONDITIONS : W.CONDITIONS + C.SIZE]
+            ramp(members.parameters(p, b), given, u[SP.U_SPEED], sb[S.C : S.C + C.SIZE], fresh, h)
         for i in range(C.USED):
             if wb[W.CONDITIONS + i] != sb[S.C + i]:
                 changed = True
@@ -100,19 +105,6 @@ def take_inputs(p, u, s, w, h):
 
 
 @kernel
-def grow_races(p, u, s, w, speed):
-    """Let the races grow to ``speed`` (rad/s), the end of an internal step; what that does counts as work.
-
-    The step begins with the accelerations of before: those of a jump of the races would be far larger.
-    """
-    grow(p, u, s, w, speed)
-    after = total_energy(p, s, w)
-    grow(p, u, s, w, s[S.SPEED])
-    s[S.WORK] += after - total_energy(p, s, w)
-    grow(p, u, s, w, speed)
-
-
-@kernel
 def probes(s):
     """Whether the next step measures the contraction of Newton's method."""
     return s[S.STEPS] % _PROBE == 0.0
@@ -149,6 +141,7 @@ def try_step(p, s, w, h, tableau, speed):
     """
     gamma = TABLEAUX[tableau + TAB.GAMMA]
     explicit = gamma == 0.0
+    grow_all(p, s, 0.0)
     for attempt in range(2):
         fresh = explicit or renew_jacobians(p, s, w, attempt == 1)
         if not explicit and not factor_all(p, s, w, h, gamma * h):
@@ -217,6 +210,8 @@ def accept_all(p, s, w, h, tableau):
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         accept(members.parameters(p, b), sb, members.work(p, w, b), h)
+        if p[P.FITS] != 0.0:
+            grow_on(sb[S.C : S.C + C.SIZE], h)
         control.follow_rings(sb, h)
         own[members.per_bearing(p, b) + SP.OFFSET] += h * own[members.per_bearing(p, b) + SP.OFFSET_RATE]
     if together:
@@ -274,11 +269,8 @@ def march(p, u, s, w, h):
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
     left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
-    growing = p[P.FITS] != 0.0 and s[S.SPEED_RATE] != 0.0
     while steps.unfinished(remaining, h, end):
         length = steps.even_length(remaining, min(s[S.STEP], longest))
-        if growing:
-            grow_races(p, u, s, w, s[S.SPEED] + length * s[S.SPEED_RATE])
         left -= 1.0
         if left < 0.0:
             return NOT_CONVERGED

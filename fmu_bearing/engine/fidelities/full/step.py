@@ -27,6 +27,7 @@ from fmu_bearing.engine.fidelities.full.stages import (
 from fmu_bearing.engine.fidelities.full.vectors import add_scaled
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, Q, S, W, Y
+from fmu_bearing.engine.mechanics.conditions import grow_to
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import solve
@@ -365,6 +366,14 @@ def step_error(p, s, w, h, tableau, speed):
 
 
 @kernel
+def grow_all(p, s, t):
+    """Let the races of all bearings be those of the time ``t`` (s) after the state."""
+    if p[P.FITS] != 0.0:
+        for b in range(members.count(p)):
+            grow_to(members.state(p, s, b)[S.C : S.C + C.SIZE], t)
+
+
+@kernel
 def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_speed):
     """One step of length ``h`` (s), from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
 
@@ -387,6 +396,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_spee
     iterations = 0.0
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
+        grow_all(p, s, t)
         if together:
             predict_shaft(p, s, w, h, gh, stage, tableau)
         predict_bearings(p, s, w, h, gh, stage, tableau)

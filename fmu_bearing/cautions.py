@@ -87,7 +87,7 @@ _RADIALLY_TIGHT = Caution(
     180.0 / math.pi,
     "fits leave no radial clearance, so that unloaded balls touch both races at ",
     " deg: preload and loads then follow from the fits more than from what is asked; give less interference "
-    "(mounting.fit), or a larger bearing.contact_angle_deg",
+    "({}), or a larger bearing.contact_angle_deg",
 )
 _ALWAYS = (*_SHOULDERS, _WAVES, _RESTARTS)
 _UNLOADED = Caution(
@@ -143,9 +143,13 @@ def cautions(model: Model) -> tuple[Caution, ...]:
     return (without, *_skids(model, fidelity), *_ALWAYS, *_fits(model.scene))
 
 
-def _fits(scene: Scene) -> tuple[Caution, ...]:
-    """Return the warnings about fits of one bearing: tight ones that let go, and no radial clearance."""
-    found = [] if scene.fit is None else [_RADIALLY_TIGHT]
+def _fits(scene: Scene, table: str = "mounting.fit") -> tuple[Caution, ...]:
+    """Return the warnings about fits of one bearing: tight ones that let go, and no radial clearance.
+
+    ``table``: of the file, in which they are given.
+    """
+    tight = replace(_RADIALLY_TIGHT, after=_RADIALLY_TIGHT.after.format(table))
+    found = [] if scene.fit is None else [tight]
     for race, (seat, one) in enumerate(zip(("shaft", "housing"), interferences(scene), strict=True)):
         if one is not None and one.um > 0.0:
             ring = ("inner", "outer")[race]
@@ -153,7 +157,7 @@ def _fits(scene: Scene) -> tuple[Caution, ...]:
             before = f"the fit of the {ring} ring lets go of the {seat} (gap now "
             after = (
                 " um on diameter): the ring is computed as centred and growing by itself; give more "
-                f"interference (mounting.fit.{seat}), less speed, or a cooler ring"
+                f"interference ({table}.{seat}), less speed, or a cooler ring"
             )
             found.append(Caution(place, 0.0, -1e6, before, after, decimals=2))
     return tuple(found)
@@ -199,7 +203,7 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
         replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
     ]  # fmt: skip
     for bearing in bearings:
-        for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene)):
+        for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene, "spindle.fit")):
             place = first_output(scene, bearing.number - 1) + one.index
             found.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
     if len({bearing.sign for bearing in bearings}) == 1:

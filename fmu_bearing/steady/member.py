@@ -63,10 +63,10 @@ class Member:
         self._force, self._w = np.zeros(_FREEDOMS), np.zeros(W.size(self.parameters))
 
     def warmer(self, rise: float) -> NDArray[np.float64]:
-        """Return inputs of standstill at 20 degC with an inner ring that is warmer by ``rise`` (K)."""
+        """Return inputs of standstill at 20 degC with inner ring and shaft warmer by ``rise`` (K)."""
         inputs = self.still.copy()
         inputs[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
-        inputs[U.INNER_T] += rise
+        inputs[[U.INNER_T, U.SHAFT_T]] += rise
         return inputs
 
     def carried(self, shift: float, inputs: NDArray[np.float64] | None = None) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.special import comb
 
 from fmu_bearing.compiled import call
-from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import STRIDE, P, S, U, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
@@ -53,16 +53,11 @@ class Run:
             self.p[getattr(P, name)] = value
         self.p.setflags(write=False)
         mounting = scene.mounting
-        self.u = np.array(
-            [
-                rpm * RPM,
-                mounting.preload_N if preload is None else preload,
-                mounting.pedestal_stiffness_N_m if pedestal is None else pedestal,
-                0.0,
-                0.0,
-                *[293.15] * (U.SIZE - U.OIL_T),
-            ]
-        )
+        self.u = np.full(U.SIZE, REFERENCE_TEMPERATURE)
+        self.u[U.SPEED] = rpm * RPM
+        self.u[U.PRELOAD] = mounting.preload_N if preload is None else preload
+        self.u[U.PEDESTAL] = mounting.pedestal_stiffness_N_m if pedestal is None else pedestal
+        self.u[[U.LOAD_Y, U.LOAD_Z]] = 0.0
         self.s = np.zeros(S.size(self.p))
         self.w = np.zeros(W.size(self.p))
         self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES])))

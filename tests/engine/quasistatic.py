@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import EQ, C, P, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.quasistatic import equilibrium
@@ -17,7 +18,7 @@ class Bearing:
         self.p = pack(scene, np.empty(0))
         for name, value in parameters.items():
             self.p[getattr(P, name)] = value
-        self.u = np.array([0.0, 0.0, 1e8, 0, 0, *[293.15] * (U.SIZE - U.OIL_T)])
+        self.u = np.array([0.0, 0.0, 1e8, 0, 0, *[REFERENCE_TEMPERATURE] * 5])
         self.c = np.zeros(C.SIZE)
         self.w = np.zeros(W.size(self.p))
         self.out = np.zeros(EQ.SIZE)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import pytest
 
+from fmu_bearing import statics
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.instance import Instance
@@ -143,6 +144,8 @@ def test_preloads_of_the_gates(gate):
     found = [loose.preload(cold=True), loose.preload(), tight.preload()]
     assert found == pytest.approx([*gate.unmounted, gate.mounted], rel=2e-3)
     assert tight.preload(cold=True) == pytest.approx(load, rel=1e-6)
+    at_rest = statics(mounted(gate.fit, **gate.bearing)).preloads["cold"]
+    assert at_rest == pytest.approx([gate.unmounted[0]], rel=2e-3)
     drawn = loose.place(load, cold=True, loose=True)
     spacer = [1e6 * (loose.place(load, cold) - drawn) for cold in (True, False)]
     assert spacer == pytest.approx(gate.spacer, abs=0.02)
@@ -166,3 +169,23 @@ def test_an_equilibrium_of_its_own(gate):
     angles = rest.angles()
     wanted = [math.degrees(getattr(state.balls[0], f"{ring}_angle")) for ring in ("inner", "outer")]
     assert angles == pytest.approx(wanted, abs=0.006 if large else 0.003)
+
+
+def test_a_solid_shaft_of_the_rings_material():
+    """E d (R^2 - a^2)/(2 a R^2), where the shaft is as wide as the ring."""
+    scene = mounted({"shaft": {"interference_um": 4.0, "long": False}})
+    a, r = 0.5e-3 * scene.bearing.bore_mm, 0.5e-3 * scene.bearing.inner_ring_outer_diameter_mm
+    modulus = 1e9 * scene.materials.inner_ring.youngs_modulus_GPa
+    wanted = modulus * 2e-6 * (r**2 - a**2) / (2.0 * a * r**2)
+    assert started(scene).get("fit.inner.pressure") == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize("um", [20.0, 30.0])
+def test_a_mounted_preload_is_carried_however_far_the_ring_goes_back(um):
+    """7009C: 16 um and 34 um behind the place of balls that just touch as drawn."""
+    tight = {"shaft": {"interference_um": um}, "preload": "mounted"}
+    scene = mounted(tight, name="7009C-steel", load=350.0)
+    run = started(scene)
+    angle = run.get("contact.inner.angle_mean")
+    load = scene.bearing.ball_count * run.get("contact.inner.load_mean") * math.sin(angle)
+    assert load == pytest.approx(350.0, rel=1e-3)

@@ -101,10 +101,15 @@ def take_inputs(p, u, s, w, h):
 
 @kernel
 def grow_races(p, u, s, w, speed):
-    """Let the races grow to ``speed`` (rad/s), the end of an internal step; what that does counts as work."""
-    before = total_energy(p, s, w)
+    """Let the races grow to ``speed`` (rad/s), the end of an internal step; what that does counts as work.
+
+    The step begins with the accelerations of before: those of a jump of the races would be far larger.
+    """
     grow(p, u, s, w, speed)
-    s[S.WORK] += total_energy(p, s, w) - before
+    after = total_energy(p, s, w)
+    grow(p, u, s, w, s[S.SPEED])
+    s[S.WORK] += after - total_energy(p, s, w)
+    grow(p, u, s, w, speed)
 
 
 @kernel

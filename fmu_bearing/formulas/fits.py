@@ -355,8 +355,10 @@ def mounting_kelvin(interference: float, seat_radius: float, expansion: float) -
 def creep_interference(seat_radius: float, width: float, radial_load: float) -> float:
     """Return the interference on the radius (m) below which a radial load (N) lets the inner ring creep.
 
-    0.08 sqrt(d F / B) um on diameter, with bore d and width B: named as NSK's (technical report E728g, 3.2)
-    by the specification of fits. The report was not read, so a verdict must call this limit assumed.
+    0.08 sqrt(d F / B) um on diameter, with bore d and width B (mm) and F (N), is what the load takes off the
+    interference: a maker's catalogue, 9 Fits and Internal Clearances, equation 9.1 (studylib.net/doc/8266084,
+    as text: its root sign is lost, but the factor 0.25 for kgf, which it gives too, is that of a root). The
+    specification of fits names NSK's technical report E728g, 3.2, which was not read.
     """
     return 0.5 * 0.08e-6 * math.sqrt(2.0 * seat_radius * radial_load / width)
 

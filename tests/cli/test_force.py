@@ -4,6 +4,7 @@ import hashlib
 
 import pytest
 
+import fmu_bearing.arrays  # noqa: F401  binds what tests here replace, before they do
 from fmu_bearing.instance import Instance
 
 #: Each command that writes: its words, and files that it would replace.
@@ -28,6 +29,8 @@ WRITING = {
     "stiffness, picture": (
         ("stiffness", "{scene}", "-o", "{folder}/k.csv", "--plot", "{folder}/k.png"), ["k.png"],
     ),
+    "fits": (("fits", "{scene}", "-o", "{folder}/f.csv"), ["f.csv"]),
+    "fits, picture": (("fits", "{scene}", "--plot", "{folder}/f.png"), ["f.png"]),
     "modes": (("modes", "{scene}", "-o", "{folder}"), ["modes.html"]),
     "modes, picture": (("modes", "{scene}", "--plot", "{folder}/c.png"), ["c.png"]),
     "tradeoff": (("tradeoff", "{scene}", "-o", "{folder}"), ["tradeoff.csv"]),

@@ -116,14 +116,14 @@ def build(
         If a library cannot be made, or bearings or a shaft are asked of a model that has no such choice.
     """
     source = script.read_bytes()
-    for usual, asked in (
-        (b"BEARINGS = 1", b"BEARINGS = %d" % bearings),
-        (b"SHAFT = False", b"SHAFT = %r" % shaft),
+    for usual, asked, words in (
+        (b"BEARINGS = 1", b"BEARINGS = %d" % bearings, "number of bearings"),
+        (b"SHAFT = False", b"SHAFT = %r" % shaft, "choice of a shaft"),
     ):
         if asked != usual:
             source, found = re.subn(rb"^%s$" % usual, asked, source, flags=re.M)
             if found != 1:
-                raise BuildError(f"{script.name} has no choice {usual.decode()}")
+                raise BuildError(f"{script.name} has no {words}")
     files, slave = _python_parts(script.stem, source)
     root = _complete(files["modelDescription.xml"], slave, flavour)
     if flavour == "native":

@@ -19,9 +19,12 @@ def quiet(scene):
 
 def wavy_balls(p, amplitudes, seed=5):
     """Parameters with ball waviness: amplitudes (m) of orders 1, 2, ... and random axes."""
-    axes = np.random.default_rng(seed).normal(size=(3, STRIDE))
+    balls = int(p[P.BALLS])
+    axes = np.empty((3, STRIDE))
+    # as many draws for all bearings, whatever the layout: their first balls have the same axes
+    axes[:, :balls] = np.random.default_rng(seed).normal(size=(3, max(24, balls)))[:, :balls]
+    axes[:, balls:] = axes[:, :1]
     axes /= np.linalg.norm(axes, axis=0)
-    axes[:, int(p[P.BALLS]) :] = axes[:, :1]
     rows = form_rows(amplitudes)
     longer = np.concatenate([p, rows, axes.ravel()])
     longer[P.BALL_WAVES], longer[P.AT_FORM], longer[P.AT_AXES] = len(amplitudes), p.size, p.size + rows.size

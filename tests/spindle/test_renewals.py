@@ -74,10 +74,10 @@ def test_all_are_renewed_where_newtons_method_fails(running, wrong):
 
 @pytest.mark.parametrize("wrong", [0, 1])
 def test_a_jacobian_that_does_not_fit_is_found(running, wrong):
-    """It is 15 % off: the increments that are left are its bearing's; that one is renewed, the other not."""
+    """It is 20 % off: the increments that are left are its bearing's; that one is renewed, the other not."""
     rng = np.random.default_rng(1)
     blocks = running.state(wrong)[S.JAC : S.FAC]
-    blocks *= 1.0 + 0.15 * rng.uniform(-1.0, 1.0, blocks.size)
+    blocks *= 1.0 + 0.2 * rng.uniform(-1.0, 1.0, blocks.size)
     running.state(wrong)[S.FACTOR_STEP] = 0.0
     running.s[S.STEPS] = 0.0  # measured in this step
     assert running.step(2e-5) == OK

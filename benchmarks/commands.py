@@ -21,10 +21,11 @@ COLUMNS = ("command", "single, CPU s", "DB, CPU s")
 _LIMIT = 300.0  # s of the clock
 _NEW = {"single": "", "DB": " --arrangement DB"}
 _BRIEF = "--duration 0.2 --no-directivity --no-wav"
+_FIT = {"bearing_class": "P4", "preload": "unmounted", "shaft": {"shaft_class": "js5"}}
 #: In this order: some read what one before them wrote.
 COMMANDS = (
     "scene new new.toml --bearing 7003C --speed 20000", "scene check S.toml", "scene show S.toml",
-    "info S.toml", "modes S.toml", "stiffness S.toml --output K.csv",
+    "info S.toml", "fits F.toml", "modes S.toml", "stiffness S.toml --output K.csv",
     "simulate S.toml --stop-time 0.1 --output run.csv", "plot run.csv",
     "realtime S.toml --step 1e-3 --duration 0.05", "build S.toml --output S.fmu", "validate S.fmu",
     f"sound S.toml {_BRIEF} --no-spread --output sound",
@@ -39,7 +40,7 @@ COMMANDS = (
 _HEAD = """Made by `python -m benchmarks.commands`: seconds of the processor (user and system, child processes
 too) for each command in a process of its own. S.toml is the example 7003C-spindle, 20,000 r/min, or 7003C-DB,
 15,000 r/min, with four microphones; `scene new` has `--arrangement DB` for the pair, and `report` of the pair
-runs for its sound alone. Sound is of radiation model `compact`; kernels were compiled before. Other work ran
+runs for its sound alone. F.toml is S.toml with js5 on P4. Sound is of radiation model `compact`; kernels were compiled before. Other work ran
 beside: caches and clock are shared, so that a figure is good to some 20 %. `warm-up` compiles once, and
 `identify` needs a measurement: they are left out.
 """
@@ -67,6 +68,8 @@ def rows(commands: tuple[str, ...] = COMMANDS) -> Iterator[list[str]]:
             folders[words].mkdir()
             brief = scene.replace({"sound.radiation_model": "compact"})
             (folders[words] / "S.toml").write_text(brief.to_toml(), encoding="utf-8")
+            table = "mounting.fit" if scene.spindle is None else "spindle.fit"
+            (folders[words] / "F.toml").write_text(brief.replace({table: _FIT}).to_toml(), encoding="utf-8")
             spent("info S.toml", folders[words])  # the first process reads the package from the disk
         for one in commands:
             more = {words: add if one.startswith("scene new") else "" for words, add in _NEW.items()}

@@ -248,6 +248,21 @@ def _studied(page):
     return pytest.param(page, marks=pytest.mark.heavy) if page == "fits.md" else page
 
 
+@pytest.mark.heavy
+def test_strength_decides_whether_a_ring_breaks():
+    """Chances on the page, at 60 degC and speed: mean and tightest pair, one digit each."""
+    text = " ".join((LEARN / "fits.md").read_text(encoding="utf-8").split())
+    assert "that is still 9e-7" in text
+    assert "with 600 MPa and 7 the mean pair breaks with 6e-4, and the tightest with 3 in 100" in text
+    ring = "materials__inner_ring__"
+    weak = {f"{ring}bending_strength_MPa": 600.0, f"{ring}weibull_modulus": 7.0}
+    chances = [
+        pair(take, kelvin=60.0, **more).seats["inner"].breaking["running"]
+        for take, more in (("max", {}), ("mean", weak), ("max", weak))
+    ]
+    assert [f"{chance:.0e}" for chance in chances] == ["9e-07", "6e-04", "3e-02"]
+
+
 @pytest.mark.parametrize("page", [_studied(page) for page in PAGES])
 def test_figures_of_a_page_are_those_of_the_package(page):
     text = " ".join((LEARN / page).read_text(encoding="utf-8").split())

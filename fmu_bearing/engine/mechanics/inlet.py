@@ -8,8 +8,8 @@ oil.
 
 from fmu_bearing.engine.choices import EHL_ALONE, FLOODED
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import splat
-from fmu_bearing.engine.layout import C, P
+from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.layout import FOUR, C, P, R
 from fmu_bearing.engine.mechanics.powers import exp2, log2
 
 REGIME_SPEED = -0.75  # power of viscosity times speed in M
@@ -30,47 +30,60 @@ def inlet_powers(law):
 
 
 @kernel
-def ehl_moment(p, c, race, speed, weight, pressing):
-    """Moment (N m) in EHL on four balls; ``speed`` and ``weight``: log2 of u^2 and Q."""
-    s, w, _, _ = inlet_powers(p[P.ROLLING_LAW])
-    factor = c[C.RACES + race * C.RACE_SIZE + C.ROLLING]
+def inlet_factors(p, c, race):
+    """Factors of the moments (N m) in EHL and of rigid surfaces, and of the weight of EHL against the other."""
+    if p[P.ROLLING] == 0.0:
+        return 0.0, 0.0, 0.0
+    held = C.RACES + race * C.RACE_SIZE
+    return c[held + C.ROLLING], c[held + C.RIGID], c[held + C.REGIME]
+
+
+@kernel
+def power_law(factor, s, w, speed, weight, pressing):
+    """Return a factor times u^s Q^w for four balls; ``speed`` and ``weight``: log2 of u^2 and of Q."""
     return factor * pressing * exp2(0.5 * s * speed - (1.0 - w) * weight)
 
 
 @kernel
-def rigid_moment(p, c, race, speed, weight, pressing):
-    """Moment (N m) of rigid surfaces in isoviscous oil, and the weight of EHL against its 1."""
-    _, _, s, w = inlet_powers(p[P.ROLLING_LAW])
-    held = C.RACES + race * C.RACE_SIZE
-    moment = c[held + C.RIGID] * pressing * exp2(0.5 * s * speed - (1.0 - w) * weight)
-    return moment, c[held + C.REGIME] * pressing * exp2(0.5 * REGIME_SPEED * speed)
+def inlet_moments(p, lanes, factors, row, w):
+    """Write the moment (N m) of the oil at the inlets of one race, against rolling, where ``ROLL`` stands.
 
-
-@kernel
-def inlet_moment(p, c, race, entrain, pressing):
-    """Moment (N m) of the oil at the inlet on four balls, against their rolling."""
-    speed = log2(entrain * entrain + SLOWEST_2)
-    weight = log2(pressing + LIGHTEST)
-    elastic = ehl_moment(p, c, race, speed, weight, pressing)
+    What ``p`` holds is read before the loops: in them it might have changed with the rows, for all LLVM knows.
+    """
+    elastic, rigid, regime = factors
+    es, ew, rs, rw = inlet_powers(p[P.ROLLING_LAW])
     if p[P.ROLLING_LAW] == EHL_ALONE:
-        return elastic
-    rigid, regime = rigid_moment(p, c, race, speed, weight, pressing)
-    return elastic + (rigid - elastic) / (1.0 + regime)
+        for j in range(0, lanes, FOUR):
+            u = load(w, row + R.ENTRAIN + j)
+            pressing = load(w, row + R.LOAD + j)
+            speed, weight = log2(u * u + SLOWEST_2), log2(pressing + LIGHTEST)
+            store(w, row + R.ROLL + j, power_law(elastic, es, ew, speed, weight, pressing))
+        return
+    for j in range(0, lanes, FOUR):
+        u = load(w, row + R.ENTRAIN + j)
+        pressing = load(w, row + R.LOAD + j)
+        speed, weight = log2(u * u + SLOWEST_2), log2(pressing + LIGHTEST)
+        moment = power_law(elastic, es, ew, speed, weight, pressing)
+        other = power_law(rigid, rs, rw, speed, weight, pressing)
+        heavy = power_law(regime, REGIME_SPEED, 1.0, speed, weight, pressing)
+        store(w, row + R.ROLL + j, moment + (other - moment) / (1.0 + heavy))
 
 
 @kernel
-def local_powers(p, c, race, entrain, pressing):
+def local_powers(law, factors, entrain, pressing):
     """Powers of speed and of load with which the moment grows at this speed (m/s) and load (N)."""
-    elastic_s, elastic_w, rigid_s, rigid_w = inlet_powers(p[P.ROLLING_LAW])
-    if p[P.ROLLING_LAW] == EHL_ALONE:
-        return splat(elastic_s), splat(elastic_w)
+    es, ew, rs, rw = inlet_powers(law)
+    if law == EHL_ALONE:
+        return splat(es), splat(ew)
+    elastic, rigid, regime = factors
     speed = log2(entrain * entrain + SLOWEST_2)
     weight = log2(pressing + LIGHTEST)
-    elastic = ehl_moment(p, c, race, speed, weight, pressing)
-    rigid, regime = rigid_moment(p, c, race, speed, weight, pressing)
-    share = 1.0 / (1.0 + regime)
-    moved = (rigid - elastic) * regime * share * share
-    by_speed = elastic_s * elastic + (rigid_s * rigid - elastic_s * elastic) * share - REGIME_SPEED * moved
-    by_load = elastic_w * elastic + (rigid_w * rigid - elastic_w * elastic) * share - moved
-    per_moment = 1.0 / (elastic + (rigid - elastic) * share + _STILL)
+    moment = power_law(elastic, es, ew, speed, weight, pressing)
+    other = power_law(rigid, rs, rw, speed, weight, pressing)
+    heavy = power_law(regime, REGIME_SPEED, 1.0, speed, weight, pressing)
+    share = 1.0 / (1.0 + heavy)
+    moved = (other - moment) * heavy * share * share
+    by_speed = es * moment + (rs * other - es * moment) * share - REGIME_SPEED * moved
+    by_load = ew * moment + (rw * other - ew * moment) * share - moved
+    per_moment = 1.0 / (moment + (other - moment) * share + _STILL)
     return by_speed * per_moment, by_load * per_moment

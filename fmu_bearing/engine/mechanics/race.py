@@ -9,7 +9,7 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, store, to_bits
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
-from fmu_bearing.engine.mechanics.inlet import inlet_moment
+from fmu_bearing.engine.mechanics.inlet import inlet_factors, inlet_moments
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.powers import ROUND
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
@@ -196,17 +196,11 @@ def rolling(p, c, lanes, race, w):
     """
     row = W.RACE + race * R.SIZE
     lost = p[P.RACES + race * P.RACE_SIZE + P.RACE_HYSTERESIS]
-    wet = p[P.ROLLING] != 0.0
-    if not wet and lost == 0.0:
-        for j in range(0, lanes, FOUR):
-            store(w, row + R.ROLL + j, 0.0)
-        return
+    inlet_moments(p, lanes, inlet_factors(p, c, race), row, w)
     for j in range(0, lanes, FOUR):
-        pressing = load(w, row + R.LOAD + j)
         turning = load(w, row + R.AM + j)
-        size = lost * pressing * load(w, row + R.HALF + j)
-        if wet:
-            size += inlet_moment(p, c, race, load(w, row + R.ENTRAIN + j), pressing)
+        size = load(w, row + R.ROLL + j)
+        size += lost * load(w, row + R.LOAD + j) * load(w, row + R.HALF + j)
         store(w, row + R.ROLL + j, -size * turning / math.sqrt(turning * turning + 1.0))
 
 

@@ -12,7 +12,7 @@ from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, K, P, R, W
-from fmu_bearing.engine.mechanics.inlet import LIGHTEST, SLOWEST_2, local_powers
+from fmu_bearing.engine.mechanics.inlet import LIGHTEST, SLOWEST_2, inlet_factors, local_powers
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 
 # steps of the differences: small against the laws' own scales (1e-4 m/s, 1 rad/s over a contact), large
@@ -133,6 +133,7 @@ def rolling_slopes(p, c, lanes, race, w):
     """Add the rolling resistance to the columns it depends on: a moment about the rolling axis."""
     row = W.RACE + race * R.SIZE
     lost = p[P.RACES + race * P.RACE_SIZE + P.RACE_HYSTERESIS]
+    law, factors = p[P.ROLLING_LAW], inlet_factors(p, c, race)
     first = W.CONTACT + K.TRACTION + (K.FORCES - 1) * STRIDE
     for j in range(0, lanes, FOUR):
         roll = load(w, row + R.ROLL + j)
@@ -146,7 +147,7 @@ def rolling_slopes(p, c, lanes, race, w):
         store(w, at, load(w, at) + roll * turning / ((square + 1e-30) * (square + 1.0)))
         solid = -lost * half * turning / math.sqrt(square + 1.0)  # of hysteresis, per load
         oil = roll - solid * pressing
-        by_speed, by_load = local_powers(p, c, race, speed, pressing)
+        by_speed, by_load = local_powers(law, factors, speed, pressing)
         at = first + K.ENTRAIN * K.TRACTION_SIZE + j
         store(w, at, load(w, at) + by_speed * oil * speed / (speed * speed + SLOWEST_2))
         at = first + K.LOAD * K.TRACTION_SIZE + j

@@ -31,7 +31,7 @@ def inlet_powers(law):
 
 @kernel
 def inlet_factors(p, c, race):
-    """Factors of the moments (N m) in EHL and of rigid surfaces, and of the weight of EHL against the other."""
+    """Factors of the moments (N m) in EHL and of rigid surfaces, and of the weight of EHL against those."""
     if p[P.ROLLING] == 0.0:
         return 0.0, 0.0, 0.0
     held = C.RACES + race * C.RACE_SIZE
@@ -40,7 +40,7 @@ def inlet_factors(p, c, race):
 
 @kernel
 def power_law(factor, s, w, speed, weight, pressing):
-    """Return a factor times u^s Q^w for four balls; ``speed`` and ``weight``: log2 of u^2 and of Q."""
+    """Return a factor times u^s Q^w of four balls; ``speed`` and ``weight``: log2 of u^2 and of Q."""
     return factor * pressing * exp2(0.5 * s * speed - (1.0 - w) * weight)
 
 
@@ -48,7 +48,7 @@ def power_law(factor, s, w, speed, weight, pressing):
 def inlet_moments(p, lanes, factors, row, w):
     """Write the moment (N m) of the oil at the inlets of one race, against rolling, where ``ROLL`` stands.
 
-    What ``p`` holds is read before the loops: in them it might have changed with the rows, for all LLVM knows.
+    What ``p`` holds is read before the loops: within them LLVM has to assume that storing a row changes it.
     """
     elastic, rigid, regime = factors
     es, ew, rs, rw = inlet_powers(p[P.ROLLING_LAW])

@@ -1,4 +1,4 @@
-"""Friction against values of others, nothing fitted: SKF's model of a 7210B, the heat of NASA's 35 mm bearing.
+"""Friction against others' values, nothing fitted: SKF's model of a 7210B, heat of NASA's 35 mm bearing.
 
 Constants of rolling, hysteresis and traction come from their own sources (`docs/theory.md`); what the sources
 of the values leave open is the catalogue's or an estimate from dimensions, and named here.
@@ -87,9 +87,9 @@ POINTS = [
 
 
 def skf(n, axial, nu, bore=50.0, outside=90.0):
-    """Rolling and sliding torque (N mm) of a single-row 72 B under axial load: SKF's catalogue of 2018, p. 65 ff.
+    """Rolling and sliding torque (N mm) of a single-row 72 B under axial load: SKF's catalogue of 2018.
 
-    Sliding coefficient 0.05, replenishment constant 6e-8.
+    Pages 65 ff.; sliding coefficient 0.05, replenishment constant 6e-8.
     """
     pitch = 0.5 * (bore + outside)
     rolling = 5.03e-7 * pitch**1.97 * (1.9e-12 * pitch**4 * n**2 + 1.97 * axial) ** 0.54
@@ -150,7 +150,7 @@ INLET, DENSITY, CONDUCTIVITY = 394.0, 860.0, 0.14  # K; kg/m3 and W/(m K), assum
 
 
 def ester(temperature):
-    """Viscosity (Pa s) of the rig's oil: 4 mm2/s at the inlet, falling as 27.6 and 5.1 mm2/s at 40 and 100 degC."""
+    """Viscosity (Pa s) of the rig's oil: 4 mm2/s at the inlet, the slope that of 27.6 at 40, 5.1 at 100 degC."""
 
     def double(nu):
         return math.log10(math.log10(nu + 0.7))
@@ -164,7 +164,7 @@ def ester(temperature):
 
 
 def heat(rpm, balls):
-    """Heat (W) with lands in the jet's oil, heated by its own shear; 5 kg/m3 of oil and air, traction 0.04."""
+    """Heat (W), the lands in the jet's oil, heated by its shear; 5 kg/m3 of oil and air, traction 0.04."""
     cage = {rule.key: float(rule.value) for rule in cage_estimates(35.0, 62.0, 14.0, NASA_35["ball"])}
     cage |= {
         "outside_diameter_mm": 46.5 + 0.38 * 7.14,
@@ -191,9 +191,9 @@ def heats():
 def test_heat_of_the_35_mm_bearing(heats):
     """The goal, 0.78 to 1.22, is missed by 0.02 at the two high speeds.
 
-    The settled cage whirls at 0.6 to 0.7 of its clearance, so that the lands take 63 to 300 W where they would
-    take 47 to 227 W about the middle; with these the ratios are 0.81, 1.06, 1.18 and 1.18. Clearance and width
-    of the lands are estimates.
+    The settled cage whirls at 0.6 to 0.7 of its clearance, so that the lands take 63 to 300 W where they
+    would take 47 to 227 W about the middle; with these the ratios are 0.81, 1.06, 1.18 and 1.18. Clearance
+    and width of the lands are estimates.
     """
     ratios = heats["GCr15"] / list(MEASURED.values())
     assert ratios == pytest.approx([0.85, 1.13, 1.24, 1.23], abs=0.01)

@@ -150,7 +150,7 @@ INLET, DENSITY, CONDUCTIVITY = 394.0, 860.0, 0.14  # K; kg/m3 and W/(m K), assum
 
 
 def ester(temperature):
-    """Viscosity (Pa s) of the rig's oil: 4 mm2/s at the inlet, the slope that of 27.6 at 40, 5.1 at 100 degC."""
+    """Viscosity (Pa s) of the rig's oil: 4 mm2/s at the inlet, with the slope of 27.6 at 40, 5.1 at 100."""
 
     def double(nu):
         return math.log10(math.log10(nu + 0.7))
@@ -173,9 +173,7 @@ def heat(rpm, balls):
     }
     gamma = 7.14 * math.cos(math.radians(24.0)) / 46.5
     radius = 0.5e-3 * cage["bore_mm"] - 1e-3 * cage["land_clearance_mm"]
-    slide = (
-        0.5 * (1.0 + gamma) * radius * rpm * RPM
-    )  # the cage turns at half of 1 - gamma of the shaft's speed
+    slide = 0.5 * (1.0 + gamma) * radius * rpm * RPM  # the cage turns at half of 1 - gamma of the speed
     lands = sheared_viscosity(ester, INLET, slide, CONDUCTIVITY)
     table = "[bearing.cage]\n" + "\n".join(f"{key} = {value}" for key, value in cage.items())
     oil = f'supply = "jet"\ndensity_kg_m3 = {DENSITY}\ntraction_max = 0.04\nland_viscosity_Pa_s = {lands}'

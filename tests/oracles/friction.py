@@ -18,7 +18,7 @@ from scipy.optimize import brentq
 from .hertz import Contact
 
 LAWS = ("houpert-1987-ehl", "starved", "flooded")
-_CHANGE = 6.6  # value of M at which the two regimes count alike
+_CHANGE = 6.6  # value of M at which the two regimes weigh the same
 
 
 @dataclass(frozen=True)

@@ -257,8 +257,8 @@ def test_supply_sets_the_rolling_forces(scene, race, supply, law, powers):
     given = {"lubricant.supply": supply, "lubricant.rolling_law": None}
     p = pack(bare.replace(given | {"lubricant.replenishment_constant": None}), NO_SOUND)
     assert p[P.ROLLING_LAW] == {"starved": 1, "flooded": 2}[law]
-    starved, stands = packed()[P.STARVATION], {"starved": 6e-8, "flooded": 3e-8}[law]
-    assert p[P.STARVATION] == pytest.approx(starved * stands / 6e-8, rel=1e-12)
+    starved, constant = packed()[P.STARVATION], {"starved": 6e-8, "flooded": 3e-8}[law]
+    assert p[P.STARVATION] == pytest.approx(starved * constant / 6e-8, rel=1e-12)
     block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
     eta, u, load = 0.02, 8.0, 100.0
     contact, rx = rolling_contact(bare, race, load)

@@ -27,6 +27,8 @@ SHARES = (0.9, 1.0, 1.1)  # of the speed: a diagram of modes needs no more to be
 HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, some minutes of two processors
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
+#: What the examples' oil has beside the catalogue's, so that the papers' results stay.
+OWN_ROLLING = {"supply": "oil-air", "rolling_law": "houpert-1987-ehl", "replenishment_constant": 6e-8}
 
 
 def pytest_collection_modifyitems(items):

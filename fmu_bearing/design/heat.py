@@ -7,7 +7,7 @@ from typing import Any, Protocol
 #: Where power is lost, and what the loss warms, in words.
 ARISES = {
     "sliding": "sliding in the contacts",
-    "rolling": "rolling resistance of the oil",
+    "rolling": "rolling resistance",
     "cage": "cage: pockets and lands",
     "drag": "drag of oil and air on the balls",
 }

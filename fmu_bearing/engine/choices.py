@@ -23,6 +23,12 @@ ViscosityLaw = Literal["vogel", "walther"]
 VISCOSITY_LAWS: tuple[ViscosityLaw, ...] = get_args(ViscosityLaw)
 VOGEL, WALTHER = range(len(VISCOSITY_LAWS))
 
+#: How much oil the inlets of the contacts find: Houpert's force of 1987 alone, which is that of EHL; the same
+#: with the change to rigid surfaces; flooded.
+RollingLaw = Literal["houpert-1987-ehl", "starved", "flooded"]
+ROLLING_LAWS: tuple[RollingLaw, ...] = get_args(RollingLaw)
+EHL_ALONE, STARVED, FLOODED = range(len(ROLLING_LAWS))
+
 RaceControl = Literal["shared", "outer", "inner"]
 RACE_CONTROLS: tuple[RaceControl, ...] = get_args(RaceControl)
 SHARED_CONTROL, OUTER_CONTROL, INNER_CONTROL = range(len(RACE_CONTROLS))

@@ -4,16 +4,20 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ellipe
 
-from fmu_bearing.engine.choices import TRACTION_LAWS, VISCOSITY_LAWS
+from fmu_bearing.engine.choices import ROLLING_LAWS, TRACTION_LAWS, VISCOSITY_LAWS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas.hertz import PointContact, effective_modulus, point_contact
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.lubricant import Lubricant
+from fmu_bearing.scene.material import Material
 
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
 _SHEAR_HEATING = 1.84e-9
 _ANGULAR_CONTACT_KZ = 4.4
+_CHANGE = 6.6  # M at which rigid surfaces and EHL weigh alike (Biboulet and Houpert 2010, eq. 32)
 
 
 def oil(scene: Scene, p: NDArray[np.float64]) -> None:
@@ -32,8 +36,9 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.TRACTION_FLOOR] = values.traction_floor
     mean, bore, outside = 1e3 * b.pitch_diameter, 1e3 * b.bore, 1e3 * b.outside_diameter
     p[P.SHEAR_HEATING] = _SHEAR_HEATING * mean**1.28
+    p[P.ROLLING_LAW] = ROLLING_LAWS.index(scene.lubricant.law_of_rolling)
     p[P.STARVATION] = (
-        values.replenishment_constant
+        scene.lubricant.replenishment
         * (bore + outside)
         * math.sqrt(_ANGULAR_CONTACT_KZ / (2.0 * (outside - bore)))
     )
@@ -74,7 +79,11 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         block[P.RACE_HALF_LENGTH] = hertz.half_length
         block[P.RACE_HALF_WIDTH] = hertz.half_width
         block[P.RACE_PRESSURE] = hertz.pressure
-        films(block, hertz, rx, ry, modulus, si(scene.lubricant).pressure_viscosity)
+        inlet(block, hertz, rx, ry, modulus, scene.lubricant)
+        films(block, hertz, rx, modulus, si(scene.lubricant).pressure_viscosity)
+        if scene.fidelity.terms.rolling_hysteresis:
+            lost = _lost(material, scene.materials.balls)
+            block[P.RACE_HYSTERESIS] = 3.0 / 16.0 * lost / hertz.ellipticity
         reach = (conformity - 0.5) * d
         block[P.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
         block[P.RACE_GROOVE_X] = -side * reach * math.sin(angle)
@@ -105,23 +114,49 @@ def _surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
     return rx, ry, modulus
 
 
-def films(
-    block: NDArray[np.float64], hertz: PointContact, rx: float, ry: float, modulus: float, alpha: float
-) -> None:
-    """Write rolling resistance and films of one race, as factors at viscosity 1 Pa s.
+def _lost(one: Material, other: Material) -> float:
+    """Share of the elastic work of two bodies in contact that is lost: each yields as its compliance."""
+    yields = [(1.0 - body.poisson_ratio**2) / body.youngs_modulus_GPa for body in (one, other)]
+    return (one.loss * yields[0] + other.loss * yields[1]) / sum(yields)
 
-    Rolling resistance: Houpert (1987), over the ratio of the radii R_y/R_x (Balan, Houpert, Tufescu and Olaru
-    2015, doi 10.3390/lubricants3020222). Films: Hamrock and Dowson (1977), over the ellipticity, so that with
-    the entrainment speed u (m/s) and the load Q (N) the minimum film is
-    ``RACE_FILM (eta u)^0.68 Q^-0.073`` and the central one ``RACE_CENTRAL_FILM (eta u)^0.67 Q^-0.067`` (m).
-    ``rx``, ``ry`` in m, ``modulus`` E' in Pa, ``alpha`` in 1/Pa.
+
+def inlet(
+    block: NDArray[np.float64], hertz: PointContact, rx: float, ry: float, modulus: float, oil: Lubricant
+) -> None:
+    """Write rolling resistance by the oil at the inlet of one race, as factors at viscosity 1 Pa s.
+
+    Houpert (1987) over the ratio of the radii R_y/R_x (Balan, Houpert, Tufescu and Olaru 2015, doi
+    10.3390/lubricants3020222), and Biboulet and Houpert (2010, doi 10.1243/13506501JET791), eqs. 28 to 32.
+    ``rx``, ``ry`` in m, ``modulus`` E' in Pa.
+    """
+    speed, load, ratio = modulus * rx, modulus * rx**2, ry / rx
+    kappa = 1.0 / hertz.ellipticity
+    beta = 4.0 / math.pi * float(ellipe(1.0 - kappa**2)) / (1.0 + 1.0 / ratio)
+    double = 2.0 / speed  # their U at 1 Pa s and 1 m/s
+    if oil.law_of_rolling == "flooded":
+        axis = 2.0 * hertz.half_length * hertz.stiffness ** (-1.0 / 3.0)  # m/N^(1/3)
+        elastic = 1.8 * beta**-0.25 * speed * axis * double**0.75
+        rigid = 0.77 * beta ** (-1.0 / 3.0) * kappa**0.12 * speed * axis * double ** (2.0 / 3.0)
+    else:
+        material = si(oil).pressure_viscosity * modulus
+        elastic = 2.86 * load * ratio**0.348 * material**0.022 * speed**-0.66 * load**-0.47
+        rigid = 0.835 * load * ratio**0.358 * double**0.636 * load**-0.364
+    # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed
+    block[P.RACE_ROLLING] = 2.0 * rx * elastic
+    block[P.RACE_RIGID] = 2.0 * rx * rigid
+    block[P.RACE_REGIME] = beta**0.25 * kappa / load * double**-0.75 / _CHANGE
+
+
+def films(block: NDArray[np.float64], hertz: PointContact, rx: float, modulus: float, alpha: float) -> None:
+    """Write films of one race, as factors at viscosity 1 Pa s.
+
+    Hamrock and Dowson (1977), over the ellipticity, so that with the entrainment speed u (m/s) and the load
+    Q (N) the minimum film is ``RACE_FILM (eta u)^0.68 Q^-0.073`` and the central one
+    ``RACE_CENTRAL_FILM (eta u)^0.67 Q^-0.067`` (m). ``rx`` in m, ``modulus`` E' in Pa, ``alpha`` in 1/Pa.
     """
     k = hertz.ellipticity
     material = alpha * modulus
     speed, load = modulus * rx, modulus * rx**2
-    force = 2.86 * load * (ry / rx) ** 0.348 * material**0.022 * speed**-0.66 * load**-0.47
-    # the moment pair that dissipates the inlet force on both surfaces at the entrainment speed
-    block[P.RACE_ROLLING] = 2.0 * rx * force
     block[P.RACE_FILM] = 3.63 * rx * speed**-0.68 * material**0.49 * load**0.073 * (1.0 - math.exp(-0.68 * k))
     block[P.RACE_CENTRAL_FILM] = (
         2.69 * rx * speed**-0.67 * material**0.53 * load**0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))

@@ -31,6 +31,11 @@ class Terms(Part):
         description="Reduction of rolling resistance by inlet shear heating and starvation; false: factor 1.",
         examples=[True],
     )
+    rolling_hysteresis: bool = Field(
+        default=True,
+        description="Rolling resistance by the elastic work that materials do not give back.",
+        examples=[True],
+    )
     contact_damping: bool = Field(
         default=True, description="Damping in the contacts of balls and races.", examples=[True]
     )

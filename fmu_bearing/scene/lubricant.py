@@ -4,11 +4,21 @@ from typing import Literal
 
 from pydantic import Field
 
-from fmu_bearing.engine.choices import TractionLaw, ViscosityLaw
+from fmu_bearing.engine.choices import RollingLaw, TractionLaw, ViscosityLaw
 from fmu_bearing.scene.base import Part
 
 #: Classes of contamination by ISO 281, the cleanest first.
 Cleanliness = Literal["extreme", "high", "normal", "slight", "typical", "severe"]
+
+
+#: How oil comes to the contacts.
+Supply = Literal["oil-air", "grease", "jet", "bath"]
+# Few drops and close conformity: a meniscus at the contact (Balan, Houpert, Tufescu and Olaru 2015); jet and
+# bath flood it. Replenishment constants of SKF's friction model.
+_ROLLING_LAWS: dict[Supply, RollingLaw] = {
+    "oil-air": "starved", "grease": "starved", "jet": "flooded", "bath": "flooded",
+}  # fmt: skip
+_REPLENISHMENT: dict[Supply, float] = {"oil-air": 6e-8, "grease": 6e-8, "jet": 3e-8, "bath": 3e-8}
 
 
 class Lubricant(Part):
@@ -72,11 +82,26 @@ class Lubricant(Part):
     land_viscosity_Pa_s: float = Field(
         ge=0, le=2, examples=[0.006], description="Effective viscosity between cage and lands, Pa s."
     )
-    replenishment_constant: float = Field(
+    supply: Supply = Field(
+        default="oil-air",
+        examples=["jet"],
+        description="How oil comes to the contacts; gives the law of rolling resistance and the "
+        "replenishment constant.",
+    )
+    rolling_law: RollingLaw | None = Field(
+        default=None,
+        examples=["starved"],
+        description="Law of rolling resistance: Houpert's EHL force of 1987 alone, his forces with the "
+        "change to rigid surfaces, or those of a flooded inlet (absent: starved with oil-air or grease, "
+        "flooded with jet or bath).",
+    )
+    replenishment_constant: float | None = Field(
+        default=None,
         ge=0,
         le=1e-6,
         examples=[6e-8],
-        description="Replenishment constant K_rs of SKF's friction model; 0: no starvation.",
+        description="Replenishment constant K_rs of SKF's friction model; 0: no starvation (absent: 6e-8 "
+        "with oil-air or grease, 3e-8 with jet or bath).",
     )
     replenishment_held: bool = Field(
         default=True,
@@ -95,3 +120,14 @@ class Lubricant(Part):
         examples=["high"],
         description="Contamination by ISO 281, for the modified life of steel bearings (absent: high).",
     )
+
+    @property
+    def law_of_rolling(self) -> RollingLaw:
+        """Law of rolling resistance: the one given, or that of the supply."""
+        return self.rolling_law or _ROLLING_LAWS[self.supply]
+
+    @property
+    def replenishment(self) -> float:
+        """Replenishment constant: the one given, or that of the supply."""
+        given = self.replenishment_constant
+        return _REPLENISHMENT[self.supply] if given is None else given

@@ -6,6 +6,13 @@ from pydantic import Field
 
 from fmu_bearing.scene.base import Part
 
+#: Loss of bearing steel: Houpert (1999), as in Balan, Houpert, Tufescu and Olaru (2015), eq. 9, on a circular
+#: contact. Sources have 0.003 to 0.05.
+_STEEL_LOSS = 0.021
+#: Steels of bearings, and ceramics, by density (kg/m3) and Young's modulus (GPa).
+_STEEL_DENSITY, _STEEL_MODULUS = (7000.0, 8500.0), (180.0, 230.0)
+_CERAMIC_DENSITY, _CERAMIC_MODULUS = 6500.0, 180.0
+
 
 class Material(Part):
     """An isotropic elastic material."""
@@ -31,11 +38,22 @@ class Material(Part):
         examples=[12.0],
         description="Weibull modulus of the strength: the larger, the less it scatters (absent: not judged).",
     )
+    hysteresis_loss: float | None = Field(
+        default=None,
+        ge=0,
+        le=1,
+        examples=[0.021],
+        description="Share of the elastic work of a rolling contact that the material does not give back "
+        "(absent: 0.021 for steel, 0 for others).",
+    )
 
+    @property
+    def loss(self) -> float:
+        """Share of the elastic work that is lost: the one given, or that of steel, or none."""
+        if self.hysteresis_loss is not None:
+            return self.hysteresis_loss
+        return _STEEL_LOSS if _is_steel(self) else 0.0
 
-#: Steels of bearings, and ceramics, by density (kg/m3) and Young's modulus (GPa).
-_STEEL_DENSITY, _STEEL_MODULUS = (7000.0, 8500.0), (180.0, 230.0)
-_CERAMIC_DENSITY, _CERAMIC_MODULUS = 6500.0, 180.0
 
 Kind = Literal["steel", "hybrid", "full ceramic", "other"]
 

@@ -102,9 +102,27 @@ def race(p, c, k, wave):
         stiffness=block[P.RACE_STIFFNESS],
         half_length=block[P.RACE_HALF_LENGTH],
         profile=block[P.RACE_PROFILE_RADIUS],
-        rolling=held[3] if p[P.ROLLING] else 0.0,
+        rolling=rolling(p, block, held),
         wave=wave(c[C.OVERSIZE_SCALE] * table) if p[P.WAVINESS] else lambda angle: (0.0, 0.0),
     )
+
+
+def rolling(p, block, held):
+    """Moment against rolling, over the powers that the papers print."""
+    powers = {0: (0.66, 0.47), 1: (0.66, 0.47, 0.636, 0.364), 2: (3 / 4, 1 / 3, 2 / 3, 1 / 3)}
+    powers = powers[int(p[P.ROLLING_LAW])]
+
+    def moment(entrainment, load, half_length):
+        solid = block[P.RACE_HYSTERESIS] * load * half_length
+        if not p[P.ROLLING]:
+            return solid
+        elastic = held[C.ROLLING] * entrainment ** powers[0] * load ** powers[1]
+        if len(powers) == 2:
+            return solid + elastic
+        rigid = held[C.RIGID] * entrainment ** powers[2] * load ** powers[3]
+        return solid + elastic + (rigid - elastic) / (1.0 + held[C.REGIME] * load * entrainment**-0.75)
+
+    return moment
 
 
 def pick(kind, p, prefix, names):

@@ -88,7 +88,7 @@ def test_losses_by_source(case):
     heats = f[F.HEAT : F.HEAT + 3].sum()
     assert contacts + rolling + cage + drag + dampers == pytest.approx(heats, rel=1e-12)
     for lost, change in (
-        (rolling, {"races": tuple(replace(race, rolling=0.0) for race in one.setup.races)}),
+        (rolling, {"races": tuple(replace(race, rolling=lambda *_: 0.0) for race in one.setup.races)}),
         (cage, {"pocket": None, "land": None}),
         (drag, {"drag": 0.0}),
     ):

@@ -203,6 +203,22 @@ def test_with_and_without(scene, parameters):
     agree(shaken(scene("7003C-spindle"), WAVINESS=0.0, **parameters))
 
 
+@pytest.mark.parametrize(
+    ("law", "hysteresis"),
+    [("starved", False), ("flooded", False), ("houpert-1987-ehl", True), ("flooded", True)],
+)
+@pytest.mark.parametrize("preload", [500.0, 20.0])
+def test_rolling_laws(scene, law, hysteresis, preload):
+    """Heavy and light contacts: EHL and the change to rigid surfaces; hysteresis follows load and ellipse.
+
+    Viscosity and loss are large, so that rolling counts beside traction and contact.
+    """
+    changes = {"lubricant.rolling_law": law, "fidelity.terms.rolling_hysteresis": hysteresis}
+    changes |= {"lubricant.viscosity_Pa_s": 1.0, "fidelity.terms.rolling_reduction": False}
+    changes |= {"lubricant.traction_max": 1e-3, "materials.inner_ring.hysteresis_loss": 1.0}
+    agree(shaken(scene("7003C-spindle").replace(changes | {"mounting.preload_N": preload}), WAVINESS=0.0))
+
+
 def test_cage_on_its_dry_stop(scene):
     agree(shaken(scene("7003C-spindle"), cage_offset=1.02, WAVINESS=0.0))
 

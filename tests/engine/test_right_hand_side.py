@@ -8,7 +8,18 @@ import pytest
 from fmu_bearing.engine.layout import P, Q, Y
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.energy import stored_energy
-from tests.engine.states import BUMPS, LIFTED, ROUNDING, SCENES, SPEED_RATE, TRAPPED, agree, harmonics, off
+from tests.engine.states import (
+    BUMPS,
+    LIFTED,
+    ROUNDING,
+    SCENES,
+    SPEED_RATE,
+    TRAPPED,
+    agree,
+    case_of,
+    harmonics,
+    off,
+)
 from tests.oracles import cartesian as oracle
 
 
@@ -67,6 +78,20 @@ def test_other_speeds(case, rpm):
 )
 def test_without_a_term(case, term):
     agree(case(SCENES[0], LAND=0.0, **{term: 0.0}), ROUNDING)
+
+
+@pytest.mark.parametrize("hysteresis", [False, True])
+@pytest.mark.parametrize("law", ["houpert-1987-ehl", "starved", "flooded"])
+@pytest.mark.parametrize("rpm", [1000, 20000])
+def test_rolling_laws(scene, law, hysteresis, rpm):
+    """In oil and steel that lose much; the moment's parts are the oracle's powers."""
+    changes = {"lubricant.rolling_law": law, "fidelity.terms.rolling_hysteresis": hysteresis}
+    changes |= {"lubricant.viscosity_Pa_s": 0.5, "materials.outer_ring.hysteresis_loss": 0.5}
+
+    def changed(name):
+        return scene(name).replace(changes)
+
+    agree(case_of(changed, SCENES[0], rpm=rpm, LAND=0.0), ROUNDING)
 
 
 def test_waviness_table_holds_the_harmonics(case):

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from fmu_bearing.engine.choices import EHL_ALONE, FLOODED, STARVED
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.mechanics.conditions import rolling_reduction, viscosity
@@ -84,34 +85,42 @@ def test_extremes_stay_finite_and_fall(law, extreme):
         assert math.isfinite(viscosity(p, wrong)) and viscosity(p, wrong) > 0.0
 
 
+def reduction(p, eta, speed, power=0.66):
+    """By how much the resistance, which goes with a power of the viscosity, is reduced."""
+    felt, heating, starving = rolling_reduction(p, eta, speed)
+    return felt**power * heating * starving
+
+
 def test_reduction_of_the_rolling_resistance():
     p = oil(VOGEL)
     p[P.SHEAR_HEATING], p[P.STARVATION] = 1.84e-9 * 26.0**1.28, 6e-8 * 52.0 * math.sqrt(4.4 / 36.0)
-    assert rolling_reduction(p, 0.03, 2000.0) == 1.0  # left out
+    assert rolling_reduction(p, 0.03, 2000.0) == (1.0, 1.0, 1.0)  # left out
     p[P.REDUCTION] = 1.0
     n, nu = 2000.0 * 30.0 / math.pi, 0.03 / 870.0 * 1e6
     heating = 1.0 / (1.0 + 1.84e-9 * (n * 26.0) ** 1.28 * nu**0.64)
     starving = math.exp(-6e-8 * nu * n * 52.0 * math.sqrt(4.4 / (2.0 * 18.0)))
     for speed in (2000.0, -2000.0):  # 1e-6 r/min of the speed's floor is 7e-11 of the factor
-        assert rolling_reduction(p, 0.03, speed) == pytest.approx(heating * starving, rel=1e-9)
-    assert rolling_reduction(p, 0.03, 0.0) == pytest.approx(1.0, abs=1e-12)
+        assert reduction(p, 0.03, speed) == pytest.approx(heating * starving, rel=1e-9)
+    assert reduction(p, 0.03, 0.0) == pytest.approx(1.0, abs=1e-12)
 
 
+@pytest.mark.parametrize(("law", "power"), [(EHL_ALONE, 0.66), (STARVED, 0.66), (FLOODED, 0.75)])
 @pytest.mark.parametrize("rpm", [200.0, 5_000.0, 20_000.0, 60_000.0])
-def test_thick_oil_lowers_no_rolling_resistance_where_starvation_is_held(rpm):
-    """The resistance nu^0.66/(1 + a nu^0.64) exp(-b nu) up to its maximum, found on a grid, then that."""
+def test_thick_oil_lowers_no_rolling_resistance_where_starvation_is_held(rpm, law, power):
+    """The resistance nu^power/(1 + a nu^0.64) exp(-b nu) up to its maximum, found on a grid, then that."""
     p = oil(VOGEL)
+    p[P.ROLLING_LAW] = law
     p[P.REDUCTION], p[P.SHEAR_HEATING] = 1.0, 1.84e-9 * 26.0**1.28
     p[P.STARVATION] = 6e-8 * 52.0 * math.sqrt(4.4 / (2.0 * 18.0))
     speed = rpm * math.pi / 30.0
     nu = np.geomspace(0.1, 1e6, 7001)  # mm2/s, from hot water to pitch
     heated, starved = p[P.SHEAR_HEATING] * rpm**1.28, p[P.STARVATION] * rpm
-    resistance = nu**0.66 / (1.0 + heated * nu**0.64) * np.exp(-starved * nu)
+    resistance = nu**power / (1.0 + heated * nu**0.64) * np.exp(-starved * nu)
     most = np.maximum.accumulate(resistance)
     assert most[-1] > 2.0 * resistance[-1]  # the cold end is beyond the maximum at every speed
     for held, wanted in ((0.0, resistance), (1.0, most)):
         p[P.STARVATION_HELD] = held
-        found = nu**0.66 * [rolling_reduction(p, 870e-6 * one, speed) for one in nu]
+        found = nu**power * [reduction(p, 870e-6 * one, speed, power) for one in nu]
         # the grid of 0.23 % misses a maximum by its square at most
         np.testing.assert_allclose(found, wanted, rtol=1e-5, atol=1e-300)
 
@@ -121,6 +130,6 @@ def test_held_starvation_at_standstill_and_without_any():
     p[P.REDUCTION], p[P.SHEAR_HEATING], p[P.STARVATION_HELD] = 1.0, 1.84e-9 * 26.0**1.28, 1.0
     for starvation in (0.0, 1e-6):
         p[P.STARVATION] = starvation
-        assert rolling_reduction(p, 1e9, 0.0) == pytest.approx(1.0, abs=1e-3)
+        assert reduction(p, 1e9, 0.0) == pytest.approx(1.0, abs=1e-3)
     p[P.STARVATION] = 0.0
-    assert 0.0 < rolling_reduction(p, 1e3, 2000.0) < 0.1  # inlet shear heating alone
+    assert 0.0 < reduction(p, 1e3, 2000.0) < 0.1  # inlet shear heating alone

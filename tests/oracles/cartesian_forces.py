@@ -38,7 +38,10 @@ class Mass:
 
 @dataclass(frozen=True)
 class Race:
-    """Torus groove: centre circle (x, radius), free distance of the ball's centre from it, contact (SI)."""
+    """Torus groove: centre circle (x, radius), free distance of the ball's centre from it, contact (SI).
+
+    ``rolling``: moment against rolling (N m) by entrainment (m/s), load (N) and semi-major axis (m).
+    """
 
     x: float
     circle: float
@@ -46,7 +49,7 @@ class Race:
     stiffness: float
     half_length: float
     profile: float
-    rolling: float
+    rolling: Callable[[float, float, float], float]
     wave: Wave
 
 
@@ -322,7 +325,7 @@ def in_race(loads: Loads, j: int, k: int) -> float:
             j, ring, point, -setup.friction * share * load * slip / np.sqrt(slip @ slip + still**2)
         )
     turning = (loads.spin(j) - loads.spin(ring)) @ m
-    resistance = race.rolling * entrainment**0.66 * load**0.47
+    resistance = race.rolling(entrainment, load, race.half_length * np.sqrt(gap))
     power += loads.act(j, ring, centre, np.zeros(3), -resistance * turning / np.hypot(turning, TURNING) * m)
     return -power - elastic * rate
 

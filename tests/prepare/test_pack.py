@@ -8,10 +8,12 @@ import pytest
 from fmu_bearing.engine.layout import SP, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.prepare.bodies import cage
-from fmu_bearing.prepare.contacts import films
+from fmu_bearing.prepare.contacts import inlet
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import GATES
+from tests.oracles.friction import Inlet, leading_moment, shared_loss
+from tests.oracles.hertz import point_contact as solved
 from tests.spindle.sets import scene as spindle_scene
 
 TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
@@ -48,6 +50,9 @@ def places(*names):
         ("misalignment_y_mrad = 0.0", "misalignment_y_mrad = 0.5", "MISALIGNMENT_Y", 0, 5e-4),
         ("misalignment_z_mrad = 0.0", "misalignment_z_mrad = -0.5", "MISALIGNMENT_Z", 0, -5e-4),
         ("rolling_reduction = true", "rolling_reduction = false", "REDUCTION", 1, 0),
+        ('rolling_law = "houpert-1987-ehl"', 'rolling_law = "starved"', "ROLLING_LAW", 0, 1),
+        ('supply = "oil-air"', 'supply = "bath"', None, 0, 0),
+        ("replenishment_constant = 6e-8", "", None, 0, 0),
         ("replenishment_held = false", "replenishment_held = true", "STARVATION_HELD", 0, 1),
         ("mass_eccentricity_um = 0.0", "mass_eccentricity_um = 5.0", "CAGE_ECCENTRICITY", 0, 5e-6),
         ("contact_damping = true", "contact_damping = false", "CONTACT_DAMPING", 5e-7, 0),
@@ -56,6 +61,9 @@ def places(*names):
 )
 def test_an_option_changes_its_place_and_no_other(old, new, place, before, after):
     plain, other = packed(), packed((old, new))
+    if place is None:  # what is given beside it wins, or it is the default
+        assert (plain == other).all()
+        return
     assert plain[getattr(P, place)] == pytest.approx(before)
     assert other[getattr(P, place)] == pytest.approx(after)
     differ = set(np.flatnonzero(plain != other))
@@ -184,13 +192,14 @@ def test_contact_ellipse_and_central_film(scene, race, side, sign):
     assert 1.0 < central / thinnest < 2.0  # the constriction at the outlet is thinner than the middle
 
 
-def test_rolling_force_takes_the_ratio_of_the_radii():
+def test_rolling_force_takes_the_ratio_of_the_radii(scene):
     # one contact worked by hand from the printed formula: inner race, D 7.938, d_m 54 mm, 15 deg, f 0.52,
     # steel of 208 GPa on steel. Its R_x 3.4054 mm and R_y/R_x 30.303 are stated to 5 digits
     rx, ry = 3.4054e-3, 30.303 * 3.4054e-3
     elastic = effective_modulus(208e9, 0.3, 208e9, 0.3)
     block = np.zeros(P.RACE_SIZE)
-    films(block, point_contact(rx, ry, elastic), rx, ry, elastic, 20e-9)
+    oil = scene("7003C-bare").lubricant.model_copy(update={"pressure_viscosity_1_GPa": 20.0})
+    inlet(block, point_contact(rx, ry, elastic), rx, ry, elastic, oil)
     eta, u, load = 0.01, 20.0, 100.0
     force = block[P.RACE_ROLLING] / (2.0 * rx) * (eta * u) ** 0.66 * load**0.47
     # Houpert (1987) with k = R_y/R_x; with the ellipticity it would be 0.0763 N. Five digits are given
@@ -221,6 +230,71 @@ def test_rolling_force_of_a_scene_takes_its_own_radii(scene, race):
     )  # fmt: skip
     moment = block[P.RACE_ROLLING] * (0.02 * 8.0) ** 0.66 * 100.0**0.47
     assert moment == pytest.approx(2.0 * rx * force, rel=1e-12)
+
+
+def rolling_contact(scene, race, load):
+    """A ball of a scene on one of its races, solved by the oracle, and R_x (m)."""
+    b, ball = scene.bearing, scene.materials.balls
+    ring = (scene.materials.inner_ring, scene.materials.outer_ring)[race]
+    d = 1e-3 * b.ball_diameter_mm
+    gamma = b.ball_diameter_mm * math.cos(math.radians(b.contact_angle_deg)) / b.pitch_diameter_mm
+    f = (b.inner_conformity, b.outer_conformity)[race]
+    rx, ry = 0.5 * d * (1.0 - gamma if race == 0 else 1.0 + gamma), d * f / (2.0 * f - 1.0)
+    yields = [(1.0 - one.poisson_ratio**2) / (1e9 * one.youngs_modulus_GPa) for one in (ring, ball)]
+    return solved(load, 1.0 / rx, 1.0 / ry, 1.0 / sum(yields)), rx
+
+
+@pytest.mark.parametrize("race", [0, 1])
+@pytest.mark.parametrize(
+    ("supply", "law", "powers"),
+    [
+        ("oil-air", "starved", (0.66, 0.47, 0.636, 0.364)),
+        ("grease", "starved", (0.66, 0.47, 0.636, 0.364)),
+        ("jet", "flooded", (0.75, 1 / 3, 2 / 3, 1 / 3)),
+        ("bath", "flooded", (0.75, 1 / 3, 2 / 3, 1 / 3)),
+    ],
+)
+def test_supply_sets_the_rolling_forces(scene, race, supply, law, powers):
+    bare = scene("7003C-bare")
+    given = {"lubricant.supply": supply, "lubricant.rolling_law": None}
+    p = pack(bare.replace(given | {"lubricant.replenishment_constant": None}), NO_SOUND)
+    assert p[P.ROLLING_LAW] == {"starved": 1, "flooded": 2}[law]
+    starved, constant = packed()[P.STARVATION], {"starved": 6e-8, "flooded": 3e-8}[law]
+    assert p[P.STARVATION] == pytest.approx(starved * constant / 6e-8, rel=1e-12)
+    block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
+    eta, u, load = 0.02, 8.0, 100.0
+    contact, rx = rolling_contact(bare, race, load)
+    wanted = Inlet(contact, eta, u, 1e-9 * bare.lubricant.pressure_viscosity_1_GPa)
+    s, w, rigid_s, rigid_w = powers
+    elastic = block[P.RACE_ROLLING] * (eta * u) ** s * load**w / (2.0 * rx)
+    rigid = block[P.RACE_RIGID] * (eta * u) ** rigid_s * load**rigid_w / (2.0 * rx)
+    # both solve the contact exactly; only rounding is left
+    assert elastic == pytest.approx(wanted.elastic_force(law), rel=1e-9)
+    assert rigid == pytest.approx(wanted.rigid_force(law), rel=1e-9)
+    regime = block[P.RACE_REGIME] * load * (eta * u) ** -0.75
+    assert 6.6 * regime == pytest.approx(wanted.regime, rel=1e-9)
+
+
+@pytest.mark.parametrize("race", [0, 1])
+@pytest.mark.parametrize(
+    ("ring_loss", "ball_loss"), [(None, None), (0.01, None), (None, 0.03), (0.005, 0.0), (0.0, 0.0)]
+)
+def test_hysteresis_takes_its_share_of_the_leading_moment(scene, race, ring_loss, ball_loss):
+    bare = scene("7003C-bare")  # steel rings, Si3N4 balls
+    side = ("inner_ring", "outer_ring")[race]
+    changes = {f"materials.{side}.hysteresis_loss": ring_loss, "materials.balls.hysteresis_loss": ball_loss}
+    on = bare.replace({"fidelity.terms.rolling_hysteresis": True} | changes)
+    block = pack(on, NO_SOUND)[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
+    contact, _ = rolling_contact(bare, race, 100.0)
+    ring, ball = getattr(bare.materials, side), bare.materials.balls
+    share = shared_loss(
+        (0.021 if ring_loss is None else ring_loss, ring.youngs_modulus_GPa, ring.poisson_ratio),
+        (0.0 if ball_loss is None else ball_loss, ball.youngs_modulus_GPa, ball.poisson_ratio),
+    )
+    # the oracle integrates the pressure to 1e-7
+    wanted = share * leading_moment(contact)
+    assert block[P.RACE_HYSTERESIS] * 100.0 * contact.semi_major == pytest.approx(wanted, rel=1e-6, abs=1e-15)
+    assert not pack(bare, NO_SOUND)[P.RACES + race * P.RACE_SIZE + P.RACE_HYSTERESIS]
 
 
 # --- fidelities and overrides --------------------------------------------------------------------

@@ -146,7 +146,7 @@ def test_sounds_keep_their_ratio(full, full_page):
 def test_friction_shares_are_the_variables(full, full_page):
     rows = {row[0]: row for row in full_page.tables["Friction and heat, means over the recording"]}
     kept = full.output_time >= full.start - 1e-9
-    for name, key in (("rolling resistance of the oil", "rolling"), ("cage: pockets and lands", "cage")):
+    for name, key in (("rolling resistance", "rolling"), ("cage: pockets and lands", "cage")):
         mean = 1e3 * full.outputs[f"friction_torque_share.{key}"][kept].mean()
         assert float(rows[name][1]) == pytest.approx(mean, abs=2e-3)
     assert float(rows["all shares"][3]) == 100.0

@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "85c479c00070e443764620a9f9b7116f6e718459c97ee1a9e7d0346552b8e658",
-    "7003C-impact": "2596ca40c6b1affe91cfc9d631c170a6a7f2a0a3134173cc105504e674297953",
-    "7003C-spindle": "118380d3142d7aed0eedb991fe629366d1b26a09331ee3942f5b9c71cca944e8",
-    "7009C-full-ceramic": "40b3931537bd4f5ab485d9b3d0cba6e2db5bdd103b94a1b892c981d55d467b2d",
-    "7009C-steel": "401d41efa2ad7e21b663b063753bdba999a67d02686cb21f0c3734eb36ed1796",
+    "7003C-bare": "2a3b7f6a271be1ea1d2d8b9d92bc7f6eec7dffb3b16f85198c9337331c089956",
+    "7003C-impact": "e2861133a7f649103e0e1a8734a3c0b2594ed0d785f92a2dc85cbc7d5a4f4cf5",
+    "7003C-spindle": "a7c7a5d3d7c736c65fa1324182462095e50167e2ee0eac6f11618468a0587916",
+    "7009C-full-ceramic": "daa13bb2a3a81531c963629725a9f5c4d73ec9a821d68a6562321cc0c8136ccb",
+    "7009C-steel": "432c14e66ed1cbe97a0970c19610e48296cfee6d91bea322b7879ffca981420d",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

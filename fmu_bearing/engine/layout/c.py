@@ -6,11 +6,13 @@ _race = Places()
 GROOVE_X = _race()  # m: circle of groove centres, its place along the axis
 GROOVE_RADIUS = _race()  # m: and its radius
 FREE = _race()  # m: distance of ball and groove centre without load
-ROLLING = _race()  # N m: rolling moment factor at the oil's viscosity
+ROLLING = _race()  # N m: rolling moment factor at the oil's viscosity, of EHL
 INTERFERENCE = _race()  # m on the radius, + tight: of the ring on its shaft, in its housing
 GROWTH = _race()  # m: of the race by fit and rotation, in GROOVE_START
 GROWTH_RATE = _race()  # m/s: within a communication step of fidelity full
 GROOVE_START = _race()  # m: GROOVE_RADIUS at the state; in a step that grows it is that of a stage
+RIGID = _race()  # N m: rolling moment factor of rigid surfaces
+REGIME = _race()  # weight of EHL against 1 of rigid surfaces, but for load and speed
 RACE_SIZE = _race.next
 
 _at = Places()

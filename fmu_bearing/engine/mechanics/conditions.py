@@ -6,13 +6,13 @@ from fmu_bearing.engine.choices import WALTHER
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, U
+from fmu_bearing.engine.mechanics.inlet import REGIME_SPEED, inlet_powers
 
 _TO_RPM = 30.0 / math.pi
 # Both laws grow without bound in the cold: the exponent ends at twelve decades, an oil that flows no more.
 _SET = 12.0 * math.log(10.0)
 _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
-_ROLLING = 0.66  # power of the viscosity in the rolling resistance,
-_SHEARED = 0.64  # and in its loss to inlet shear heating
+_SHEARED = 0.64  # power of the viscosity in what inlet shear heating takes of the rolling resistance
 _STILL = 1e-15  # m: growth
 _ROUNDS = 8  # of Newton's method: 1e-12 after six
 
@@ -52,48 +52,50 @@ def viscosity(p, temperature):
 
 
 @kernel
-def thickest_useful(heated, starved, nu):
+def thickest_useful(power, heated, starved, nu):
     """Viscosity (mm2/s) of the largest rolling resistance, or ``nu`` if that lies below it.
 
-    Resistance goes as nu^0.66 exp(-starved nu)/(1 + heated nu^0.64); its logarithm rises with the one of nu
-    by 0.66 - 0.64 x/(1 + x) - starved nu, x = heated nu^0.64. Newton's method in the logarithm of nu comes
-    down from where the first and the last part cancel.
+    Resistance goes as nu^power exp(-starved nu)/(1 + heated nu^0.64); its logarithm rises with the one of nu
+    by power - 0.64 x/(1 + x) - starved nu, x = heated nu^0.64. Newton's method in the logarithm of nu comes
+    down from where the first and the last part cancel; ``power`` above 0.64.
     """
     x = heated * math.exp(_SHEARED * math.log(nu))
-    if starved * nu + _SHEARED * x / (1.0 + x) <= _ROLLING:
+    if starved * nu + _SHEARED * x / (1.0 + x) <= power:
         return nu
-    at = math.log(min(nu, _ROLLING / starved))
+    at = math.log(min(nu, power / starved))
     for _ in range(_ROUNDS):
         x = heated * math.exp(_SHEARED * at)
         share = x / (1.0 + x)
         dry = starved * math.exp(at)
-        at -= (dry + _SHEARED * share - _ROLLING) / (dry + _SHEARED * _SHEARED * share / (1.0 + x))
+        at -= (dry + _SHEARED * share - power) / (dry + _SHEARED * _SHEARED * share / (1.0 + x))
     return math.exp(at)
 
 
 @kernel
 def rolling_reduction(p, eta, speed):
-    """Reduction of the rolling resistance by inlet shear heating and kinematic starvation.
+    """Viscosity that rolling feels over the oil's, and what shear heating and starvation leave of its force.
 
     SKF friction model (SKF rolling bearings catalogue 2018): 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) and
     exp(-K_rs nu n (d + D) sqrt(K_z / (2 (D - d)))), n in r/min, d_m in mm, nu in mm2/s. ``speed`` in rad/s.
-    1 where the scene leaves the reduction out.
+    1, 1, 1 where the scene leaves the reduction out.
 
     In cold oil the second factor would make the rolling resistance fall as the oil gets thicker. Held, the
-    largest resistance over viscosity stays from there on.
+    largest resistance over viscosity stays from there on: rolling feels no thicker oil. Its place is that of
+    the law's EHL force; between the regimes a contact's own largest lies beside it, by its load.
     """
     if p[P.REDUCTION] == 0.0:
-        return 1.0
+        return 1.0, 1.0, 1.0
     n = abs(speed) * _TO_RPM
     nu = max(eta / p[P.OIL_DENSITY] * 1e6, 1e-6)
     fast = 1.28 * math.log(n + 1e-6)
-    thick = 1.0
+    felt = 1.0
     if p[P.STARVATION_HELD] != 0.0:
-        useful = thickest_useful(p[P.SHEAR_HEATING] * math.exp(fast), p[P.STARVATION] * n, nu)
-        thick = math.exp(_ROLLING * math.log(useful / nu))
+        power, _, _, _ = inlet_powers(p[P.ROLLING_LAW])
+        useful = thickest_useful(power, p[P.SHEAR_HEATING] * math.exp(fast), p[P.STARVATION] * n, nu)
+        felt = useful / nu
         nu = useful
     heating = 1.0 / (1.0 + p[P.SHEAR_HEATING] * math.exp(fast + _SHEARED * math.log(nu)))
-    return thick * heating * math.exp(-p[P.STARVATION] * nu * n)
+    return felt, heating, math.exp(-p[P.STARVATION] * nu * n)
 
 
 @kernel
@@ -186,7 +188,9 @@ def conditions(p, u, speed, c):
     rise_i = u[U.INNER_T] - REFERENCE_TEMPERATURE
     rise_o = u[U.OUTER_T] - REFERENCE_TEMPERATURE
     ball = 0.5 * p[P.DIAMETER] * (1.0 + p[P.BALL_EXPANSION] * 0.5 * (rise_i + rise_o))
-    reduced = rolling_reduction(p, eta, speed)
+    felt, heating, starving = rolling_reduction(p, eta, speed)
+    elastic, _, rigid, _ = inlet_powers(p[P.ROLLING_LAW])
+    thick, thin = math.log(eta), math.log(felt)
     for race in range(2):
         numbers = P.RACES + race * P.RACE_SIZE
         held = C.RACES + race * C.RACE_SIZE
@@ -198,7 +202,11 @@ def conditions(p, u, speed, c):
         c[held + C.GROWTH] = 0.0
         c[held + C.GROWTH_RATE] = 0.0
         c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
-        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(_ROLLING * math.log(eta)) * reduced
+        reduced = math.exp(elastic * thin) * heating * starving
+        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(elastic * thick) * reduced
+        reduced = math.exp(rigid * thin) * heating * starving
+        c[held + C.RIGID] = p[numbers + P.RACE_RIGID] * math.exp(rigid * thick) * reduced
+        c[held + C.REGIME] = p[numbers + P.RACE_REGIME] * math.exp(REGIME_SPEED * (thick + thin))
     if p[P.FITS] != 0.0:
         mount(p, u, speed, c)
     c[C.BALL_RADIUS] = ball

@@ -9,8 +9,9 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, store, to_bits
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.inlet import inlet_factors, inlet_moments
 from fmu_bearing.engine.mechanics.pose import bearing_angle
-from fmu_bearing.engine.mechanics.powers import ROUND, exp2, log2
+from fmu_bearing.engine.mechanics.powers import ROUND
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
 from fmu_bearing.engine.mechanics.triples import added, along, dot, scaled, store_three, three
 
@@ -187,22 +188,19 @@ def traction(p, lanes, race, w):
 
 @kernel
 def rolling(p, c, lanes, race, w):
-    """Hydrodynamic rolling moment (N m) about e_m, opposing the relative rolling of the two surfaces.
+    """Write the rolling moment (N m) about e_m, which opposes the relative rolling of the two surfaces.
 
-    Houpert (1987), inlet force 2.86 E' Rx^2 k^0.348 G^0.022 U^0.66 W^0.47 on either surface, so that the
-    pair dissipates twice that force times the entrainment speed; reduction factors are in ``c``.
+    One part is that of the oil at the inlet, a force on either surface, so that the pair dissipates twice
+    that force times the entrainment speed; reduction factors are in ``c``. The other is hysteresis: the share
+    alpha of 3/16 Q b, the moment of the pressure on the leading half of the ellipse (Johnson 1985, 9.6).
     """
     row = W.RACE + race * R.SIZE
-    factor = c[C.RACES + race * C.RACE_SIZE + C.ROLLING]
-    if p[P.ROLLING] == 0.0:
-        for j in range(0, lanes, FOUR):
-            store(w, row + R.ROLL + j, 0.0)
-        return
+    lost = p[P.RACES + race * P.RACE_SIZE + P.RACE_HYSTERESIS]
+    inlet_moments(p, lanes, inlet_factors(p, c, race), row, w)
     for j in range(0, lanes, FOUR):
-        u = load(w, row + R.ENTRAIN + j)
-        pressing = load(w, row + R.LOAD + j)
         turning = load(w, row + R.AM + j)
-        size = factor * pressing * exp2(0.33 * log2(u * u + 1e-8) - 0.53 * log2(pressing + 1e-9))
+        size = load(w, row + R.ROLL + j)
+        size += lost * load(w, row + R.LOAD + j) * load(w, row + R.HALF + j)
         store(w, row + R.ROLL + j, -size * turning / math.sqrt(turning * turning + 1.0))
 
 

@@ -12,6 +12,7 @@ from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, K, P, R, W
+from fmu_bearing.engine.mechanics.inlet import LIGHTEST, SLOWEST_2, inlet_factors, local_powers
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 
 # steps of the differences: small against the laws' own scales (1e-4 m/s, 1 rad/s over a contact), large
@@ -19,7 +20,6 @@ from fmu_bearing.engine.mechanics.traction import lubricated_traction
 _VELOCITY = 1e-7
 _RATE = 1e-3
 _SHARE = 1e-6  # of load and semi-major axis
-_LIGHTEST = 1e-9  # N: keeps 0/0 away from a contact without load
 
 
 @kernel
@@ -110,7 +110,7 @@ def tried_slopes(p, c, lanes, race, w):
             given = w[moved + j]
             step = _RATE if column == K.AN or column == K.AT or column == K.AM else _VELOCITY
             if column >= K.LOAD:
-                step = _SHARE * given + _LIGHTEST * (1.0 if column == K.LOAD else 0.0)
+                step = _SHARE * given + LIGHTEST * (1.0 if column == K.LOAD else 0.0)
             w[W.CONTACT + K.PLACE + j] = given
             w[moved + j] = given + step
         lubricated_traction(p, c, lanes, race, w)
@@ -129,25 +129,31 @@ def tried_slopes(p, c, lanes, race, w):
 
 
 @kernel
-def rolling_slopes(p, lanes, race, w):
-    """Add the rolling resistance to the columns it depends on: a moment about the rolling axis.
-
-    It goes with load^0.47 and entrainment^0.66, see ``race.rolling``.
-    """
+def rolling_slopes(p, c, lanes, race, w):
+    """Add the rolling resistance to the columns it depends on: a moment about the rolling axis."""
     row = W.RACE + race * R.SIZE
+    lost = p[P.RACES + race * P.RACE_SIZE + P.RACE_HYSTERESIS]
+    law, factors = p[P.ROLLING_LAW], inlet_factors(p, c, race)
     first = W.CONTACT + K.TRACTION + (K.FORCES - 1) * STRIDE
     for j in range(0, lanes, FOUR):
         roll = load(w, row + R.ROLL + j)
         turning = load(w, row + R.AM + j)
         speed = load(w, row + R.ENTRAIN + j)
+        pressing = load(w, row + R.LOAD + j)
+        half = load(w, row + R.HALF + j)
         # roll over turning is as smooth as turning over its size; at standstill both vanish
         square = turning * turning
         at = first + K.AM * K.TRACTION_SIZE + j
         store(w, at, load(w, at) + roll * turning / ((square + 1e-30) * (square + 1.0)))
+        solid = -lost * half * turning / math.sqrt(square + 1.0)  # of hysteresis, per load
+        oil = roll - solid * pressing
+        by_speed, by_load = local_powers(law, factors, speed, pressing)
         at = first + K.ENTRAIN * K.TRACTION_SIZE + j
-        store(w, at, load(w, at) + 0.66 * roll * speed / (speed * speed + 1e-8))
+        store(w, at, load(w, at) + by_speed * oil * speed / (speed * speed + SLOWEST_2))
         at = first + K.LOAD * K.TRACTION_SIZE + j
-        store(w, at, load(w, at) + 0.47 * roll / (load(w, row + R.LOAD + j) + _LIGHTEST))
+        store(w, at, load(w, at) + by_load * oil / (pressing + LIGHTEST) + solid)
+        at = first + K.HALF * K.TRACTION_SIZE + j
+        store(w, at, load(w, at) + solid * pressing)
 
 
 @kernel
@@ -164,5 +170,4 @@ def traction_slopes(p, c, lanes, race, w):
         strip_slopes(p, lanes, race, w)
     else:
         tried_slopes(p, c, lanes, race, w)
-    if p[P.ROLLING] != 0.0:
-        rolling_slopes(p, lanes, race, w)
+    rolling_slopes(p, c, lanes, race, w)

@@ -50,8 +50,8 @@ def summarise(p, s, w):
     """Sliding of the contacts and losses (W) by source into ``s``.
 
     ``w`` and the right-hand side in ``s`` must belong to the state in ``s``. Contacts: sliding and contact
-    damping; rolling: inlet resistance; cage: pockets and lands, or the dampers between the balls. The cage's
-    share is what of the oil's heat is neither half the contacts' nor drag.
+    damping; rolling: inlet resistance and hysteresis; cage: pockets and lands, or the dampers between the
+    balls. The cage's share is what of the oil's heat is neither half the contacts' nor drag.
     """
     contacts = 0.0
     rolling = 0.0

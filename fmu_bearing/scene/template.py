@@ -156,6 +156,8 @@ def new_scene(
             alone = new_scene(
                 name, bearing, kind=kind, preload_N=preload_N, preload_class=preload_class,
                 preload_offset_um=preload_offset_um, folder=folder, sound=False,
+                stiffness_N_um=stiffness_N_um, stiffness_preload_N=stiffness_preload_N,
+                stiffness_of=stiffness_of,
             )  # fmt: skip
             given = {CLASS: preload_class, OFFSET: preload_offset_um}
             line = _axial_force(len(places), read_scene_text(alone, name, folder), given, preload_rule)

@@ -11,11 +11,19 @@ from benchmarks.measured.sources import CERAMIC, OTHER_BALLS, STEEL, Value, of
 from fmu_bearing import new_scene, statics
 from fmu_bearing.formulas.axial import Axial, axial, axial_displacement, axial_load, axial_stiffness
 from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.entries import entries
 from fmu_bearing.scene.estimate import estimates
+from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.nsk import CLASSES, CONFORMITIES, PREFIX, Size, sizes
+from fmu_bearing.scene.preload import elastic_of
 
+#: Materials of the catalogue.
+_MATERIALS = {STEEL: "GCr15", CERAMIC: "Si3N4"}
 #: Modulus of elasticity (Pa) and Poisson's ratio.
-ELASTIC = {STEEL: (207e9, 0.3), CERAMIC: (310e9, 0.26)}
+ELASTIC = {
+    name: elastic_of(Material.model_validate(entries("materials")[key].values))
+    for name, key in _MATERIALS.items()
+}
 _RULE = {one.key: one.value for one in estimates(40.0, 68.0, 15.0, 15.0)}
 #: Conformities that `scene new` takes for a bearing from dimensions.
 RULE = (float(_RULE["inner_conformity"]), float(_RULE["outer_conformity"]))

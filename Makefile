@@ -6,6 +6,7 @@
 # make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make papers  run the papers' cases and write docs/papers; a quarter of an hour, kept under out/papers
+# make measured  compare with what others measured; writes docs/measured.md, its figures and its table
 # make docs    build the documentation site into out/site; opens from the disk, works offline
 # make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
 # make clean   remove what was made here
@@ -24,14 +25,14 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy bits lint soak papers: export OPENBLAS_NUM_THREADS = 1
+test heavy bits lint soak papers measured: export OPENBLAS_NUM_THREADS = 1
 # No process has to compile sources again that one before it has imported, whatever the user's shell says.
 export PYTHONDONTWRITEBYTECODE =
 
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy bits lint soak bench papers docs kernels compiled wheels clean
+.PHONY: demo test heavy bits lint soak bench papers measured docs kernels compiled wheels clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -80,6 +81,10 @@ bench: $(VENV)/.installed-bench compiled
 # Interrupted, it goes on from what is under out/papers.
 papers: compiled
 	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
+
+# Three minutes of one core.
+measured: compiled
+	$(BIN)/python -m benchmarks.measured.run
 
 # References are made from the code here, so it is installed too.
 docs: $(VENV)/.installed-docs

@@ -74,6 +74,7 @@ if TYPE_CHECKING:
     from fmu_bearing.run.realtime import realtime
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
+    from fmu_bearing.scene.conformity import conformity_from_stiffness
     from fmu_bearing.scene.read import with_fidelity
     from fmu_bearing.scene.template import Dimensions
     from fmu_bearing.steady.statics import Statics, statics
@@ -99,6 +100,7 @@ _PLACES = {
     "campbell": "modal.campbell.over_speed",
     "changes": "accuracy.changes",
     "compare": "recording.studies.compare",
+    "conformity_from_stiffness": "scene.conformity",
     "fits": "design.fits",
     "identify": "identification",
     "measure": "recording.measurements",
@@ -136,6 +138,7 @@ __all__ = [
     "campbell",
     "changes",
     "compare",
+    "conformity_from_stiffness",
     "fits",
     "identify",
     "measure",

@@ -35,6 +35,7 @@ def info(
 
     Of a set of bearings on one shaft: the load of each, the stiffness of the shaft, lift-off, preload.
     """
+    from fmu_bearing.design.measured import measured_elsewhere
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import cautions, verdicts
 
@@ -44,6 +45,7 @@ def info(
     lines = cautions(point, found)
     if as_json:
         judged = {"verdicts": [one.as_dict() for one in found], "cautions": lines}
+        judged["measured_elsewhere"] = measured_elsewhere()
         seats = {} if point.scene.fit is None else {"fits": _seats(point).summary()}
         print_json(point.summary() | judged | seats)
         return
@@ -55,6 +57,9 @@ def info(
         _show_fits(point)
     _show_heat(point)
     _show_verdicts(found, len(point.bearings))
+    typer.echo("computed figures over what others measured or print:")
+    for figure, words in measured_elsewhere().items():
+        typer.echo(f"{figure}: {words}")
     for line in lines:
         tell(f"caution: {line}")
 

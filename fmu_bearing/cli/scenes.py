@@ -18,7 +18,7 @@ from fmu_bearing.scene.entries import Entry, entries, entry_text
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
-from fmu_bearing.scene.template import MATERIALS, Dimensions
+from fmu_bearing.scene.template import FITTED, MATERIALS, Dimensions
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -76,6 +76,19 @@ def new(
         float | None,
         typer.Option(help="N of springs on each bearing of a set that carries as the last one; no spacers."),
     ] = None,
+    stiffness: Annotated[
+        float | None,
+        typer.Option(
+            help="Axial stiffness, N/um, as printed of the bearing with the materials of --kind, to "
+            "which the conformities are fitted."
+        ),
+    ] = None,
+    stiffness_preload: Annotated[
+        float | None, typer.Option(help="N: the preload for which --stiffness is printed.")
+    ] = None,
+    stiffness_of: Annotated[
+        str, typer.Option(metavar="pair|bearing", help="What --stiffness is of.")
+    ] = "pair",
     grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
@@ -103,6 +116,10 @@ def new(
             raise Refusal("give one of --preload, --preload-class, --preload-offset and --spring")
         if arrangement is None and (distance is not None or spring is not None):
             raise Refusal("--distance and --spring are of a set: give its --arrangement, as DB")
+        if (stiffness is None) != (stiffness_preload is None):
+            raise Refusal(
+                "give --stiffness and --stiffness-preload together: a printed stiffness holds at one preload"
+            )
         if bearing is not None:
             chosen: str | Dimensions = bearing
         elif bore is not None and outside_diameter is not None and width is not None:
@@ -120,7 +137,8 @@ def new(
             path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
             designation=designation, preload_N=preload, preload_class=preload_class,
             preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
-            distance_mm=distance, spring_N=spring, tell=tell,
+            distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
+            stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [one for one in origins(path) if one.assumed]
@@ -130,7 +148,7 @@ def new(
         return
     typer.echo(f"written: {path}; {len(found)} values are assumed: `fmu-bearing scene show {path} --assumed`")
     for one in found:
-        if one.key in _SAID and one.origin == "file":
+        if (one.key in _SAID or one.remark.startswith(FITTED)) and one.origin == "file":
             typer.echo(f"assumed: {one.key} = {_shown(one)}: {one.remark}")
     for line in cautions:
         tell(f"caution: {line}")

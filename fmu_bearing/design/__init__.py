@@ -10,6 +10,7 @@
 ``fit_curves``       its curves over speed and temperature
 ``fit_pictures``     their pictures
 ``fit_verdicts``     verdicts on the seats
+``measured``         how far figures were from what others measured
 ``verdict``          figure, limit, source and judgement
 ``verdicts``         the verdicts on each bearing, and on all together
 ``fresh``            `new_scene`: a scene at an operating point that the verdicts find good

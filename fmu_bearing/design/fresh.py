@@ -55,8 +55,8 @@ def new_scene(
         Takes a line where the preload of a set is searched for, which may take a minute.
     **given
         As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
-        ``preload_class``, ``preload_offset_um``, ``folder``; for a set ``arrangement``, ``distance_mm``,
-        ``spring_N``.
+        ``preload_class``, ``preload_offset_um``, ``folder``; ``stiffness_N_um``, ``stiffness_preload_N``,
+        ``stiffness_of``; for a set ``arrangement``, ``distance_mm``, ``spring_N``.
 
     Raises
     ------

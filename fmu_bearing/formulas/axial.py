@@ -16,6 +16,15 @@ Elastic = tuple[float, float]
 _FIRST = 1e-3  # mm: a displacement to begin the search with
 
 
+class StiffnessRange(ValueError):
+    """No allowed conformities give a stiffness; ``least`` and ``most`` (N/um) are what they give."""
+
+    def __init__(self, least: float, most: float) -> None:
+        """Keep what is possible."""
+        super().__init__(f"allowed conformities give {least:.4g} to {most:.4g} N/um")
+        self.least, self.most = least, most
+
+
 class Axial(NamedTuple):
     """What the axial load depends on.
 
@@ -96,6 +105,57 @@ def axial_stiffness(bearing: Axial, load: float) -> float:
     step = 1e-4 * x  # the load is smooth there: the error of the difference is about 1e-8
     rise = axial_load(bearing, x + step) - axial_load(bearing, x - step)
     return 1e-3 * rise / (2.0 * step) if load > 0.0 else 0.0
+
+
+def conformities(
+    stiffness: float,
+    load: float,
+    balls: int,
+    ball: float,
+    pitch: float,
+    angle_deg: float,
+    elastic: tuple[Elastic, Elastic, Elastic],
+    offset: float = 0.0,
+    allowed: tuple[float, float] = (0.505, 0.6),
+) -> tuple[float, float]:
+    """Return the conformities with which a bearing has an axial stiffness: the inverse of `axial_stiffness`.
+
+    Stiffness falls where either conformity grows, so that there is one answer. It determines the sum alone.
+
+    Parameters
+    ----------
+    stiffness : float
+        Of one bearing (N/um).
+    load : float
+        Axial load (N).
+    balls, ball, pitch, angle_deg, elastic
+        As of `axial`.
+    offset : float
+        Outer minus inner conformity; 0: one number for both.
+    allowed : tuple of float
+        Least and largest conformity.
+
+    Returns
+    -------
+    tuple of float
+        Inner and outer conformity.
+
+    Raises
+    ------
+    StiffnessRange
+        Where no allowed conformities give it.
+    """
+
+    def found(inner: float) -> float:
+        bearing = axial(balls, ball, pitch, angle_deg, (inner, inner + offset), elastic)
+        return axial_stiffness(bearing, load)
+
+    closest, widest = allowed[0] + max(0.0, -offset), allowed[1] - max(0.0, offset)
+    least, most = found(widest), found(closest)
+    if not least <= stiffness <= most:
+        raise StiffnessRange(least, most)
+    inner = float(brentq(lambda x: found(x) - stiffness, closest, widest, xtol=1e-13, rtol=1e-13))
+    return inner, inner + offset
 
 
 def flush_load(bearing: Axial, pair: float, more: int, fewer: int) -> float:

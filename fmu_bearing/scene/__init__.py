@@ -4,6 +4,7 @@
 ``catalogue``     files: bearings, materials, lubricants, grades, and NSK's sizes with printed ratings
 ``estimate``      a bearing from its boundary dimensions
 ``nsk``           NSK's sizes: printed figures, derived balls, entries of the catalogue
+``conformity``    conformities that give a printed stiffness
 ``designation``   which name a misspelt or short one may mean
 ``entries``       entries by name: the package's, NSK's, those of users' files
 ``preload``       newtons of a preload class or of an offset of the ring faces

@@ -6,7 +6,7 @@ Ball and number of balls: against NSK's 60 sizes of series 70 and 79 (`fmu_beari
 follow from printed ratings, 0.29 of outside diameter minus bore is off by 4.0 % rms (0.25 to 0.31 occur;
 0.27, the rule before, was off by 7.5 %), and three quarters of a full circle by 7.7 % rms, 3 balls at
 most. Conformities 0.52 and 0.525: against 240 axial stiffnesses of pairs that NSK prints, with these balls,
-the median is 1.01, rms 2.5 % (0.515 and 0.52, the rule before: 1.10, 10 %).
+the median is 1.01, rms 2.7 % (0.515 and 0.52, the rule before: 1.10, 11 %).
 """
 
 import math

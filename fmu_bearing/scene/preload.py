@@ -221,9 +221,10 @@ def _axial(bearing: Bearing, materials: Materials) -> "Axial":
     return axial(
         bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, bearing.contact_angle_deg,
         (bearing.inner_conformity, bearing.outer_conformity),
-        (_elastic(materials.inner_ring), _elastic(materials.outer_ring), _elastic(materials.balls)),
+        (elastic_of(materials.inner_ring), elastic_of(materials.outer_ring), elastic_of(materials.balls)),
     )  # fmt: skip
 
 
-def _elastic(material: Material) -> tuple[float, float]:
+def elastic_of(material: Material) -> tuple[float, float]:
+    """Return modulus of elasticity (Pa) and Poisson's ratio of a material."""
     return 1e9 * material.youngs_modulus_GPa, material.poisson_ratio

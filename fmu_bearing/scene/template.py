@@ -4,14 +4,16 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from fmu_bearing.scene.base import SceneError
+from fmu_bearing.scene.conformity import conformity_from_stiffness
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload, preload_key
-from fmu_bearing.scene.read import read_scene_text
+from fmu_bearing.scene.read import Scene, read_scene_text
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.set_template import set_parts, set_shape
 
@@ -21,6 +23,8 @@ MATERIALS = {
     "hybrid": ("GCr15", "GCr15", "Si3N4", "bakelite"),
     "full-ceramic": ("ZrO2", "ZrO2", "Si3N4", "PEEK"),
 }
+#: How the rule of a conformity begins that a printed stiffness gives.
+FITTED = "fitted to the stiffness given"
 _FAR_STIFFNESS = 3e7  # N/m: of the far bearing whose lever holds the ring against tilting
 _BODIES = ("inner_ring", "outer_ring", "balls", "cage")
 
@@ -63,6 +67,9 @@ def new_scene(
     arrangement: str | None = None,
     distance_mm: float | None = None,
     spring_N: float | None = None,
+    stiffness_N_um: float | None = None,
+    stiffness_preload_N: float | None = None,
+    stiffness_of: str = "pair",
     speed_rule: str = "",
     preload_rule: str = "",
 ) -> str:
@@ -98,6 +105,11 @@ def new_scene(
     spring_N : float, optional
         Of a set, the force of springs on each bearing that carries as the last one does, in place of
         ``preload_N``.
+    stiffness_N_um, stiffness_preload_N : float, optional
+        Axial stiffness that the maker prints of the bearing with these materials, and the preload of that
+        print: the conformities are fitted to it, their difference kept, see `conformity_from_stiffness`.
+    stiffness_of : str
+        ``pair`` or ``bearing``: what that stiffness is of.
     folder : Path, optional
         Where the scene will be written, for the path of the user's file that has the bearing; default: the
         current folder.
@@ -117,7 +129,17 @@ def new_scene(
         raise SceneError("a distance of ball planes and springs are of a set: give its arrangement, as 'DB'")
     materials = zip(_BODIES, MATERIALS[kind], strict=True)
     size, pitch = _size(bearing)
-    tables = _bearing(bearing, designation or (bearing if isinstance(bearing, str) else name))
+    if (stiffness_N_um is None) != (stiffness_preload_N is None):
+        raise SceneError(
+            "a printed stiffness holds at one preload: give stiffness_N_um and stiffness_preload_N together"
+        )
+    fitted: dict[str, str] = {}
+    if stiffness_N_um is not None and stiffness_preload_N is not None:
+        usual = new_scene(name, bearing, kind=kind, folder=folder, sound=False)
+        fitted = _fitted(
+            read_scene_text(usual, name, folder), stiffness_N_um, stiffness_preload_N, stiffness_of
+        )
+    tables = _bearing(bearing, designation or (bearing if isinstance(bearing, str) else name), fitted)
     line = _preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule)
     places = [0.0]
     if arrangement is None:
@@ -134,6 +156,8 @@ def new_scene(
             alone = new_scene(
                 name, bearing, kind=kind, preload_N=preload_N, preload_class=preload_class,
                 preload_offset_um=preload_offset_um, folder=folder, sound=False,
+                stiffness_N_um=stiffness_N_um, stiffness_preload_N=stiffness_preload_N,
+                stiffness_of=stiffness_of,
             )  # fmt: skip
             given = {CLASS: preload_class, OFFSET: preload_offset_um}
             line = _axial_force(len(places), read_scene_text(alone, name, folder), given, preload_rule)
@@ -196,28 +220,40 @@ def _remark(rule: str) -> str:
     return f" # assumed: {rule}" if rule else ""
 
 
-def _bearing(bearing: str | Dimensions, designation: str) -> Sequence[str]:
+def _fitted(scene: Scene, stiffness: float, load: float, of: str) -> dict[str, str]:
+    """Return the lines of both conformities that give a printed stiffness, by key."""
+    usual = scene.bearing
+    found = conformity_from_stiffness(
+        scene, stiffness, load, of=of, offset=usual.outer_conformity - usual.inner_conformity
+    )
+    rule = f"{FITTED}, {stiffness:g} N/um of a {of} at {load:g} N"
+    return {f"{race}_conformity": f"{value:.6f} # assumed: {rule}" for race, value in found._asdict().items()}
+
+
+def _bearing(bearing: str | Dimensions, designation: str, fitted: Mapping[str, str]) -> Sequence[str]:
+    """Return the tables of the bearing; ``fitted``: lines by key that win over catalogue and estimates."""
     if isinstance(bearing, str):
+        more = "".join(f"\n{key} = {line}" for key, line in fitted.items())
         return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing in sizes()]}\n'
-                f'designation = "{designation}"',)  # fmt: skip
+                f'designation = "{designation}"{more}',)  # fmt: skip
     d = bearing
     given = (
         f'designation = "{designation}"\nbore_mm = {float(d.bore)}\n'
         f"outside_diameter_mm = {float(d.outside)}\nwidth_mm = {float(d.width)}\n"
     )
     return (
-        "[bearing]\n" + given + _lines(estimates(d.bore, d.outside, d.width, float(d.angle))),
+        "[bearing]\n" + given + _lines(estimates(d.bore, d.outside, d.width, float(d.angle)), fitted),
         "[bearing.cage]\n" + _lines(cage_estimates(d.bore, d.outside, d.width)),
     )
 
 
-def _lines(found: Iterable[Estimate]) -> str:
+def _lines(found: Iterable[Estimate], fitted: Mapping[str, str] = MappingProxyType({})) -> str:
     def remark(one: Estimate) -> str:
         if one.key == "contact_angle_deg":
             return ""
         return _remark(one.rule) or " # assumed"
 
-    return "\n".join(f"{one.key} = {one.value}{remark(one)}" for one in found)
+    return "\n".join(f"{one.key} = {fitted.get(one.key, f'{one.value}{remark(one)}')}" for one in found)
 
 
 #: Behind the name of a catalogue entry: whether it is a maker's size.

@@ -8,11 +8,14 @@ import pytest
 
 from fmu_bearing import stiffness
 from fmu_bearing.accuracy.changes import point
+from fmu_bearing.design.measured import PAGE, measured_elsewhere
 from fmu_bearing.instance import Instance
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.exclusions import exclusions_of
 from tests.conftest import EXAMPLES
 from tests.spindle.sets import scene as bearings
+
+SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 
 def changed(tmp_path, *changes, name="7003C-spindle"):
@@ -52,6 +55,19 @@ def test_info_fits_a_terminal_and_names_units(run):
     for words in ("GPa", "orders", "ISO 281", "tilt z", "n d_m"):
         assert words in result.stdout
     assert "caution: contact pressure 1.89 GPa" in result.stderr
+
+
+@pytest.mark.parametrize("path", [EXAMPLES / "7003C-spindle.toml", SET], ids=["single", "set"])
+def test_info_says_how_far_torque_and_stiffness_were_from_values_elsewhere(run, path):
+    """One line each with the page; life and level say that nobody measured them."""
+    shown = run("info", path).stdout.splitlines()
+    at = shown.index("computed figures over what others measured or print:")
+    torque, stiff, life = shown[at + 1 : at + 4]
+    assert torque.startswith("torque: 0.") and "of SKF's, heat 0." in torque
+    assert stiff.startswith("stiffness: 0.") and "NSK's and TPI's pairs" in stiff
+    assert life == f"life and level: no measured values are known: {PAGE}"
+    assert all(line.endswith(PAGE) and len(line) <= 80 for line in (torque, stiff, life))
+    assert run("info", path, "--json").data["measured_elsewhere"] == measured_elsewhere()
 
 
 def test_info_of_ceramic_rings_has_no_life_and_of_nonsense_no_figures(run, tmp_path):
@@ -106,9 +122,6 @@ def test_check_cautions_where_a_limit_is_passed(run, tmp_path, name, changes, wo
 def test_check_says_nothing_of_a_bearing_within_its_limits(run, tmp_path):
     result = run("scene", "check", changed(tmp_path, ("preload_N = 500.0", "preload_N = 100.0")))
     assert result.exit_code == 0 and "caution" not in result.output
-
-
-SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 
 def test_info_of_a_set_tells_what_each_bearing_carries(run):

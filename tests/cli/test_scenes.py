@@ -1,5 +1,7 @@
 """scene new, check, show, catalogue."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -104,6 +106,45 @@ def test_a_set_from_one_line_is_ready(run, tmp_path, monkeypatch, arrangement):
     assert len(torque) == 3 and np.all(torque > 0.0)
     assert run("build", path.name, "--output", "set.fmu").exit_code == 0
     assert (tmp_path / "set.fmu").stat().st_size > 100_000
+
+
+def test_new_fits_conformities_to_a_printed_stiffness(run, tmp_path):
+    path = tmp_path / "fitted.toml"
+    size = (
+        "--bore",
+        40,
+        "--outside",
+        68,
+        "--width",
+        15,
+        "--kind",
+        "steel",
+        "--preload",
+        300,
+        "--speed",
+        9000,
+    )
+    printed = ("--stiffness", 26.5, "--stiffness-preload", 125, "--stiffness-of", "bearing")
+    result = run("scene", "new", path, *size, *printed)
+    assert result.exit_code == 0
+    words = "fitted to the stiffness given, 26.5 N/um of a bearing at 125 N"
+    for race in ("inner", "outer"):
+        assert re.search(rf"assumed: bearing.{race}_conformity = 0.5\d+: {words}", result.stdout)
+    assert path.read_text("utf-8").count(words) == 2
+    # a pair has twice the stiffness: the same grooves
+    pair = tmp_path / "pair.toml"
+    assert run("scene", "new", pair, *size, "--stiffness", 53, "--stiffness-preload", 125).exit_code == 0
+    grooves = [read_scene(one).bearing.inner_conformity for one in (path, pair)]
+    assert grooves[0] == grooves[1]
+    for wrong, reason in (
+        (("--stiffness", 53), "give --stiffness and --stiffness-preload together"),
+        (("--stiffness-preload", 125), "give --stiffness and --stiffness-preload together"),
+        (("--stiffness", 530, "--stiffness-preload", 125), "conformities of 0.505 to 0.6 give 32."),
+        ((*printed[:-1], "trio"), "a stiffness is of a pair or a bearing, not of 'trio'"),
+    ):
+        refused = run("scene", "new", tmp_path / "no.toml", *size, *wrong)
+        assert refused.exit_code == 2 and reason in refused.stderr
+    assert not (tmp_path / "no.toml").exists()
 
 
 def test_new_replaces_nothing_unasked(run, tmp_path):

@@ -1,14 +1,13 @@
 """NSK's sizes: balls against printed ratings, entries of the catalogue, marks."""
 
-import csv
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from benchmarks.measured.findings import rms
+from benchmarks.measured.stiffness import RULE, kept, ratios
 from fmu_bearing.formulas import iso76, iso281
-from fmu_bearing.formulas.axial import axial, axial_stiffness
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.model import prepare
@@ -21,10 +20,6 @@ from fmu_bearing.scene.template import new_scene
 SIZES = list(sizes().values())
 #: Its f0 is 0.18 above any that ISO 76 gives; C and C0 fit. All others lie within 0.06.
 LARGE_F0 = "NSK-7913C"
-STEEL = (207e9, 0.3)  # Pa: modulus of elasticity, Poisson's ratio
-CERAMIC = (310e9, 0.26)  # Si3N4
-#: Axial stiffness of pairs as TPI prints it: figures alone.
-TPI = Path(__file__).with_name("tpi_pairs.csv")
 
 
 def ratings(size, balls, ball):
@@ -97,54 +92,25 @@ def test_conformities_are_fitted_to_the_printed_stiffness():
     for name in sizes():
         values = entries("bearings")[name].values
         assert (values["inner_conformity"], values["outer_conformity"]) == CONFORMITIES
-    found = [(size, one.force, one.pair_stiffness) for size in SIZES for one in size.preload.values()]
-    ratios = pair_ratios(found, CONFORMITIES)
+    found = ratios("nsk", CONFORMITIES)
     # fitted: two conformities to these 240 values. Two digits are printed of most: 1.5 % rms, 5 % at most
-    assert len(ratios) == 240 and np.median(ratios) == pytest.approx(1.0, abs=0.005)
-    assert np.sqrt(np.mean((ratios - 1.0) ** 2)) < 0.025 and np.abs(ratios - 1.0).max() < 0.1
+    assert len(found) == 240 and np.median(found) == pytest.approx(1.0, abs=0.006)
+    assert rms(found - 1.0) < 0.025 and np.abs(found - 1.0).max() < 0.1
     # what the estimate from dimensions takes, with the maker's balls
-    rule = {one.key: one.value for one in estimates(40.0, 68.0, 15.0, 15.0)}
-    estimated = pair_ratios(found, (rule["inner_conformity"], rule["outer_conformity"]))
-    assert np.median(estimated) == pytest.approx(1.01, abs=0.005)
-    assert np.sqrt(np.mean((estimated - 1.0) ** 2)) < 0.03
+    estimated = ratios("nsk", RULE)
+    assert np.median(estimated) == pytest.approx(1.01, abs=0.005) and rms(estimated - 1.0) < 0.03
 
 
 def test_another_makers_stiffness_follows_unfitted():
-    """TPI's pairs of series 70, steel and ceramic balls, with NSK's balls and NSK's conformities.
-
-    Source: TPI catalogue 2260/TE, tables 5 to 9, 45 bearings in four classes. Left out is size
-    7001, whose C0 of 2.64 kN is not that of NSK's balls (2.90 kN).
-    """
-    rows = list(csv.DictReader(TPI.read_text("utf-8").splitlines()))
-    kept = [row for row in rows if row["size"] != "7001"]
-    assert (len(rows), len(kept)) == (180, 168)
-    for angle in ("15", "25"):
-        for balls in ("steel", "Si3N4"):
-            found = [
-                (sizes()[f"NSK-{row['size']}{ {'15': 'C', '25': 'AC'}[angle] }"], float(row["load_N"]),
-                 float(row["pair_N_um"]))
-                for row in kept if (row["angle_deg"], row["balls"]) == (angle, balls)
-            ]  # fmt: skip
-            if not found:  # TPI prints ceramic balls for 15 deg alone
-                assert (angle, balls) == ("25", "Si3N4")
-                continue
-            ratios = pair_ratios(found, CONFORMITIES, CERAMIC if balls == "Si3N4" else STEEL)
-            # .984 to .987: nothing is fitted to this maker; 2 % are .001 in both conformities
-            assert len(ratios) == 56 and np.median(ratios) == pytest.approx(1.0, abs=0.02)
-            assert np.std(ratios) < 0.015  # printed without a digit after the point: 0.3 to 4 %
-
-
-def pair_ratios(found, conformities, balls=STEEL):
-    """Computed over printed stiffness of rigid pairs, for sizes, loads (N) and stiffnesses (N/um)."""
-    bearings = {
-        size.name: axial(
-            size.balls, size.ball, size.pitch, size.angle, conformities, (STEEL, STEEL, balls)
-        )
-        for size, _, _ in found
-    }  # fmt: skip
-    return np.array(
-        [2.0 * axial_stiffness(bearings[size.name], load) / printed for size, load, printed in found]
-    )
+    """TPI's pairs of series 70, steel and ceramic balls, with NSK's balls and NSK's conformities."""
+    found, printed = ratios("tpi", CONFORMITIES), kept("tpi", "pair axial stiffness")
+    assert len(found) == 168
+    # TPI prints ceramic balls for 15 deg alone
+    for angle, balls in ((15.0, "steel"), (25.0, "steel"), (15.0, "Si3N4")):
+        some = found[[(one.angle_deg, one.balls) == (angle, balls) for one in printed]]
+        # .986 to .990: nothing is fitted to this maker; 2 % are .001 in both conformities
+        assert len(some) == 56 and np.median(some) == pytest.approx(1.0, abs=0.02)
+        assert np.std(some) < 0.015  # printed without a digit after the point: 0.3 to 4 %
 
 
 @pytest.mark.parametrize("name", list(sizes()))

@@ -1,0 +1,212 @@
+"""The page `Measured by others` and its table of all values."""
+
+import math
+import textwrap
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.measured import friction, stiffness
+from benchmarks.measured.compared import Compared
+from benchmarks.measured.findings import Finding, findings, rms
+from benchmarks.measured.pictures import drawable, group
+from benchmarks.measured.sources import of, sources, values
+from fmu_bearing.results.table import machine, markdown
+
+COLUMNS = (
+    "source", "kind", "work", "place", "repository", "quantity", "bearing", "balls", "contact angle, deg",
+    "class", "load, N", "measuring load, N", "r/min", "mm2/s", "shaft, Hz", "unit", "theirs", "theirs to",
+    "ours", "ours from", "ours to", "ours over theirs", "ours less theirs", "counts", "assumed", "remark",
+)  # fmt: skip
+
+_SAID = ("", "source", "what", "values", "goal", "found")
+_TEXT = tomllib.loads(Path(__file__).with_name("text.toml").read_text("utf-8"))
+TITLES: dict[str, str] = _TEXT["titles"]
+
+
+def all_rows(found: Mapping[str, list[Compared]]) -> Iterator[list[str]]:
+    """Yield the rows of the table of all values."""
+    known = sources()
+    for key, rows in found.items():
+        source = known[key]
+        for one in rows:
+            v = one.value
+            remark = "balls not known" if key == "tpi" and not one.counts else v.remark
+            yield [
+                key, source.kind, source.work, v.place, source.repository, v.quantity, v.bearing, v.balls,
+                _plain(v.angle_deg), v.grade, *map(_plain, (
+                    v.load_N, v.measuring_load_N, v.speed_rpm, v.viscosity_mm2_s, v.shaft_Hz
+                )), v.unit, _plain(v.published), _plain(v.published_to),
+                *map(_four, (one.ours, one.low, one.high)),
+                "" if one.difference else _four(one.found), _four(one.found) if one.difference else "",
+                "yes" if one.counts else "no", source.assumed, remark,
+            ]  # fmt: skip
+
+
+def page(found: Mapping[str, list[Compared]]) -> str:
+    """Return the page."""
+    said = findings(found)
+    order = list(dict.fromkeys(one.source for one in said))
+    parts = [
+        _head(found, said),
+        *(_section(key, found[key], [one for one in said if one.source == key]) for key in order),
+        _sensitivity(),
+        _moved(found),
+    ]
+    return "\n\n".join(part.strip() for part in parts) + "\n"
+
+
+def _head(found: Mapping[str, list[Compared]], said: Sequence[Finding]) -> str:
+    rows = [
+        [f"**{one.status}**" if one.status == "missed" else one.status,
+         f"[{TITLES[one.source].split(':')[0]}](#{_anchor(TITLES[one.source])})", one.what, str(one.count),
+         one.goal, one.found]
+        for one in said
+    ]  # fmt: skip
+    numbers = {
+        "values": len(values()), "sources": len(sources()), "machine": machine(),
+        "computed": sum(not math.isnan(one.ours) for every in found.values() for one in every),
+        "missed": sum(one.status == "missed" for one in said),
+        "goals": sum(one.status != "beside" for one in said),
+    }  # fmt: skip
+    head = _folded(_TEXT["head"].format(**numbers))
+    return f"# Measured by others\n\n{head}\n\n{markdown(_SAID, rows)}"
+
+
+def _section(key: str, rows: list[Compared], said: Sequence[Finding]) -> str:
+    source = sources()[key]
+    about = [
+        ["kind", source.kind], ["work", source.work], ["read in", f"`{source.repository}`"],
+        ["given", source.given], ["assumed", source.assumed],
+    ]  # fmt: skip
+    shown = drawable(rows)
+    picture = f"![{TITLES[key]}, ours beside theirs](images/measured/{key}.png)\n" if len(shown) > 1 else ""
+    lines = "\n".join(
+        _fold(f"* {one.what}: {one.found} ({one.status}; goal: {one.goal}).", "  ") for one in said
+    )
+    table = _groups(key) if key in ("nsk", "tpi") else _each(rows)
+    return f"""## {TITLES[key]}
+
+{markdown(("provenance", ""), about)}
+{lines}
+
+{_fold(_TEXT["meaning"][key])}
+
+{picture}
+{table}"""
+
+
+def _groups(key: str) -> str:
+    """Return the table of a maker's pairs: median and rms by conformities, angle and balls."""
+    kept = stiffness.kept(key, "pair axial stiffness")
+    names = [group(Compared(one, 1.0, 1.0, 1.0)) for one in kept]
+    kinds = list(dict.fromkeys(names))
+    rows = []
+    for grooves, where in stiffness.CHOICES.items():
+        ratios = stiffness.ratios(key, grooves)
+        cells = []
+        for name in kinds:
+            some = ratios[[one == name for one in names]]
+            cells.append(f"{np.median(some):.3f}, {100 * rms(some - 1.0):.1f} %")
+        both = f"{np.median(ratios):.3f}, {100 * rms(ratios - 1.0):.1f} %"
+        rows.append([f"{grooves[0]:g}, {grooves[1]:g}", where, *cells, both])
+    head = (
+        "inner, outer",
+        "where",
+        *(f"{name} ({names.count(name)})" for name in kinds),
+        f"all ({len(kept)})",
+    )
+    return "Stiffness, computed over printed: median, rms.\n\n" + markdown(head, rows)
+
+
+def _each(rows: Sequence[Compared]) -> str:
+    """Return the table of a source's values, one by one; of many the ends."""
+    shown = list(rows)
+    if len(shown) > 30:
+        shown = sorted(shown, key=lambda one: one.found)
+        shown = [*shown[:3], *shown[-3:]]
+    lines = []
+    for one in shown:
+        v = one.value
+        condition = [v.bearing, v.grade, *(f"{x:g} {unit}" for x, unit in (
+            (v.angle_deg, "deg"), (v.speed_rpm, "r/min"), (v.load_N, "N"), (v.viscosity_mm2_s, "mm2/s"),
+            (v.shaft_Hz, "Hz")) if not math.isnan(x)), v.remark]  # fmt: skip
+        theirs = _plain(v.published) + ("" if math.isnan(v.published_to) else f" to {v.published_to:g}")
+        ours = ["", "", "not computed"] if math.isnan(one.ours) else [
+            _three(one.ours), f"{_three(one.low)} to {_three(one.high)}",
+            f"{one.found:+.2f}" if one.difference else f"{one.found:.3f}",
+        ]  # fmt: skip
+        lines.append(
+            [f"{v.quantity}, {v.unit}".removesuffix(", -"), ", ".join(filter(None, condition)), theirs, *ours]
+        )
+    kind = "ours less theirs" if rows[0].difference else "ours over theirs"
+    few = "" if len(shown) == len(rows) else f"The three least and the three largest of {len(rows)}.\n\n"
+    head = ("quantity", "condition", "theirs", "ours", "range of what is assumed", kind)
+    return few + markdown(head, lines)
+
+
+def _sensitivity() -> str:
+    at = of("tp2275")
+    moves = {"as assumed": None} | friction.MOVES_35
+    rows = [_line(words, moved) for words, moved in moves.items()]
+    head = ("moved alone", *(f"heat, {one.speed_rpm:,.0f} r/min" for one in at),
+            *(f"hybrid over steel, {one.speed_rpm:,.0f}" for one in at))  # fmt: skip
+    return f"## What the heat depends on\n\n{_fold(_TEXT['sensitivity'])}\n\n{markdown(head, rows)}"
+
+
+def _line(words: str, moved: Mapping[str, float] | None) -> list[str]:
+    at = of("tp2275")
+    heats = [f"{friction.heat_35(one, moved) / one.published:.2f}" for one in at]
+    return [words, *heats, *(f"{friction.hybrid_over_steel(one, moved):.2f}" for one in at)]
+
+
+def _moved(found: Mapping[str, list[Compared]]) -> str:
+    """Return what moved since the values were first compared, before and after."""
+    heat, light = found["tp2275"], found["asme"]
+    (coefficient,) = found["ntn"]
+    low, medium, high = (f"{one.ours:.0f}" for one in found["kyk"] if one.counts)
+    now = {
+        "ntn": f"{coefficient.low:.1f} to {coefficient.high:.1f}e-3",
+        "kyk": f"{low}, {medium}, {high}",
+        "rule": f"{np.median(stiffness.ratios('nsk', stiffness.RULE)):.2f}",
+        "nsk": f"{np.median(stiffness.ratios('nsk', stiffness.CONFORMITIES)):.2f}",
+        "skf": f"{np.median([one.found for one in found['skf']]):.2f}",
+        "heat": ", ".join(f"{one.found:.2f}" for one in heat),
+        "light": ", ".join(f"{one.ours:.2f}" for one in light),
+        "exponent": f"{friction.exponent([x.value.speed_rpm for x in heat], [x.ours for x in heat]):.2f}",
+    }
+    rows = [[one["figure"], one["before"], now[one["now"]], one["why"]] for one in _TEXT["moved"]]
+    table = markdown(("figure", "before", "now", "why"), rows)
+    head = "## What moved since these values were first compared"
+    return f"{head}\n\n{table}\n{_fold(_TEXT['elsewhere'])}"
+
+
+def _folded(text: str) -> str:
+    """Return paragraphs with lines of one width; headings stay."""
+    return "\n\n".join(
+        one if one.startswith("#") else _fold(" ".join(one.split())) for one in text.strip().split("\n\n")
+    )
+
+
+def _fold(text: str, indent: str = "") -> str:
+    flat = " ".join(text.split())
+    return textwrap.fill(flat, 109, break_long_words=False, break_on_hyphens=False, subsequent_indent=indent)
+
+
+def _anchor(title: str) -> str:
+    kept = "".join(sign for sign in title.lower() if sign.isalnum() or sign in " -_")
+    return "-".join(kept.split())
+
+
+def _plain(value: float) -> str:
+    return "" if math.isnan(value) else f"{value:g}"
+
+
+def _four(value: float) -> str:
+    return "" if math.isnan(value) else f"{value:.4g}"
+
+
+def _three(value: float) -> str:
+    return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"

@@ -195,8 +195,9 @@ def test_refusals(tmp_path):
         torque_range(tmp_path / "none.toml")
     with pytest.raises(SceneError, match="statics"):
         torque_range(read_scene(EXAMPLES.parent / "port" / "7003C-DB-port.toml"))
-    with pytest.raises(EngineError, match="7003C-spindle"):
-        torque_range(single({"mounting.preload_N": 1.0, "mounting.radial_load_z_N": -3e3}))
+    soft = {"mounting.pedestal_stiffness_N_m": 1e4, "mounting.radial_load_y_N": 99.0}
+    with pytest.raises(EngineError, match="7003C-bare: .*stiffer pedestal"):
+        torque_range(read_scene(EXAMPLES / "7003C-bare.toml").replace(soft))
 
 
 @pytest.mark.parametrize("file", [SINGLE, SET], ids=["single", "set"])

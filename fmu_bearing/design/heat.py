@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 from fmu_bearing.design.measured import Range
 from fmu_bearing.design.torque_range import TorqueRange
+from fmu_bearing.results.table import number
 
 #: Where power is lost, and what the loss warms, in words.
 ARISES = {
@@ -135,7 +136,7 @@ def heat_table(
 
 def _range_rows(ranges: Sequence[Range], unit: str) -> list[list[str]]:
     ends = (("low", [one.low for one in ranges]), ("high", [one.high for one in ranges]))
-    return [[f"its range: {name}, {unit}", *(f"{value:.2f}" for value in values)] for name, values in ends]
+    return [[f"its range: {name}, {unit}", *map(number, values)] for name, values in ends]
 
 
 def _the(name: str) -> str:

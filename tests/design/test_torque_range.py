@@ -209,9 +209,9 @@ def test_info_shows_it_beside_the_torque(file):
     for row in [*heat_table(found.bearings, ranges)[1], *ranges.table()[1]]:
         assert row in rows
     every = (*ranges.bearings, ranges.total)[: len(ranges.bearings) if file == SINGLE else None]
-    assert ["its range: high, N mm", *(f"{1e3 * one.high:.2f}" for one in every)] in rows
+    assert ["its range: high, N mm", *(f"{1e3 * one.high:.3g}" for one in every)] in rows
     speed = found.scene.operation.speed_rpm * RPM
-    assert ["its range: low, W", *(f"{speed * one.low:.2f}" for one in every)] in rows
+    assert ["its range: low, W", *(f"{speed * one.low:.3g}" for one in every)] in rows
     data = json.loads(CliRunner().invoke(cli.app, ["info", str(file), "--json"]).stdout)
     assert [one["friction_torque_range_N_m"] for one in data["bearings"]] == [
         pytest.approx(list(one)) for one in ranges.bearings

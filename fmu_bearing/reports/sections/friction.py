@@ -10,6 +10,7 @@ from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words
+from fmu_bearing.results.table import number
 
 _SHARES = {
     "contacts": (ARISES["sliding"], "inner_ring"),
@@ -139,7 +140,13 @@ def _table(subject: Subject, settled: TorqueRange | None) -> Table:
     mean = float(np.mean(torque))
     rows.append(["torque taken from the shaft", f"{1e3 * mean:.3f}", f"{abs(mean) * speed:.3f}", ""])
     if settled is not None:
-        rows.append(["range of the settled torque", *(one.words for one in settled.shown[0]), ""])
+        rows.append(
+            [
+                "range of the settled torque",
+                *(f"{number(one.low)} to {number(one.high)}" for one in settled.shown[0]),
+                "",
+            ]
+        )
     for key, (words, _) in _HEATS.items():
         if subject.has(f"heat.{key}"):
             rows.append([f"heat to {words}", "", f"{subject.mean(f'heat.{key}'):.3f}", ""])

@@ -28,20 +28,20 @@ from fmu_bearing.steady.rest import parts, started
 from fmu_bearing.threads import one_thread
 
 # The ends of each input. A scene's own value beyond an end becomes that end.
-#: Limiting shear stress over pressure of an ester (after Hoeglund 1999), and the coefficient of mineral oils
-#: in SKF's general catalogue, p. 101; between them are 0.035 (PAO), 0.04 (synthetic oils, SKF).
+#: Limiting shear stress over pressure of an ester (after Hoeglund 1999, in the manuscript of sckim-ai/TRB),
+#: and SKF's coefficient for mineral oils (general catalogue, p. 101). Between: 0.035 PAO, 0.04 synthetic.
 TRACTION = (0.03, 0.05)
 #: kg/m3. Air without oil at 120 degC, and twice what scenes assume: density and drag coefficient among balls
 #: in a row were never found, so the range is assumed.
 DENSITY = (0.9, 10.0)
 #: Either way, on both races: 0.515/0.52 is a tenth stiffer than the pairs of NSK and TPI, 0.52/0.53 softer by
-#: some percent (docs/measured.md).
+#: 2 to 4 % (docs/measured.md).
 CONFORMITY = 0.005
 #: Shares of the viscosity. A grade's tolerance is 10 % (ISO 3448); an inlet 7 K warmer or colder than the
 #: scene has it does the rest (assumed).
 VISCOSITY = (0.7, 1.4)
-#: 0.005 is named for hardened steel in rolling; Houpert (1999), as in Balan, Houpert, Tufescu and Olaru
-#: (2015), eq. 9, comes to 0.04 on the ellipses of ball bearings.
+#: 0.005: hardened steel (sckim-ai/TRB). Houpert (1999), in Balan, Houpert, Tufescu and Olaru (2015), eq. 9,
+#: comes to 0.04 on the ellipses of ball bearings.
 HYSTERESIS = (0.005, 0.04)
 #: Share of the clearance, where the lands carry oil; at the other end they carry none. Whether they do in jet
 #: or oil-air is not known, and a clearance is rarely printed (assumed).

@@ -34,6 +34,12 @@ def point(*given, **keys):
     return whole(*given, **keys).bearings[0]
 
 
+def at_end(name, end):
+    """Friction torque with one input at an end, N m."""
+    (found,) = (one for one in whole().torque_range.inputs if one.name == name)
+    return getattr(found, end).torques[0]
+
+
 def pressure(found, ring="inner"):
     return 1e-9 * found.contacts[ring]["pressure_max"]
 
@@ -206,6 +212,9 @@ FIGURES = {
     "heat.md": {
         "44.23 W with": lambda: point().heat.total,
         "73 % of": lambda: 100.0 * point().heat.rolling / point().heat.total,
+        "29.66 N mm, 40": lambda: 1e3 * at_end("supply", "high"),
+        "40 % more": lambda: 100.0 * (at_end("supply", "high") / point().friction_torque - 1.0),
+        "1 % of the torque": lambda: 100.0 * (at_end("drag_density", "high") / point().friction_torque - 1.0),
         "31.4 degC, its": lambda: settled(SET)[0][0, "shaft"],
         "22.7 degC. The": lambda: settled(SET)[0][0, "housing"],
         "8.7 K.": lambda: settled(SET)[0][0, "shaft"] - settled(SET)[0][0, "housing"],

@@ -123,11 +123,13 @@ def _show_fits(point: "OperatingPoint") -> None:
 
 
 def _show_heat(point: "OperatingPoint") -> None:
-    """Print the friction torque of each bearing and the heat it makes."""
+    """Print the friction torque of each bearing and the heat it makes, with their ranges."""
     from fmu_bearing.design.heat import heat_table
+    from fmu_bearing.design.torque_range import CAPTION
     from fmu_bearing.results.table import show
 
-    show("friction and heat: settled, no waviness", *heat_table(point.bearings))
+    show("friction and heat: settled, no waviness", *heat_table(point.bearings, point.torque_range))
+    show(CAPTION, *point.torque_range.table())
 
 
 def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:

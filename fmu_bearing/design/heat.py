@@ -4,6 +4,10 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any, Protocol
 
+from fmu_bearing.design.measured import Range
+from fmu_bearing.design.torque_range import TorqueRange
+from fmu_bearing.results.table import number
+
 #: Where power is lost, and what the loss warms, in words.
 ARISES = {
     "sliding": "sliding in the contacts",
@@ -105,8 +109,13 @@ class Heated(Protocol):
         ...
 
 
-def heat_table(bearings: Sequence[Heated]) -> tuple[tuple[str, ...], list[list[str]]]:
-    """Return columns and rows for people: a column per bearing, and one for all where they are several."""
+def heat_table(
+    bearings: Sequence[Heated], ranges: TorqueRange | None = None
+) -> tuple[tuple[str, ...], list[list[str]]]:
+    """Return columns and rows for people: a column per bearing, and one for all where they are several.
+
+    ``ranges``: of the torques, in rows beside them; None: without these rows.
+    """
     torques = [1e3 * one.friction_torque for one in bearings]
     heats = [one.heat for one in bearings]
     columns: tuple[str, ...] = ("", "value")
@@ -116,7 +125,18 @@ def heat_table(bearings: Sequence[Heated]) -> tuple[tuple[str, ...], list[list[s
     words = {"inner_race": "of it in the inner race", "outer_race": "of it in the outer race"}
     words = ARISES | {"total": "in all"} | words | {name: f"of it to {_the(name)}" for name in GOES}
     rows = [[f"{text}, W", *(f"{getattr(one, name):.2f}" for one in heats)] for name, text in words.items()]
-    return columns, [["friction torque, N mm", *(f"{torque:.2f}" for torque in torques)], *rows]
+    rows = [["friction torque, N mm", *(f"{torque:.2f}" for torque in torques)], *rows]
+    if ranges is not None:
+        at = 1 + next(k for k, row in enumerate(rows) if row[0] == "in all, W")
+        of_torque, of_heat = zip(*ranges.shown, strict=True)
+        rows[at:at] = _range_rows(of_heat, "W")
+        rows[1:1] = _range_rows(of_torque, "N mm")
+    return columns, rows
+
+
+def _range_rows(ranges: Sequence[Range], unit: str) -> list[list[str]]:
+    ends = (("low", [one.low for one in ranges]), ("high", [one.high for one in ranges]))
+    return [[f"its range: {name}, {unit}", *map(number, values)] for name, values in ends]
 
 
 def _the(name: str) -> str:

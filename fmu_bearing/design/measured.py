@@ -11,7 +11,7 @@ PAGE = "docs/measured.md"
 
 
 class Range(NamedTuple):
-    """Computed over measured or printed values: the least and the largest."""
+    """The least and the largest of some values."""
 
     low: float
     high: float
@@ -22,6 +22,7 @@ class Range(NamedTuple):
         return f"{self.low:.2f} to {self.high:.2f}"
 
 
+# Computed over measured or printed values.
 #: Axial stiffness of 408 pairs of NSK and TPI, with the conformities of a bearing from dimensions.
 STIFFNESS = Range(0.95, 1.10)
 #: Torque of rolling and sliding of a 7210B to 3,000 r/min, over SKF's model: 27 values.

@@ -7,6 +7,7 @@ All figures are of perfect bearings with rigid rings in their steady state; load
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.design.heat import Heat, heat_in_all, heat_of
 from fmu_bearing.design.rating import Rating, least_preload, rating, reference_life, speed_limit
+from fmu_bearing.design.torque_range import TorqueRange, torque_range
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
 from fmu_bearing.formulas import iso281
@@ -195,6 +197,17 @@ class OperatingPoint:
         """Of all bearings together, W."""
         return heat_in_all(one.heat for one in self.bearings)
 
+    @cached_property
+    def torque_range(self) -> TorqueRange:
+        """The range that the friction torques may have from what the scene assumes; computed when asked for.
+
+        Raises
+        ------
+        EngineError
+            Where there is no equilibrium; a ``ValueError``.
+        """
+        return torque_range(self.scene)
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """That no steady state was found, that the pedestal is soft."""
@@ -202,12 +215,17 @@ class OperatingPoint:
 
     def summary(self) -> dict[str, Any]:
         """Return all figures by name, SI units, for machines."""
+        found = self.torque_range
         return {
             "scene": self.scene.name,
             "speed_rpm": self.scene.operation.speed_rpm,
-            "bearings": [one.summary() for one in self.bearings],
+            "bearings": [
+                one.summary() | {"friction_torque_range_N_m": torque, "heat_range_W": found.heat(torque)}
+                for one, torque in zip(self.bearings, found.bearings, strict=True)
+            ],
             "statics": self.statics.summary(),
             "heat_W": self.heat.summary(),
+            "torque_range": found.summary(),
             "life_h": self.life,
             "whirl_Hz_1_s": self.whirl,
             "steady": self.steady,

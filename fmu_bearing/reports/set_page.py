@@ -17,6 +17,7 @@ from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Card, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
+from fmu_bearing.reports.sections.friction import range_table
 from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.reports.sections.verdict_table import overall_of
@@ -73,7 +74,7 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
         ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
         ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
         ("balls", "Ball loads", lambda: [_balls(point)]),
-        ("heat", "Friction and heat", lambda: [_heat(point)]),
+        ("heat", "Friction and heat", lambda: [_heat(point), range_table(point.torque_range)]),
         ("axial", "Axial load", lambda: [_axial(scene, found, tell)]),
         ("warmth", "Preload and warmth", lambda: [_warmth(scene, found, tell)]),
     )
@@ -226,7 +227,7 @@ def _bearings(found: Statics) -> Table:
 
 def _heat(point: OperatingPoint) -> Table:
     """Friction torque of each bearing, and the heat it makes, by where it arises and what it warms."""
-    columns, rows = heat_table(point.bearings)
+    columns, rows = heat_table(point.bearings, point.torque_range)
     return Table("Friction and heat of the settled bearings, without waviness", list(columns), rows)
 
 

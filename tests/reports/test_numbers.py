@@ -10,6 +10,8 @@ from scipy.io import wavfile
 from fmu_bearing.acoustics.analysis.directivity import PLANES
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, level_spectrum
 from fmu_bearing.acoustics.filters.fir import decimator_response
+from fmu_bearing.design.torque_range import CAPTION, torque_range
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import thinned
@@ -150,6 +152,16 @@ def test_friction_shares_are_the_variables(full, full_page):
         mean = 1e3 * full.outputs[f"friction_torque_share.{key}"][kept].mean()
         assert float(rows[name][1]) == pytest.approx(mean, abs=2e-3)
     assert float(rows["all shares"][3]) == 100.0
+
+
+def test_the_range_of_the_torque_is_the_settled_one(full, full_page):
+    """At the mean speed of the run, to the three digits that are shown."""
+    found = torque_range(full.scene.replace({"operation.speed_rpm": float(np.mean(full.speed)) / RPM}))
+    rows = {row[0]: row for row in full_page.tables["Friction and heat, means over the recording"]}
+    for cell, one in zip(rows["range of the settled torque"][1:], found.shown[0], strict=False):
+        assert [float(value) for value in cell.split(" to ")] == pytest.approx(list(one), rel=5e-3)
+    _, *inputs = full_page.tables[f"F{CAPTION[1:]}"]
+    assert [row[:3] for row in inputs] == [row[:3] for row in found.table()[1]]
 
 
 def test_thinning_keeps_the_peaks():

@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 from fmu_bearing import operating_point, statics
 from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
+from fmu_bearing.design.torque_range import CAPTION
 from fmu_bearing.design.verdict import overall
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.progress import silent
@@ -38,7 +39,9 @@ def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     assert made.figures["life_h"] == pytest.approx(point.life)
     assert made.figures["heat_W"] == pytest.approx(point.heat.total)
     _, *rows = Page(made.path).tables["Friction and heat of the settled bearings, without waviness"]
-    assert rows == heat_table(point.bearings)[1]
+    assert rows == heat_table(point.bearings, point.torque_range)[1]
+    _, *rows = Page(made.path).tables[f"F{CAPTION[1:]}"]
+    assert rows == point.torque_range.table()[1]
     assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
 
 

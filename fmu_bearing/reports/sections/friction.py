@@ -3,10 +3,14 @@
 import numpy as np
 
 from fmu_bearing.design.heat import ARISES, GOES
+from fmu_bearing.design.torque_range import CAPTION, TorqueRange, torque_range
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Block, Chart, Section, Table, Words
+from fmu_bearing.results.table import number
 
 _SHARES = {
     "contacts": (ARISES["sliding"], "inner_ring"),
@@ -27,7 +31,10 @@ def friction(subject: Subject) -> Section:
     blocks: list[Block] = [_torque(subject)]
     if subject.has("heat.inner_ring"):
         blocks.append(_heats(subject))
-    blocks.append(_table(subject))
+    settled = _settled(subject)
+    blocks.append(_table(subject, settled))
+    if settled is not None:
+        blocks.append(range_table(settled))
     if subject.fidelity in ("rings", "response"):
         blocks.append(
             Words(
@@ -93,7 +100,27 @@ def _heats(subject: Subject) -> Chart:
     )  # fmt: skip
 
 
-def _table(subject: Subject) -> Table:
+def _settled(subject: Subject) -> TorqueRange | None:
+    """Range of the settled torque at the mean speed; None without scene or equilibrium."""
+    scene = subject.recording.scene
+    if scene is None:
+        return None
+    try:
+        return torque_range(scene.replace({"operation.speed_rpm": subject.speed / RPM}))
+    except EngineError:
+        return None
+
+
+def range_table(found: TorqueRange) -> Table:
+    """Return the inputs of a range with their ends, and the torque at them."""
+    columns, rows = found.table()
+    return Table(
+        f"{CAPTION[0].upper()}{CAPTION[1:]}", columns, rows,
+        note="The changes are added as roots of squares, upwards and downwards apart.",
+    )  # fmt: skip
+
+
+def _table(subject: Subject, settled: TorqueRange | None) -> Table:
     speed = abs(subject.speed)
     rows = []
     shares = {
@@ -112,6 +139,14 @@ def _table(subject: Subject) -> Table:
         )
     mean = float(np.mean(torque))
     rows.append(["torque taken from the shaft", f"{1e3 * mean:.3f}", f"{abs(mean) * speed:.3f}", ""])
+    if settled is not None:
+        rows.append(
+            [
+                "range of the settled torque",
+                *(f"{number(one.low)} to {number(one.high)}" for one in settled.shown[0]),
+                "",
+            ]
+        )
     for key, (words, _) in _HEATS.items():
         if subject.has(f"heat.{key}"):
             rows.append([f"heat to {words}", "", f"{subject.mean(f'heat.{key}'):.3f}", ""])

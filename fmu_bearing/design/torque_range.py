@@ -1,0 +1,298 @@
+"""The range that a friction torque may have, from the inputs of a scene that few can know.
+
+One input at a time goes to its low and to its high end, and the bearings settle at each. The changes of
+torque are added as roots of squares, upwards and downwards apart, as those of inputs that do not depend on
+each other. Inputs are the same in all bearings of a set.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.design.measured import Range
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import P
+from fmu_bearing.instance import EngineError
+from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
+from fmu_bearing.scene.base import Part
+from fmu_bearing.scene.bearing import Bearing, Cage
+from fmu_bearing.scene.exclusions import require
+from fmu_bearing.scene.lubricant import Lubricant
+from fmu_bearing.scene.member import still_of
+from fmu_bearing.scene.values import limits
+from fmu_bearing.steady.rest import parts, started
+from fmu_bearing.threads import one_thread
+
+# The ends of each input. A scene's own value beyond an end becomes that end.
+#: Limiting shear stress over pressure of an ester (after Hoeglund 1999), and the coefficient of mineral oils
+#: in SKF's general catalogue, p. 101; between them are 0.035 (PAO), 0.04 (synthetic oils, SKF).
+TRACTION = (0.03, 0.05)
+#: kg/m3. Air without oil at 120 degC, and twice what scenes assume: density and drag coefficient among balls
+#: in a row were never found, so the range is assumed.
+DENSITY = (0.9, 10.0)
+#: Either way, on both races: 0.515/0.52 is a tenth stiffer than the pairs of NSK and TPI, 0.52/0.53 softer by
+#: some percent (docs/measured.md).
+CONFORMITY = 0.005
+#: Shares of the viscosity. A grade's tolerance is 10 % (ISO 3448); an inlet 7 K warmer or colder than the
+#: scene has it does the rest (assumed).
+VISCOSITY = (0.7, 1.4)
+#: 0.005 is named for hardened steel in rolling; Houpert (1999), as in Balan, Houpert, Tufescu and Olaru
+#: (2015), eq. 9, comes to 0.04 on the ellipses of ball bearings.
+HYSTERESIS = (0.005, 0.04)
+#: Share of the clearance, where the lands carry oil; at the other end they carry none. Whether they do in jet
+#: or oil-air is not known, and a clearance is rarely printed (assumed).
+CLEARANCE = 0.5
+#: Few drops and close conformity, or room for oil: both were measured on one rig (Balan, Houpert, Tufescu and
+#: Olaru 2015). Replenishment constants of SKF's friction model for oil-air and for jets.
+SUPPLY = (("starved", 6e-8), ("flooded", 3e-8))
+
+#: What `TorqueRange.table` shows, in words.
+CAPTION = "friction torque, N mm, with one input at its low and its high end"
+
+_Values = dict[str, Any]  # of a scene, by dotted key
+_Ends = tuple[tuple[str, _Values], tuple[str, _Values]]  # low and high: in words, values
+_EACH = ("inner_ring", "outer_ring", "balls")
+
+
+class End(NamedTuple):
+    """One end of an input.
+
+    Attributes
+    ----------
+    words : str
+        The values, in the unit of the input's words.
+    values : dict
+        By dotted key, for `Scene.replace`.
+    torques : tuple of float
+        Friction torque of each bearing there, N m; empty where there is no equilibrium.
+    """
+
+    words: str
+    values: _Values
+    torques: tuple[float, ...]
+
+    def summary(self) -> dict[str, Any]:
+        """Return all by name, for machines."""
+        return {"values": self.values, "friction_torque_N_m": list(self.torques) or None}
+
+
+class Input(NamedTuple):
+    """An input with its ends: name, what it is in words, `End` low and high."""
+
+    name: str
+    words: str
+    low: End
+    high: End
+
+
+@dataclass(frozen=True)
+class TorqueRange:
+    """The range of the friction torque of a scene's settled bearings, SI units.
+
+    Attributes
+    ----------
+    scene : Scene
+        Without sound and imperfections.
+    torques : tuple of float
+        Of each bearing with the scene's own values, N m.
+    inputs : tuple of Input
+        Those that act in this scene.
+    """
+
+    scene: Scene
+    torques: tuple[float, ...]
+    inputs: tuple[Input, ...]
+
+    @property
+    def bearings(self) -> tuple[Range, ...]:
+        """Of the torque of each bearing, N m."""
+        return tuple(
+            _range(torque, ([end.torques[k] for end in ends] for ends in self._found()))
+            for k, torque in enumerate(self.torques)
+        )
+
+    @property
+    def total(self) -> Range:
+        """Of the torque of all bearings together, N m: their changes add, as inputs are the same in all."""
+        return _range(sum(self.torques), ([sum(end.torques) for end in ends] for ends in self._found()))
+
+    @property
+    def shown(self) -> list[tuple[Range, Range]]:
+        """Ranges of torque (N mm) and heat (W) for people: of each bearing, of several together last."""
+        each = self.bearings if len(self.bearings) == 1 else (*self.bearings, self.total)
+        return [(Range(1e3 * one.low, 1e3 * one.high), self.heat(one)) for one in each]
+
+    def heat(self, torque: Range) -> Range:
+        """Of the heat (W) that a range of torque (N m) makes at the speed of the scene."""
+        speed = self.scene.operation.speed_rpm * RPM
+        return Range(*sorted(speed * value for value in torque))
+
+    def _found(self) -> list[list[End]]:
+        """Return the ends of each input at which there is an equilibrium."""
+        return [[end for end in (one.low, one.high) if end.torques] for one in self.inputs]
+
+    def table(self) -> tuple[tuple[str, ...], list[list[str]]]:
+        """Return columns and rows for people: each input with its ends, and the torque (N mm) there."""
+        columns = ("", "low", "high", "at low", "at high")
+        ends = [(one, (one.low, one.high)) for one in self.inputs]
+        return columns, [
+            [one.words, *(end.words for end in both), *(_torque_words(end) for end in both)]
+            for one, both in ends
+        ]
+
+    def summary(self) -> dict[str, Any]:
+        """Return all figures by name, SI units, for machines."""
+        return {
+            "friction_torque_N_m": self.total,
+            "heat_W": self.heat(self.total),
+            "inputs": {
+                one.name: {"low": one.low.summary(), "high": one.high.summary()} for one in self.inputs
+            },
+        }
+
+
+@one_thread
+def torque_range(scene: SceneSource) -> TorqueRange:
+    """Return the range that the friction torque of a scene's bearings may have, without a run.
+
+    Parameters
+    ----------
+    scene : Scene or path
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read, or another model owns the shaft.
+    EngineError
+        Where there is no equilibrium with the scene's own values; a ``ValueError``.
+
+    Examples
+    --------
+    >>> from fmu_bearing.design.torque_range import torque_range
+    >>> found = torque_range("examples/scenes/7003C-spindle.toml")
+    >>> f"{1e3 * found.torques[0]:.1f} N mm, {1e3 * found.total.low:.1f} to {1e3 * found.total.high:.1f}"
+    '21.1 N mm, 17.9 to 30.2'
+    """
+    scene = still_of(scene_of(scene))
+    require(scene, "statics")
+    run = started(scene, fidelity="response")
+    first = parts(run)[0].p
+    found = []
+    for name, (words, ends_of) in _INPUTS.items():
+        ends = ends_of(scene, first)
+        if ends is not None:
+            low, high = (End(text, values, _torques_with(scene, values)) for text, values in ends)
+            found.append(Input(name, words, low, high))
+    return TorqueRange(scene, _torques(scene, run.get), tuple(found))
+
+
+def _torques(scene: Scene, output: Callable[[str], float]) -> tuple[float, ...]:
+    return tuple(output(f"{one.prefix}friction_torque") for one in scene.bearings())
+
+
+def _torques_with(scene: Scene, values: _Values) -> tuple[float, ...]:
+    """Return the torques with other values; empty where the scene or the engine refuses them."""
+    try:
+        return _torques(scene, started(scene.replace(values), fidelity="response").get)
+    except (SceneError, EngineError):
+        return ()
+
+
+def _range(settled: float, ends: Iterable[Sequence[float]]) -> Range:
+    """Return a value's range from its values at the ends of each input: roots of squares."""
+    changes = [[value - settled for value in one] for one in ends]
+    down = math.hypot(*(min([0.0, *one]) for one in changes))
+    up = math.hypot(*(max([0.0, *one]) for one in changes))
+    return Range(settled - down, settled + up)
+
+
+def _torque_words(end: End) -> str:
+    return f"{1e3 * sum(end.torques):.2f}" if end.torques else "no equilibrium"
+
+
+# --- what moves each input: low and high, None where it does not act ----------------------------------------
+
+
+def _traction(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    return _widest("lubricant.traction_max", float(p[P.MU]), TRACTION) if p[P.MU] > 0.0 else None
+
+
+def _density(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    if p[P.DRAG] == 0.0 or p[P.DRAG_FACTOR] == 0.0:
+        return None
+    return _widest("lubricant.oil_air_density_kg_m3", scene.lubricant.oil_air_density_kg_m3, DENSITY)
+
+
+def _conformity(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    names = ("inner_conformity", "outer_conformity")
+    return _ends(
+        {f"bearing.{name}": _within(Bearing, name, getattr(scene.bearing, name) + change) for name in names}
+        for change in (-CONFORMITY, CONFORMITY)
+    )
+
+
+def _viscosity(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    name = "viscosity_Pa_s"
+    given = getattr(scene.lubricant, name)
+    return _ends({f"lubricant.{name}": _within(Lubricant, name, share * given)} for share in VISCOSITY)
+
+
+def _hysteresis(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    losses = {part: getattr(scene.materials, part).loss for part in _EACH}
+    lossy = {part: loss for part, loss in losses.items() if loss > 0.0}
+    if not lossy or not scene.fidelity.terms.rolling_hysteresis:
+        return None
+    low, high = min(HYSTERESIS[0], *lossy.values()), max(HYSTERESIS[1], *lossy.values())
+    keys = [f"materials.{part}.hysteresis_loss" for part in lossy]
+    return (f"{low:.4g}", dict.fromkeys(keys, low)), (f"{high:.4g}", dict.fromkeys(keys, high))
+
+
+def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    film = scene.fidelity.terms.land_film and scene.lubricant.land_viscosity_Pa_s != 0.0
+    if scene.bearing.cage is None or not film:
+        return None
+    half = _within(Cage, "land_clearance_mm", CLEARANCE * 1e3 * float(p[P.LAND_CLEARANCE]))
+    return (
+        ("none", {"fidelity.terms.land_film": False}),
+        (f"in {half:.3g} mm", {"bearing.cage.land_clearance_mm": half}),
+    )
+
+
+def _supply(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    if p[P.ROLLING] == 0.0:
+        return None
+    keys = ("lubricant.rolling_law", "lubricant.replenishment_constant")
+    low, high = ((one[0], dict(zip(keys, one, strict=True))) for one in SUPPLY)
+    return low, high
+
+
+#: By name: what the input is, in words, and its ends in a scene with these parameters of its first bearing.
+_INPUTS: dict[str, tuple[str, Callable[[Scene, NDArray[np.float64]], _Ends | None]]] = {
+    "traction": ("largest traction", _traction),
+    "drag_density": ("oil-air density, kg/m3", _density),
+    "conformity": ("conformities", _conformity),
+    "viscosity": ("viscosity at 20 degC, Pa s", _viscosity),
+    "hysteresis": ("hysteresis loss", _hysteresis),
+    "lands": ("oil between cage and lands", _lands),
+    "supply": ("oil at the inlets", _supply),
+}
+
+
+def _widest(key: str, own: float, ends: tuple[float, float]) -> _Ends:
+    return _ends({key: value} for value in (min(ends[0], own), max(ends[1], own)))
+
+
+def _ends(values: Iterable[_Values]) -> _Ends:
+    """Return both ends with their values as words."""
+    low, high = ((" / ".join(f"{value:.4g}" for value in one.values()), one) for one in values)
+    return low, high
+
+
+def _within(table: type[Part], name: str, value: float) -> float:
+    """Return a value within what its key of a scene allows."""
+    low, high = limits(table.model_fields[name])
+    return min(max(float(f"{value:.6g}"), low), high)

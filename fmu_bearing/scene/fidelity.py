@@ -38,7 +38,7 @@ class Terms(Part):
     )
     thermal_traction: bool = Field(
         default=False,
-        description="Traction that falls as friction heats the oil it shears; 0 to 4 % of all heat, and "
+        description="Traction that falls as friction heats the oil it shears: 0.5 to 5 % less heat, and "
         "slower steps of fidelity full.",
         examples=[False],
     )

@@ -28,7 +28,13 @@ HEAVY_TIMEOUT = 3000  # s: one of them compiles the plain way, some minutes of t
 #: For tests of the examples themselves, of the documentation and of the catalogue.
 EXAMPLES = ROOT / "examples" / "scenes"
 #: What the examples' oil has beside the catalogue's, so that the papers' results stay.
-OWN_ROLLING = {"supply": "oil-air", "rolling_law": "houpert-1987-ehl", "replenishment_constant": 6e-8}
+OWN_OIL = {
+    "supply": "oil-air",
+    "rolling_law": "houpert-1987-ehl",
+    "replenishment_constant": 6e-8,
+    "traction_max": 0.05,
+    "land_viscosity_Pa_s": 0.006,
+}
 
 
 def pytest_collection_modifyitems(items):

@@ -7,6 +7,7 @@ Each function yields what its page has to say, made from today's tables. A page 
 import re
 
 from tests.figures_of_limits import limits
+from tests.figures_of_settled import settled
 from tests.tables import (
     CASES,
     RESULTS,
@@ -131,6 +132,7 @@ def validation():
     )
     yield from _accuracy_of_the_benchmark()
     yield from _over_gate_scenes()
+    yield from settled()
     yield from _sensitivities()
     from tests.extremes.cases import CASES as EXTREMES
 

@@ -1,5 +1,6 @@
 """Sentences of the page on limits whose figures come from the tables under docs/results."""
 
+from tests.figures_of_settled import limits_of_settled
 from tests.tables import CASES, critical_speed, fastest, moved, rounded, row, scene_line, table, up, usual
 
 
@@ -8,6 +9,7 @@ def limits():
     yield from _rests_on_assumed_values()
     yield from _bands()
     yield from _loads_and_goals()
+    yield from limits_of_settled()
     yield f"peaks ({critical_speed()} r/min) is an input, not a prediction"
     gap = row("three_balls", case="in contact, 0.5 m/s, Hertz")
     paper = float(row("three_balls", case="measured, ref. [24]")["paper"])

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from benchmarks.measured import friction, stiffness
+from benchmarks.measured import friction, parts, stiffness
 from benchmarks.measured.compared import SOURCES, everything, skf
 from benchmarks.measured.findings import findings, rms
 from benchmarks.measured.page import COLUMNS, all_rows, page
@@ -17,6 +17,7 @@ from fmu_bearing.design import measured
 from fmu_bearing.formulas import iso76
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.nsk import sizes
+from tests.oracles.hertz import point_contact
 from tests.pages import DOCS, not_printed
 from tests.tables import table
 
@@ -120,18 +121,16 @@ def test_torque_and_heat_are_those_of_the_table(torque):
     assert light == pytest.approx(shown, rel=2e-3)
 
 
-@pytest.mark.xfail(strict=True, reason="missed: 12 of 27, median 0.79; no hysteresis, no isoviscous rolling")
 def test_goal_of_torque(torque):
     assert np.sum((torque > 0.8) & (torque < 1.25)) >= 24 and 0.85 <= np.median(torque) <= 1.05
 
 
-@pytest.mark.xfail(strict=True, reason="missed: 0.82, 1.16, 1.29, 1.30 of measured")
+@pytest.mark.xfail(strict=True, reason="missed: 0.85, 1.13, 1.24, 1.23 of measured; the settled cage whirls")
 def test_goal_of_heat():
     heat = np.array([friction.heat_35(one) / one.published for one in of("tp2275")])
     assert np.all((heat > 0.78) & (heat < 1.22))
 
 
-@pytest.mark.xfail(strict=True, reason="missed: 0.84, 0.97, 0.99, 0.97; the cage covers what the balls save")
 def test_goal_of_hybrid_over_steel():
     light = np.array([friction.hybrid_over_steel(one) for one in of("asme")])
     assert np.all((light > 0.82) & (light < 0.92))
@@ -142,7 +141,6 @@ def test_a_heat_balance_says_what_is_compared():
     value = of("skf")[4]
     whole = friction.friction_coefficient(value) * value.load_N * 50.0 / 2e3
     assert friction.contact_torque(value) < whole < 1.3 * friction.contact_torque(value)
-    assert friction.at(friction.b7210(), value).lubricant.replenishment_constant == 6e-8
 
 
 def test_the_table_has_every_value_with_its_provenance():
@@ -161,7 +159,7 @@ def test_the_table_has_every_value_with_its_provenance():
 def test_the_page_has_misses_first_and_a_figure_per_source():
     rows = re.findall(r"^\| (\*\*missed\*\*|beside|met) \|", PAGE, flags=re.MULTILINE)
     order = [("**missed**", "beside", "met").index(one) for one in rows]
-    assert len(rows) == 14 and order == sorted(order) and order.count(0) == 5
+    assert len(rows) == 14 and order == sorted(order) and order.count(0) == 3
     for key in sources():
         several = sum(row["source"] == key and row["counts"] == "yes" for row in table("measured")) > 1
         assert (
@@ -169,6 +167,25 @@ def test_the_page_has_misses_first_and_a_figure_per_source():
             == (DOCS / "images" / "measured" / f"{key}.png").exists()
             == (f"(images/measured/{key}.png)" in PAGE)
         )
+
+
+def test_the_page_has_every_part_of_the_friction_and_all_that_is_assumed():
+    for one in (*friction.MOVES_35, *parts.PARTS_7210B, *parts.PARTS_35, *parts.FRESH):
+        assert re.search(rf"^\| (\*\*)?{re.escape(one)}(\*\*| \||,)", PAGE, flags=re.MULTILINE), one
+
+
+def test_houperts_force_is_larger_with_the_ratio_of_the_radii():
+    """By the power 0.348 of that ratio over the ellipticity, here of an independent Hertz contact."""
+    scene = parts.fresh("7003C")
+    b = scene.bearing
+    gamma = b.ball_diameter_mm * np.cos(np.radians(b.contact_angle_deg)) / b.pitch_diameter_mm
+    for grown, conformity, side in zip(
+        parts.radii_over_ellipticity(scene), (b.inner_conformity, b.outer_conformity), (-1, 1), strict=True
+    ):
+        along, across = 0.5 * (1.0 + side * gamma), conformity / (2.0 * conformity - 1.0)
+        contact = point_contact(1.0, 1.0 / along, 1.0 / across, 1.0)
+        ellipticity = contact.semi_major / contact.semi_minor
+        assert grown == pytest.approx((across / along / ellipticity) ** 0.348, rel=1e-6) and grown > 1.4
 
 
 def test_figures_of_info_are_those_of_the_table():
@@ -205,7 +222,7 @@ def test_the_page_and_its_table_are_what_the_command_writes():
                 assert new[key] == old[key]
     shown = re.sub(r"^Computed on .*?\n\n", "", PAGE, flags=re.MULTILINE | re.DOTALL)
     assert not not_printed(shown, page(found))
-    assert [one.status for one in findings(found)].count("missed") == 5
+    assert [one.status for one in findings(found)].count("missed") == 3
 
 
 def test_csv_of_values_holds_numbers_alone():

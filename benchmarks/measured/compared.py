@@ -11,8 +11,6 @@ from benchmarks.measured import friction, motion, stiffness
 from benchmarks.measured.sources import NAN, OTHER_BALLS, Value, of
 from fmu_bearing.progress import Tell, silent
 
-Moves = Mapping[str, Mapping[str, float]]
-
 
 @dataclass(frozen=True)
 class Compared:
@@ -47,7 +45,7 @@ class Compared:
 
 
 def _moved(
-    value: Value, compute: Callable[..., float], moves: Moves, difference: bool = False
+    value: Value, compute: Callable[..., float], moves: Mapping[str, friction.Moved], difference: bool = False
 ) -> Compared:  # fmt: skip
     ours = compute(value)
     every = [ours, *(compute(value, one) for one in moves.values())]
@@ -163,7 +161,7 @@ SOURCES = (nsk, tpi, ibc, skf, tp2275, asme, ntn, cwru, paderborn, kyk, tnd7870)
 
 
 def everything(tell: Tell = silent) -> dict[str, list[Compared]]:
-    """Return all values beside ours by source; about two minutes of a processor."""
+    """Return all values beside ours by source; about four minutes of a processor."""
     found = {}
     for source in SOURCES:
         tell(f"{source.__name__} ...")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.measured import friction, stiffness
+from benchmarks.measured import friction, parts, stiffness
 from benchmarks.measured.compared import Compared
 from benchmarks.measured.findings import Finding, findings, rms
 from benchmarks.measured.pictures import drawable, group
@@ -92,10 +92,21 @@ def _section(key: str, rows: list[Compared], said: Sequence[Finding]) -> str:
 {markdown(("provenance", ""), about)}
 {lines}
 
-{_fold(_TEXT["meaning"][key])}
+{_folded(_TEXT["meaning"][key])}
 
 {picture}
-{table}"""
+{table}{_parts(key)}"""
+
+
+def _parts(key: str) -> str:
+    """Return what each part of the friction is worth, where a source is of friction."""
+    tables = {"skf": parts.table_7210b, "tp2275": parts.table_35}
+    if key not in tables:
+        return ""
+    head, rows = tables[key]()
+    return (
+        f"\n### {_TEXT['parts'][key + '_title']}\n\n{_folded(_TEXT['parts'][key])}\n\n{markdown(head, rows)}"
+    )
 
 
 def _groups(key: str) -> str:
@@ -153,17 +164,20 @@ def _sensitivity() -> str:
     rows = [_line(words, moved) for words, moved in moves.items()]
     head = ("moved alone", *(f"heat, {one.speed_rpm:,.0f} r/min" for one in at),
             *(f"hybrid over steel, {one.speed_rpm:,.0f}" for one in at))  # fmt: skip
-    return f"## What the heat depends on\n\n{_fold(_TEXT['sensitivity'])}\n\n{markdown(head, rows)}"
+    return (
+        f"## Sensitivity of heat to what is assumed\n\n{_folded(_TEXT['sensitivity'])}\n\n"
+        f"{markdown(head, rows)}\n{_folded(_TEXT['sensitive'])}"
+    )
 
 
-def _line(words: str, moved: Mapping[str, float] | None) -> list[str]:
+def _line(words: str, moved: friction.Moved | None) -> list[str]:
     at = of("tp2275")
     heats = [f"{friction.heat_35(one, moved) / one.published:.2f}" for one in at]
     return [words, *heats, *(f"{friction.hybrid_over_steel(one, moved):.2f}" for one in at)]
 
 
 def _moved(found: Mapping[str, list[Compared]]) -> str:
-    """Return what moved since the values were first compared, before and after."""
+    """Return what moved since the values were first compared, before and after, each with its reason."""
     heat, light = found["tp2275"], found["asme"]
     (coefficient,) = found["ntn"]
     low, medium, high = (f"{one.ours:.0f}" for one in found["kyk"] if one.counts)
@@ -179,8 +193,18 @@ def _moved(found: Mapping[str, list[Compared]]) -> str:
     }
     rows = [[one["figure"], one["before"], now[one["now"]], one["why"]] for one in _TEXT["moved"]]
     table = markdown(("figure", "before", "now", "why"), rows)
-    head = "## What moved since these values were first compared"
-    return f"{head}\n\n{table}\n{_fold(_TEXT['elsewhere'])}"
+    grown = [
+        [name, *(f"{one:.2f}" for one in parts.radii_over_ellipticity(parts.fresh(name)))]
+        for name in parts.FRESH
+    ]
+    forces = markdown(
+        ("rolling force, ratio of the radii over ellipticity", "inner race", "outer race"), grown
+    )
+    fresh = markdown(*parts.table_fresh())
+    return (
+        f"## What moved\n\n{_folded(_TEXT['moving'])}\n\n{table}\n{_folded(_TEXT['radii'])}\n\n{forces}\n"
+        f"{_folded(_TEXT['fresh'])}\n\n{fresh}\n{_folded(_TEXT['elsewhere'])}"
+    )
 
 
 def _folded(text: str) -> str:

@@ -13,7 +13,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 
 def main() -> None:
-    """Compute all, about three minutes of a processor, and write it."""
+    """Compute all, about five minutes of a processor, and write it."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--output", type=Path, default=DOCS, help="folder of the page; default: docs")
     folder = parser.parse_args().output

@@ -74,6 +74,8 @@ ASSUMED: dict[str, Moves] = {
     "lubricant.traction_slide_to_roll": by_share,
     "lubricant.traction_floor_m_s": by_share,
     "lubricant.land_viscosity_Pa_s": by_share,
+    "lubricant.supply": to("oil-air", "jet"),
+    "lubricant.replenishment_constant": by_share,
     "lubricant.replenishment_held": to(False, True),
     "lubricant.oil_air_density_kg_m3": by_share,
     "lubricant.drag_coefficient": by_share,
@@ -134,6 +136,12 @@ _OF_SET = (
     " Unchanged figures are of bearing 1, the torque of the whole set; rings, loads and angles are those "
     "of the bearing where they changed most."
 )
+#: Keys whose values follow from others where a scene leaves them out, and the attribute that has them.
+_FOLLOWS = {
+    "lubricant.traction_max": "largest_traction",
+    "lubricant.land_viscosity_Pa_s": "viscosity_of_lands",
+    "lubricant.replenishment_constant": "replenishment",
+}
 QUICK = ("bearing.inner_conformity", "lubricant.traction_max", "lubricant.walther_slope")
 
 COLUMNS = (
@@ -205,6 +213,12 @@ class Sensitivity:
         )
 
 
+def _value(scene: Scene, key: str) -> Any:
+    """Value of a key, of one that the scene leaves to supply or base oil what these give; None: none."""
+    follows = _FOLLOWS.get(key)
+    return value_at(scene, key) if follows is None else getattr(scene.lubricant, follows)
+
+
 def _shown(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, int | float) else str(value)
 
@@ -245,13 +259,13 @@ def sensitivity(
     moves = [
         (key, moved)
         for key in keys
-        if value_at(scene, key) is not None
-        for moved in ASSUMED[key](value_at(scene, key))
-        if moved != value_at(scene, key)
+        if (value := _value(scene, key)) is not None
+        for moved in ASSUMED[key](value)
+        if moved != value
     ]
     rows = []
     for key, moved in track(moves):
-        value = value_at(scene, key)
+        value = _value(scene, key)
         try:
             other = scene.replace({key: moved})
         except SceneError:

@@ -26,12 +26,14 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.VISCOSITY] = values.viscosity
     p[P.PRESSURE_VISCOSITY] = values.pressure_viscosity
     p[P.OIL_DENSITY] = values.density
+    p[P.OIL_CONDUCTIVITY] = values.conductivity
     p[P.VISCOSITY_LAW] = VISCOSITY_LAWS.index(values.viscosity_law)
     p[P.VOGEL_B], p[P.VOGEL_C] = values.vogel_B, values.vogel_C
     p[P.WALTHER_SLOPE] = values.walther_slope
     p[P.TRACTION_LAW] = TRACTION_LAWS.index(values.traction_law)
     p[P.EYRING_STRESS] = values.eyring_stress
-    p[P.MU] = values.traction_max
+    p[P.MU] = scene.lubricant.largest_traction
+    p[P.THERMAL_TRACTION] = scene.fidelity.terms.thermal_traction
     p[P.SLIDE_TO_ROLL] = values.traction_slide_to_roll
     p[P.TRACTION_FLOOR] = values.traction_floor
     mean, bore, outside = 1e3 * b.pitch_diameter, 1e3 * b.bore, 1e3 * b.outside_diameter
@@ -81,6 +83,8 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         block[P.RACE_PRESSURE] = hertz.pressure
         inlet(block, hertz, rx, ry, modulus, scene.lubricant)
         films(block, hertz, rx, modulus, si(scene.lubricant).pressure_viscosity)
+        if scene.fidelity.terms.thermal_traction:
+            block[P.RACE_EFFUSIVITY] = _effusivity(material) + _effusivity(scene.materials.balls)
         if scene.fidelity.terms.rolling_hysteresis:
             lost = _lost(material, scene.materials.balls)
             block[P.RACE_HYSTERESIS] = 3.0 / 16.0 * lost / hertz.ellipticity
@@ -118,6 +122,12 @@ def _lost(one: Material, other: Material) -> float:
     """Share of the elastic work of two bodies in contact that is lost: each yields as its compliance."""
     yields = [(1.0 - body.poisson_ratio**2) / body.youngs_modulus_GPa for body in (one, other)]
     return (one.loss * yields[0] + other.loss * yields[1]) / sum(yields)
+
+
+def _effusivity(body: Material) -> float:
+    """Thermal effusivity sqrt(k rho c) of a body, W s^0.5/(m2 K)."""
+    values = si(body)
+    return math.sqrt(values.conductivity * values.density * values.specific_heat)
 
 
 def inlet(

@@ -353,8 +353,12 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
     p[P.LAND_RADIUS] = c.bore / 2 - clearance
     p[P.LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
     p[P.LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
-    film = scene.fidelity.terms.land_film
-    p[P.LAND_VISCOSITY] = si(scene.lubricant).land_viscosity if film else 0.0
+    if scene.fidelity.terms.land_film:
+        viscosity = scene.lubricant.viscosity_of_lands
+        p[P.LAND_VISCOSITY] = viscosity or 0.0
+        if viscosity is None:  # the cage turns with the balls, which roll without slip
+            gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+            p[P.LAND_SLIDE] = 0.5 * (1.0 + gamma) * p[P.LAND_RADIUS]
     p[P.LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
     p[P.LAND_STOP_FRACTION] = _STOP_FRACTION
     p[P.LAND_STOP_FRICTION] = _STOP_FRICTION

@@ -36,6 +36,12 @@ class Terms(Part):
         description="Rolling resistance by the elastic work that materials do not give back.",
         examples=[True],
     )
+    thermal_traction: bool = Field(
+        default=False,
+        description="Traction that falls as friction heats the oil it shears: 0.5 to 5 % less heat, and "
+        "slower steps of fidelity full.",
+        examples=[False],
+    )
     contact_damping: bool = Field(
         default=True, description="Damping in the contacts of balls and races.", examples=[True]
     )

@@ -18,7 +18,16 @@ Supply = Literal["oil-air", "grease", "jet", "bath"]
 _ROLLING_LAWS: dict[Supply, RollingLaw] = {
     "oil-air": "starved", "grease": "starved", "jet": "flooded", "bath": "flooded",
 }  # fmt: skip
+# Assumed: the gaps hold ten minutes of an oil-air supply, whose mist does not fill them. Jet and bath do.
+_MIST = 0.006  # Pa s
+_LANDS: dict[Supply, float | None] = {"oil-air": _MIST, "grease": _MIST, "jet": None, "bath": None}
 _REPLENISHMENT: dict[Supply, float] = {"oil-air": 6e-8, "grease": 6e-8, "jet": 3e-8, "bath": 3e-8}
+
+
+#: What the oil is made of.
+BaseOil = Literal["mineral", "synthetic", "traction fluid"]
+# Friction coefficient of full films in SKF's friction model (SKF general catalogue, p. 101).
+_TRACTION: dict[BaseOil, float] = {"mineral": 0.05, "synthetic": 0.04, "traction fluid": 0.1}
 
 
 class Lubricant(Part):
@@ -64,11 +73,18 @@ class Lubricant(Part):
     eyring_stress_MPa: float = Field(
         default=5.0, ge=0.1, le=100, examples=[5.0], description="Shear stress of Eyring's law, MPa."
     )
-    traction_max: float = Field(
+    base_oil: BaseOil = Field(
+        default="mineral",
+        examples=["synthetic"],
+        description="Kind of oil, which limits traction.",
+    )
+    traction_max: float | None = Field(
+        default=None,
         ge=0,
         le=0.5,
         examples=[0.05],
-        description="Largest traction over the contact's load, in every law; 0: no traction.",
+        description="Largest traction over the contact's load, in every law; 0: no traction (absent: 0.05 of "
+        "mineral oil, 0.04 of synthetic oil, 0.1 of traction fluid).",
     )
     traction_slide_to_roll: float = Field(
         ge=1e-4, le=0.5, examples=[0.005], description="Slide-to-roll ratio at which traction saturates."
@@ -79,8 +95,20 @@ class Lubricant(Part):
         examples=[1e-3],
         description="Least sliding speed at which traction saturates, however slow the rolling, m/s.",
     )
-    land_viscosity_Pa_s: float = Field(
-        ge=0, le=2, examples=[0.006], description="Effective viscosity between cage and lands, Pa s."
+    land_viscosity_Pa_s: float | None = Field(
+        default=None,
+        ge=0,
+        le=2,
+        examples=[0.006],
+        description="Effective viscosity between cage and lands (absent: 0.006 with oil-air or grease; with "
+        "jet or bath that of the oil at its temperature, heated by its own shear), Pa s.",
+    )
+    conductivity_W_mK: float = Field(
+        default=0.14,
+        ge=0.01,
+        le=2,
+        examples=[0.14],
+        description="Thermal conductivity of the oil, W/(m K).",
     )
     supply: Supply = Field(
         default="oil-air",
@@ -125,6 +153,16 @@ class Lubricant(Part):
     def law_of_rolling(self) -> RollingLaw:
         """Law of rolling resistance: the one given, or that of the supply."""
         return self.rolling_law or _ROLLING_LAWS[self.supply]
+
+    @property
+    def largest_traction(self) -> float:
+        """Largest traction over load: the one given, or that of the base oil."""
+        return _TRACTION[self.base_oil] if self.traction_max is None else self.traction_max
+
+    @property
+    def viscosity_of_lands(self) -> float | None:
+        """Viscosity between cage and lands (Pa s): given, or of the supply; None: the heated oil's."""
+        return _LANDS[self.supply] if self.land_viscosity_Pa_s is None else self.land_viscosity_Pa_s
 
     @property
     def replenishment(self) -> float:

@@ -47,6 +47,21 @@ class Material(Part):
         "(absent: 0.021 for steel, 0 for others).",
     )
 
+    conductivity_W_mK: float | None = Field(
+        default=None,
+        ge=0.01,
+        le=1000,
+        examples=[46.0],
+        description="Thermal conductivity (needed by thermal traction alone), W/(m K).",
+    )
+    specific_heat_J_kgK: float | None = Field(
+        default=None,
+        ge=1,
+        le=10000,
+        examples=[460.0],
+        description="Specific heat capacity (needed by thermal traction alone), J/(kg K).",
+    )
+
     @property
     def loss(self) -> float:
         """Share of the elastic work that is lost: the one given, or that of steel, or none."""

@@ -56,6 +56,7 @@ class Tables(Part):
         """Yield conflicts between tables."""
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
+        yield from self._thermal()
         yield from self._set()
         own = None if self.mounting is None else self.mounting.housing
         if own is not None and own.diameter_mm <= self.bearing.outside_diameter_mm:
@@ -70,6 +71,20 @@ class Tables(Part):
             yield from self._buried_microphones()
             if self.sound.reflecting_plane_mm is not None:
                 yield from self._behind_plane(self.sound.reflecting_plane_mm)
+
+    def _thermal(self) -> Iterator[Conflict]:
+        """Yield what thermal traction misses of the bodies that a contact heats."""
+        if not self.fidelity.terms.thermal_traction:
+            return
+        for body in ("inner_ring", "outer_ring", "balls"):
+            material = getattr(self.materials, body)
+            for key, example in (("conductivity_W_mK", 46.0), ("specific_heat_J_kgK", 460.0)):
+                if getattr(material, key) is None:
+                    yield Conflict(
+                        f"materials.{body}.{key}",
+                        f"is missing, for example {key} = {example}; fidelity.terms.thermal_traction "
+                        "needs it",
+                    )
 
     def _set(self) -> Iterator[Conflict]:
         """Yield what does not fit in a set of bearings, and a speed that nothing reads."""

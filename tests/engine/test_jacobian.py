@@ -219,6 +219,23 @@ def test_rolling_laws(scene, law, hysteresis, preload):
     agree(shaken(scene("7003C-spindle").replace(changes | {"mounting.preload_N": preload}), WAVINESS=0.0))
 
 
+@pytest.mark.parametrize("law", ["regularised", "eyring"])
+def test_traction_in_oil_that_friction_heats(scene, law):
+    changes = {"fidelity.terms.thermal_traction": True, "lubricant.traction_law": law}
+    materials = {
+        f"materials.{body}": name for body, name in (("inner_ring", "GCr15"), ("outer_ring", "GCr15"))
+    }
+    one = scene("7003C-spindle").replace(changes | materials | {"materials.balls": "Si3N4"})
+    agree(shaken(one, WAVINESS=0.0))
+
+
+def test_lands_in_the_oil_of_a_jet(scene):
+    one = scene("7003C-spindle").replace({"lubricant.supply": "jet", "lubricant.land_viscosity_Pa_s": None})
+    point = shaken(one, WAVINESS=0.0)
+    assert point.c[C.LAND_VISCOSITY] > 0.006
+    agree(point)
+
+
 def test_cage_on_its_dry_stop(scene):
     agree(shaken(scene("7003C-spindle"), cage_offset=1.02, WAVINESS=0.0))
 

@@ -110,12 +110,12 @@ def test_land_is_isotropic_in_its_middle():
     """The cage crosses the middle at any direction and speed: force and slope do not jump there."""
     p = np.zeros(P.TABLES)
     p[P.LAND_CLEARANCE], p[P.LAND_RADIUS], p[P.LAND_LENGTH] = 4e-5, 11.66e-3, 2.25e-3
-    p[P.LAND_VISCOSITY], p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_SLIP] = 0.006, 0.96, 0.1
+    p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_SLIP] = 0.96, 0.1
     way = np.array([0.6, -0.8])
     velocity = 0.01, 0.03
     places = np.linspace(-2e-7, 2e-7, 41)
-    forces = np.array([land(p, *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places])
-    still = np.array(land(p, 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
+    forces = np.array([land(p, 0.006, *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places])
+    still = np.array(land(p, 0.006, 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
     np.testing.assert_allclose(forces[20], still, rtol=1e-14)
     # squeezed all round alike: against the velocity, half of a full film
     factor = 0.5 * np.pi * 0.006 * 11.66e-3 * 2.25e-3**3 / 4e-5**3

@@ -5,12 +5,15 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import STRIDE, C, P, R, W
-from fmu_bearing.engine.mechanics.traction import lubricated_traction
+from fmu_bearing.engine.mechanics.race import traction
+from fmu_bearing.engine.mechanics.traction import heated_share, lubricated_traction, warming
 from fmu_bearing.prepare.model import pack
 from tests.engine.helpers import RPM, quiet
 from tests.engine.lubrication import film_places
+from tests.oracles.friction import film_heat, flash, slid_share
 
 ETA = 0.03  # Pa s, ambient
+CONDUCTIVITY, EFFUSIVITY = 0.14, 12.8e3  # W/(m K) of oil, W s^0.5/(m2 K) of steel
 SUMS = (R.FT, R.FM, R.MN, R.MT, R.MM)
 
 
@@ -105,14 +108,37 @@ class Contact:
                 eta, stress = roelands(mean, self.p[P.PRESSURE_VISCOSITY]), mp.mpf(5e6)
                 shear = area * stress * mp.asinh(eta * speed / film / stress)
                 pull = shear / mp.sqrt(1 + (shear / (mu * share * load)) ** 2)
+            elif law == "regularised":
+                entrain = mp.sqrt(mp.mpf(self.row(race, R.ENTRAIN)[lane]) ** 2 + mp.mpf("1e-8"))
+                scale = self.p[P.SLIDE_TO_ROLL] * entrain + mp.mpf(self.p[P.TRACTION_FLOOR])
+                pull = mu * share * load * speed / mp.sqrt(speed**2 + scale**2)
             else:
                 pull = area * ETA * speed / film
+            if self.p[P.THERMAL_TRACTION]:
+                slides = mp.sqrt(ut**2 + um**2)
+                flux = pull / speed * slides**2 / area
+                pull *= self.left(race, lane, float(flux), float(b * mp.sqrt(1 - node**2)), float(film))
             ft, fm = -pull * ut / speed, -pull * um / speed
             turned = half**2 / 3 * (1 - (ut / speed) ** 2)
             own = pull / speed * (turned + across) * spin if law == "eyring" else 0
             parts = (ft, fm, -node * a * ft - own, sag * fm, -sag * ft)
             total = [t + x for t, x in zip(total, parts, strict=True)]
         return [float(t) for t in total]
+
+    def heat(self, thinning=0.0):
+        """Let friction heat the oil, which a kelvin thins by this share."""
+        self.p[P.THERMAL_TRACTION] = 1.0
+        self.p[P.OIL_CONDUCTIVITY] = CONDUCTIVITY
+        self.c[C.THINNING] = thinning
+        for race in range(2):
+            self.numbers(race)[P.RACE_EFFUSIVITY] = 2.0 * EFFUSIVITY
+        return self
+
+    def left(self, race, lane, flux, half_width, film):
+        """Share left under its own heat: flash of both surfaces and mean of the film, root by Brent."""
+        entrain = np.hypot(self.row(race, R.ENTRAIN)[lane], 1e-4)
+        flash = 4.0 / 3.0 * np.sqrt(2.0 / np.pi) * np.sqrt(half_width / entrain) / (2.0 * EFFUSIVITY)
+        return mp.mpf(slid_share(flux, flash + film / (12.0 * CONDUCTIVITY), self.c[C.THINNING]))
 
 
 def roelands(pressure, alpha):
@@ -125,9 +151,10 @@ def contact(scene):
     return lambda law, strips=5: Contact(scene, law, strips)
 
 
-@pytest.mark.parametrize("law", ["eyring", "paper"])
+@pytest.mark.parametrize("law", ["eyring", "paper", "regularised"])
 @pytest.mark.parametrize("race", [0, 1])
-def test_against_every_strip_in_forty_digits(contact, law, race):
+@pytest.mark.parametrize("thinning", [None, 0.03])
+def test_against_every_strip_in_forty_digits(contact, law, race, thinning):
     rng = np.random.default_rng(race)
     one = contact(law).press(
         race,
@@ -138,12 +165,40 @@ def test_against_every_strip_in_forty_digits(contact, law, race):
         rest=rng.normal(size=STRIDE) * 5000,
         entrain=rng.uniform(-20, 20, STRIDE),
     )
+    if thinning is not None:
+        one.heat(thinning)
     found = one.run(race)
     for lane in range(STRIDE):
         wanted = np.array(one.slow(race, lane, law))
         # strips may cancel: each sum against the sum of its strips' sizes, which the load bounds or is of
         scale = np.abs(found[:2, lane]).max() * np.array([1, 1, 1e-4, 1e-6, 1e-6])
         np.testing.assert_allclose(found[:, lane], wanted, rtol=1e-10, atol=1e-10 * scale.max())
+
+
+def test_oil_that_keeps_its_viscosity_keeps_the_plain_law(contact):
+    """The strips of `lubricated_traction` are those of `traction`, to rounding."""
+    one = contact("regularised").press(
+        0, 60.0, ut=np.linspace(-1.0, 1.0, STRIDE), um=0.02, an=800.0, rest=900.0
+    )
+    entrain = one.row(0, R.ENTRAIN)
+    one.row(0, R.SCALE)[:] = one.p[P.SLIDE_TO_ROLL] * np.hypot(entrain, 1e-4) + one.p[P.TRACTION_FLOOR]
+    traction(one.p, STRIDE, 0, one.w)
+    plain = np.array([one.row(0, k) for k in SUMS]).copy()
+    np.testing.assert_allclose(one.heat().run(0), plain, rtol=1e-12, atol=1e-18)
+
+
+def test_warming_is_the_flash_of_surfaces_and_the_mean_of_the_film():
+    flux, b, u, film = 1e7, 70e-6, 40.0, 0.3e-6
+    surfaces = flash(flux, b, u, 2.0 * EFFUSIVITY, 1000)
+    # the film carries the flux as its shear: eta (v/h)^2 h = q
+    between = film_heat(flux * film / 25.0, 5.0, film, CONDUCTIVITY)
+    found = flux * warming(b, u, 2.0 * EFFUSIVITY, film, CONDUCTIVITY)
+    assert found == pytest.approx(surfaces + between, rel=1e-3)  # differences of the half-space
+
+
+@pytest.mark.parametrize("x", [0.0, 1e-9, 0.1, 1.0, 7.0, 1e3, 1e12])
+def test_share_that_is_left_under_its_own_heat(x):
+    assert heated_share(x) == pytest.approx(slid_share(1.0, 1.0, x), rel=1e-12)
 
 
 @pytest.mark.parametrize(

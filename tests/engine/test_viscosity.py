@@ -9,7 +9,13 @@ import pytest
 from fmu_bearing.engine.choices import EHL_ALONE, FLOODED, STARVED
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import P
-from fmu_bearing.engine.mechanics.conditions import rolling_reduction, viscosity
+from fmu_bearing.engine.mechanics.conditions import (
+    rolling_reduction,
+    sheared_viscosity,
+    thinning,
+    viscosity,
+)
+from tests.oracles import friction
 
 TEMPERATURES = [233.15, 263.15, 293.15, 313.15, 353.15, 373.15, 473.15]  # K, the range of the input
 VOGEL, WALTHER = 0.0, 1.0
@@ -67,6 +73,27 @@ def test_walther_of_a_vg_32_oil():
     p = oil(WALTHER, eta=nu_20 * 870.0 / 1e6, slope=slope)
     assert viscosity(p, 313.15) / 870.0 * 1e6 == pytest.approx(32.0, rel=1e-12)
     assert viscosity(p, 373.15) / 870.0 * 1e6 == pytest.approx(5.4, rel=1e-12)
+
+
+@pytest.mark.parametrize("law", [VOGEL, WALTHER])
+@pytest.mark.parametrize("temperature", TEMPERATURES)
+@pytest.mark.parametrize("slide", [0.0, 1e-3, 1.0, 30.0, 200.0])
+def test_a_sheared_film_has_the_viscosity_of_its_own_heat(law, temperature, slide):
+    """Brent's root of the same equation with the law in NumPy; from the oil that sets to the thinnest."""
+    p = oil(law)
+    p[P.OIL_CONDUCTIVITY] = 0.14
+    wanted = friction.sheared_viscosity(lambda t: viscosity(p, t), temperature, slide, 0.14)
+    found = sheared_viscosity(p, temperature, slide)
+    assert found == pytest.approx(wanted, rel=1e-9)
+    rise = found * slide**2 / (12.0 * 0.14)
+    assert viscosity(p, temperature + rise) == pytest.approx(found, rel=1e-9)
+
+
+@pytest.mark.parametrize("temperature", TEMPERATURES)
+def test_what_a_kelvin_thins(temperature):
+    """B/(T - C)^2 of Vogel's law; differences over 0.2 K leave (0.1/(T - C))^2 = 3e-6 of it."""
+    assert thinning(oil(VOGEL), temperature) == pytest.approx(879.0 / (temperature - 178.0) ** 2, rel=4e-6)
+    assert thinning(oil(VOGEL, b=0.0), temperature) == 0.0
 
 
 @pytest.mark.parametrize(("law", "flat"), [(VOGEL, {"b": 0.0}), (WALTHER, {"slope": 0.0})])

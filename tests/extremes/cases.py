@@ -65,6 +65,19 @@ ALL_LIFTED = Refusal(f"{NO_START}|{UNSOLVED}")
 TOO_STIFF = Refusal(UNSOLVED)
 
 DRY = {"fidelity.terms.land_film": False, "bearing.cage.pocket_damping_N_s_m": 0.0}
+#: Oil that fills inlets and lands: in the cold it holds the cage by 20,000 times the mist's viscosity.
+JET = {
+    "lubricant.supply": "jet",
+    "lubricant.rolling_law": None,
+    "lubricant.replenishment_constant": None,
+    "lubricant.land_viscosity_Pa_s": None,
+}
+#: Traction in oil that it heats, between bodies that conduct.
+HEATED = {"fidelity.terms.thermal_traction": True} | {
+    f"materials.{body}.{key}": value
+    for body in ("inner_ring", "outer_ring", "balls")
+    for key, value in (("conductivity_W_mK", 25.0), ("specific_heat_J_kgK", 500.0))
+}
 #: Surfaces that both run forwards through a contact slide by no more than twice their mean speed.
 FORWARDS = 2.0
 
@@ -159,6 +172,26 @@ CASES = [
     *_both("oil at -40 degC", start={"oil_temperature": 233.15}),
     *_both("oil at 199 degC", start={"oil_temperature": 472.15}),
     Case("oil at -40 degC, 100000 r/min", start={"rpm": 1e5, "oil_temperature": 233.15}),
+    *_both("jet at 199 degC", changes=JET, start={"oil_temperature": 472.15}),
+    *_both("jet at -40 degC", changes=JET, start={"oil_temperature": 233.15}),
+    *_both("jet at -40 degC, standstill", changes=JET, start={"rpm": 0.0, "oil_temperature": 233.15}),
+    *_both(
+        "jet at -40 degC, 0 to 20000 r/min in 1 ms",
+        changes=JET,
+        start={"rpm": 0.0, "oil_temperature": 233.15},
+        legs=((1e-3, {}, 1e-4), (1e-3, {"rpm": 2e4}, 1e-4), (2e-3, {}, 1e-4)),
+        per_ms=1500.0,  # the film's viscosity falls by three decades from step to step
+    ),
+    Case("jet at -40 degC, 100000 r/min", changes=JET, start={"rpm": 1e5, "oil_temperature": 233.15}),
+    *_both(
+        "jet that cools by 120 K from one step to the next",
+        changes=JET,
+        start={"rpm": 2e4, "oil_temperature": 353.15},
+        legs=((1e-3, {}, 1e-4), (2e-3, {"oil_temperature": 233.15}, 1e-4)),
+    ),
+    *_both("oil at -40 degC that friction heats", changes=HEATED, start={"oil_temperature": 233.15}),
+    *_both("no preload, oil that friction heats", changes=HEATED, start={"rpm": 2e4, "preload": 0.0}),
+    Case("standstill, oil that friction heats", changes=HEATED, start={"rpm": 0.0}),
     Case("rings 150 K apart, inner hot", start={"inner_ring_temperature": 443.15}),
     Case("rings 150 K apart, outer hot", start={"outer_ring_temperature": 443.15}),
 ]

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 
 from fmu_bearing.instance import EngineError
 from tests.extremes.bearings import THIRTY_TWO, bearing, work
-from tests.extremes.cases import COMPUTED, FULL, WORK
+from tests.extremes.cases import COMPUTED, FULL, JET, WORK
 
 # The Runge-Kutta methods may try at most this many steps per largest internal step of a call, and so many
 # besides: the engine's own limit, which a refusal must not exceed either.
@@ -128,6 +128,13 @@ def test_a_short_walk(fidelity, method, start, moves):
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
 def test_a_short_walk_of_condensed_fidelities(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method)
+
+
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+@settings(max_examples=5, **HEALTH)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
+def test_a_short_walk_with_a_jet(fidelity, method, start, moves):
+    walk("7003C-bare", start, moves, fidelity, method, JET)
 
 
 @pytest.mark.parametrize(("fidelity", "method"), COMPUTED)

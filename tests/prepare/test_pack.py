@@ -244,6 +244,65 @@ def rolling_contact(scene, race, load):
     return solved(load, 1.0 / rx, 1.0 / ry, 1.0 / sum(yields)), rx
 
 
+@pytest.mark.parametrize(
+    ("supply", "given", "viscosity"),
+    [
+        ("oil-air", None, 0.006),
+        ("grease", None, 0.006),
+        ("jet", None, None),
+        ("bath", None, None),
+        ("jet", 0.002, 0.002),
+    ],
+)
+def test_oil_of_the_lands(scene, supply, given, viscosity):
+    """The mist's assumed viscosity, the oil's own where it fills the gap, or what the scene gives."""
+    bare = scene("7003C-bare")
+    keys = {"lubricant.supply": supply, "lubricant.land_viscosity_Pa_s": given}
+    p = pack(bare.replace(keys), NO_SOUND)
+    b = bare.bearing
+    gamma = b.ball_diameter_mm * math.cos(math.radians(b.contact_angle_deg)) / b.pitch_diameter_mm
+    # the cage turns at half of 1 - gamma of the speed, the land at all of it
+    slides = (1.0 - 0.5 * (1.0 - gamma)) * p[P.LAND_RADIUS]
+    assert p[P.LAND_VISCOSITY] == (viscosity or 0.0)
+    assert p[P.LAND_SLIDE] == pytest.approx(0.0 if viscosity else slides, rel=1e-12)
+    off = pack(bare.replace(keys | {"fidelity.terms.land_film": False}), NO_SOUND)
+    assert off[P.LAND_VISCOSITY] == off[P.LAND_SLIDE] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("base", "given", "largest"),
+    [
+        ("mineral", None, 0.05),
+        ("synthetic", None, 0.04),
+        ("traction fluid", None, 0.1),
+        ("synthetic", 0.03, 0.03),
+    ],
+)
+def test_base_oil_limits_traction(scene, base, given, largest):
+    keys = {"lubricant.base_oil": base, "lubricant.traction_max": given}
+    assert pack(scene("7003C-bare").replace(keys), NO_SOUND)[P.MU] == largest
+
+
+def test_thermal_traction_takes_what_bodies_conduct(scene):
+    on = {
+        "fidelity.terms.thermal_traction": True,
+        "materials.inner_ring": "GCr15",
+        "materials.balls": "Si3N4",
+    }
+    p = pack(scene("7003C-bare").replace(on | {"materials.outer_ring": "GCr15"}), NO_SOUND)
+    both = math.sqrt(46.0 * 7800.0 * 460.0) + math.sqrt(25.0 * 3200.0 * 700.0)
+    assert p[P.THERMAL_TRACTION] == 1.0 and p[P.OIL_CONDUCTIVITY] == 0.14
+    assert p[P.RACES + P.RACE_EFFUSIVITY] == pytest.approx(both, rel=1e-12)
+    bare = {
+        "youngs_modulus_GPa": 208.0,
+        "poisson_ratio": 0.3,
+        "density_kg_m3": 7800.0,
+        "expansion_1e6_K": 11.8,
+    }
+    with pytest.raises(SceneError, match=r"materials.outer_ring.conductivity_W_mK is missing, for example"):
+        scene("7003C-bare").replace(on | {"materials.outer_ring": bare})
+
+
 @pytest.mark.parametrize("race", [0, 1])
 @pytest.mark.parametrize(
     ("supply", "law", "powers"),

@@ -30,6 +30,8 @@ CASES = [
     ("density_kg_m3", 7800.0, "density", 7800.0),
     ("traction_floor_m_s", 1e-3, "traction_floor", 1e-3),
     ("viscosity_Pa_s", 0.03, "viscosity", 0.03),
+    ("conductivity_W_mK", 46.0, "conductivity", 46.0),
+    ("specific_heat_J_kgK", 460.0, "specific_heat", 460.0),
     ("eyring_stress_MPa", 5.0, "eyring_stress", 5e6),
     ("youngs_modulus_GPa", 208.0, "youngs_modulus", 208e9),
     ("pressure_viscosity_1_GPa", 20.0, "pressure_viscosity", 20e-9),

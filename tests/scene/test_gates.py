@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "2a3b7f6a271be1ea1d2d8b9d92bc7f6eec7dffb3b16f85198c9337331c089956",
-    "7003C-impact": "e2861133a7f649103e0e1a8734a3c0b2594ed0d785f92a2dc85cbc7d5a4f4cf5",
-    "7003C-spindle": "a7c7a5d3d7c736c65fa1324182462095e50167e2ee0eac6f11618468a0587916",
-    "7009C-full-ceramic": "daa13bb2a3a81531c963629725a9f5c4d73ec9a821d68a6562321cc0c8136ccb",
-    "7009C-steel": "432c14e66ed1cbe97a0970c19610e48296cfee6d91bea322b7879ffca981420d",
+    "7003C-bare": "7398c205dbcbed5c5ab1c72b096f31219527ddbf704fa5eef1bec5d98bdffd4a",
+    "7003C-impact": "4e66ef905c824ff77b31918846a35a8095f8fea173c869635fdea797dbe8f9a3",
+    "7003C-spindle": "5ea682f544c59f3cec4f90c3cb6812c4df74169d15a3ed2fb64869e6d4d4982d",
+    "7009C-full-ceramic": "8c0dc0172d6f15a5e42369f05a64356b4c277e75261b39dbc28dff2412cac58f",
+    "7009C-steel": "1f56badb445d3aae9febe27ef7af1d7d00bb2ffc54ade05e1bdcb9fd44a48d9d",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

@@ -14,7 +14,7 @@ from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.sound import cylindrical
 from fmu_bearing.scene.units import split_unit, symbol
 from fmu_bearing.scene.values import limits
-from tests.conftest import EXAMPLES, OWN_ROLLING
+from tests.conftest import EXAMPLES, OWN_OIL
 
 CATALOGUED = ["7003C-spindle", "7003C-bare", "7009C-full-ceramic", "7009C-steel"]
 NAMES = [*CATALOGUED, "7003C-impact"]
@@ -102,7 +102,7 @@ def test_example_agrees_with_the_catalogue(name, example):
     assert read.name == name
     entry = catalogue("bearings")[read.bearing.designation]
     assert read.bearing == Bearing.model_validate(entry)
-    assert read.lubricant == Lubricant.model_validate(catalogue("lubricants")["spindle-oil"] | OWN_ROLLING)
+    assert read.lubricant == Lubricant.model_validate(catalogue("lubricants")["spindle-oil"] | OWN_OIL)
     made_of = (
         read.materials.inner_ring,
         read.materials.outer_ring,
@@ -218,8 +218,8 @@ def test_every_catalogue_entry_is_valid(kind, model):
 
 def test_scene_from_the_catalogue_equals_the_example():
     bare = read_scene(EXAMPLES / "7003C-bare.toml")
-    rolling = "\n".join(f"{key} = {value!r}" for key, value in OWN_ROLLING.items())
-    assert read_scene_text(short(lubricant=rolling)) == bare.model_copy(update={"name": "short"})
+    own = "\n".join(f"{key} = {value!r}" for key, value in OWN_OIL.items())
+    assert read_scene_text(short(lubricant=own)) == bare.model_copy(update={"name": "short"})
 
 
 def test_keys_of_the_file_win():

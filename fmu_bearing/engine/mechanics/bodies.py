@@ -9,7 +9,7 @@ from fmu_bearing.engine.mechanics.cage import land
 
 
 @kernel
-def lands(p, y, speed, f, w):
+def lands(p, c, y, speed, f, w):
     """Add both lands' forces to the body rows of ``f``, their loss to the oil, their energy to ``w``."""
     i = Y.Q0
     k = Y.Q0 + Q.CAGE
@@ -24,7 +24,9 @@ def lands(p, y, speed, f, w):
         dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
         vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
         vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-        fy, fz, on_inner, on_cage, stored, lost = land(p, dy, dz, vy, vz, speed, y[vk + Q.TURN])
+        fy, fz, on_inner, on_cage, stored, lost = land(
+            p, c[C.LAND_VISCOSITY], dy, dz, vy, vz, speed, y[vk + Q.TURN]
+        )
         f[gk + Q.Y] += fy
         f[gk + Q.Z] += fz
         f[gk + Q.TURN] += on_cage
@@ -153,7 +155,7 @@ def body_equations(p, c, y, angle, speed, speed_rate, w, f):
     w[W.LANDS_ENERGY] = 0.0
     if p[P.CAGE] != 0.0:
         if p[P.LAND] != 0.0:
-            lands(p, y, speed, f, w)
+            lands(p, c, y, speed, f, w)
         cage_body(p, c, y, f)
     else:
         for i in range(Q.SIZE - Q.CAGE):

@@ -121,17 +121,16 @@ def film_force(ratio, closing, carried):
 
 
 @kernel
-def land(p, dy, dz, vy, vz, journal, sleeve):
+def land(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     """Force (N) on the cage in y and z at one land, friction torques (N m) and stored energy (J).
 
-    ``d`` and ``v`` are the cage centre's offset (m) and velocity (m/s) against the inner ring's at the land,
-    ``journal`` and ``sleeve`` the spin rates (rad/s) of inner ring and cage. Returns
-    ``(fy, fz, torque on the inner ring, torque on the cage, energy, power lost)``.
+    ``viscosity`` in Pa s; ``d`` and ``v`` are the cage centre's offset (m) and velocity (m/s) against the
+    inner ring's at the land, ``journal`` and ``sleeve`` the spin rates (rad/s) of inner ring and cage.
+    Returns ``(fy, fz, torque on the inner ring, torque on the cage, energy, power lost)``.
     """
     clearance = p[P.LAND_CLEARANCE]
     radius = p[P.LAND_RADIUS]
     length = p[P.LAND_LENGTH]
-    viscosity = p[P.LAND_VISCOSITY]
     limit = p[P.LAND_STOP_FRACTION] * clearance
     apart = math.sqrt(dy * dy + dz * dz)
     # in the very middle the film is the same all round: any direction serves

@@ -15,6 +15,8 @@ _CLEAR = 1.0  # K: Vogel's law is held short of its pole by this much
 _SHEARED = 0.64  # power of the viscosity in what inlet shear heating takes of the rolling resistance
 _STILL = 1e-15  # m: growth
 _ROUNDS = 8  # of Newton's method: 1e-12 after six
+_HALVINGS = 80  # of the range of a film's heating, at most 1e10 K in the coldest oil
+_NEARBY = 0.1  # K
 
 
 @kernel
@@ -49,6 +51,32 @@ def viscosity(p, temperature):
     if p[P.VISCOSITY_LAW] == WALTHER:
         return walther(p, temperature)
     return vogel(p, temperature)
+
+
+@kernel
+def thinning(p, temperature):
+    """Return what a kelvin takes of the logarithm of the viscosity (1/K) at ``temperature`` (K)."""
+    warmer, colder = viscosity(p, temperature + _NEARBY), viscosity(p, temperature - _NEARBY)
+    return math.log(colder / warmer) / (2.0 * _NEARBY)
+
+
+@kernel
+def sheared_viscosity(p, temperature, slide):
+    """Viscosity (Pa s) of a film between walls at ``temperature`` (K) that slide (m/s) and heat it.
+
+    Root of eta = eta(T + eta v^2/(12 k)), the mean rise of plane Couette flow. The rise lies between none and
+    that of the unheated oil; halving that range needs no slope and ends in oil of any thickness.
+    """
+    per = slide * slide / (12.0 * p[P.OIL_CONDUCTIVITY])
+    low = 0.0
+    high = viscosity(p, temperature) * per
+    for _ in range(_HALVINGS):
+        rise = 0.5 * (low + high)
+        if viscosity(p, temperature + rise) * per > rise:
+            low = rise
+        else:
+            high = rise
+    return viscosity(p, temperature + 0.5 * (low + high))
 
 
 @kernel
@@ -133,7 +161,7 @@ def regrow(p, u, speed, c):
 def ramp(p, u, speed, now, c, h):
     """Let the races in ``c`` grow, in the time ``h`` (s), from what they are in ``now`` to ``speed`` (rad/s).
 
-    Growth that changed at communication points alone would be heard at their rate.
+    Growth that changed at communication points alone would sound at their rate.
     """
     regrow(p, u, speed, c)
     for race in range(2):
@@ -179,7 +207,7 @@ def unmount(p, c):
 
 @kernel
 def conditions(p, u, speed, c):
-    """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters reduction factors, fits and their rotation.
+    """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters reduction factors, lands and fits.
 
     Rings and balls expand about the reference temperature: groove circles, groove radii and ball radius
     scale with their own body's temperature; the balls have the mean of both rings'.
@@ -217,6 +245,10 @@ def conditions(p, u, speed, c):
     c[C.LOAD_Y] = u[U.LOAD_Y]
     c[C.LOAD_Z] = u[U.LOAD_Z]
     c[C.VISCOSITY] = eta
+    c[C.LAND_VISCOSITY] = p[P.LAND_VISCOSITY]
+    if p[P.LAND_SLIDE] != 0.0:
+        c[C.LAND_VISCOSITY] = sheared_viscosity(p, u[U.OIL_T], p[P.LAND_SLIDE] * speed)
+    c[C.THINNING] = thinning(p, u[U.OIL_T]) if p[P.THERMAL_TRACTION] != 0.0 else 0.0
     radial = u[U.PEDESTAL]
     axial = p[P.AXIAL_RATIO] * radial
     rotational = p[P.ROTATIONAL_RATIO] * radial

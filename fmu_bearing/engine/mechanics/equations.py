@@ -1,6 +1,5 @@
 """The right-hand side: from positions and velocities to accelerations, power and heat."""
 
-from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
@@ -17,7 +16,7 @@ from fmu_bearing.engine.mechanics.flexure import (
     slide,
 )
 from fmu_bearing.engine.mechanics.pose import relative_pose
-from fmu_bearing.engine.mechanics.race import collect, normal, rolling, traction, waves
+from fmu_bearing.engine.mechanics.race import collect, normal, plain_traction, rolling, traction, waves
 from fmu_bearing.engine.mechanics.springs import spring_forces
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
@@ -65,7 +64,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
         slide(p, lanes, race, w)
     if has_wavy_balls(p, c):
         add_ball_waves(p, c, lanes, race, w)
-    if p[P.TRACTION_LAW] == REGULARISED:
+    if plain_traction(p):
         traction(p, lanes, race, w)
     else:
         lubricated_traction(p, c, lanes, race, w)

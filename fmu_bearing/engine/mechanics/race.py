@@ -6,6 +6,7 @@ Velocities: of the ball's surface against the race's.
 
 import math
 
+from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, store, to_bits
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
@@ -136,6 +137,12 @@ def normal(p, c, y, lanes, race, w):
         store(w, row + R.AM + j, am)
         store(w, row + R.ENTRAIN + j, entrain)
         store(w, row + R.SCALE + j, slide_to_roll * math.sqrt(entrain * entrain + 1e-8) + slip_floor)
+
+
+@kernel
+def plain_traction(p):
+    """Whether traction follows the regularised law in oil that friction does not heat: `traction`."""
+    return p[P.TRACTION_LAW] == REGULARISED and p[P.THERMAL_TRACTION] == 0.0
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""Traction laws beside the regularised one of ``race``: Eyring's and that of the multi-source paper.
+"""Traction laws beside the regularised one of ``race``: Eyring's, the multi-source paper's, heated oil.
 
 Both take the sliding from the rows that ``race.normal`` wrote, walk over the same strips across the major
 axis and leave their result in the rows of ``race.traction``. Their film is the central one of Hamrock and
@@ -7,7 +7,7 @@ Dowson (1977) at the contact's present entrainment speed.
 
 import math
 
-from fmu_bearing.engine.choices import EYRING
+from fmu_bearing.engine.choices import EYRING, REGULARISED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, R, W
 
@@ -18,7 +18,10 @@ _THINNEST = 1e-9  # m, added to the film: a molecular layer stays at standstill
 _SLOWEST_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, as in the rolling resistance
 _LIGHTEST = 1e-3  # N: the film formula's load, where a contact opens
 _STILL_2 = 1e-40  # m2/s2: only keeps 0/0 away
+_NOWHERE = 1e-30  # m2: and the same of an open contact
 _PRESSED_2 = 1e-60  # N2: only keeps 0/0 away
+_FLASH = 4.0 / 3.0 * math.sqrt(2.0 / math.pi)  # 1.064
+_ROUNDS = 8  # of Newton's method, which comes from above: 1e-15 after six
 
 
 @kernel
@@ -96,12 +99,38 @@ def strip_area(half_length, half_width, share, node):
 
 
 @kernel
+def heated_share(x):
+    """Share s of the traction that is left where it heats its own oil: s = 1/sqrt(1 + x s), x 0 or more.
+
+    ``x``: what a kelvin takes of the viscosity's logarithm, times the rise under the whole traction.
+    """
+    s = math.exp(-math.log(x) / 3.0) if x > 1.0 else 1.0
+    for _ in range(_ROUNDS):
+        s -= (s * s * (1.0 + x * s) - 1.0) / (s * (2.0 + 3.0 * x * s))
+    return s
+
+
+@kernel
+def warming(half_width, entrain, effusivity, film, conductivity):
+    """Rise (K) of the oil over the heat flux (W/m2) of friction, mean over a strip of the contact.
+
+    Flash of both surfaces, which share the flux so that they are equally warm: 1.064 q sqrt(b/u)/(e_1 + e_2)
+    (Carslaw and Jaeger 1959: a strip 2 b wide on a half-space, mean over the strip), and mean of the film
+    between them, q h/(12 k).
+    """
+    speed = math.sqrt(entrain * entrain + _SLOWEST_2)
+    return _FLASH * math.sqrt(half_width / speed) / effusivity + film / (12.0 * conductivity)
+
+
+@kernel
 def lubricated_traction(p, c, lanes, race, w):
-    """Traction by ``P.TRACTION_LAW``: `eyring`, or `paper`, the multi-source paper's eta V S / h.
+    """Traction by ``P.TRACTION_LAW``: `eyring`, `regularised`, or `paper`, that paper's eta V S / h.
 
     Eyring (1936) with Roelands' viscosity at the strip's mean pressure, bounded by mu Q of the strip. The
     paper's law takes the ambient viscosity and has no bound; alone it is unusable (traction over load 3e-5
     at speed: it cannot drive a ball). Forces along e_t and e_m and moments on the ball, as ``traction``.
+
+    With ``P.THERMAL_TRACTION`` friction heats the oil that it shears, and each strip keeps `heated_share`.
     """
     row = W.RACE + race * R.SIZE
     numbers = P.RACES + race * P.RACE_SIZE
@@ -112,7 +141,10 @@ def lubricated_traction(p, c, lanes, race, w):
     eta = c[C.VISCOSITY]
     index = roelands_index(p[P.PRESSURE_VISCOSITY], eta)
     stress = p[P.EYRING_STRESS]
-    eyring = p[P.TRACTION_LAW] == EYRING
+    law = p[P.TRACTION_LAW]
+    heated = p[P.THERMAL_TRACTION] != 0.0
+    effusivity = p[numbers + P.RACE_EFFUSIVITY]
+    thinning = c[C.THINNING]
     floor_2 = p[P.TRACTION_FLOOR] * p[P.TRACTION_FLOOR]
     across = 0.25 * width * width
     mu = p[P.MU]
@@ -121,7 +153,9 @@ def lubricated_traction(p, c, lanes, race, w):
     for j in range(lanes):
         half = w[row + R.HALF + j]
         load = w[row + R.LOAD + j]
-        film = central_film(factor, eta, w[row + R.ENTRAIN + j], load)
+        entrain = w[row + R.ENTRAIN + j]
+        film = central_film(factor, eta, entrain, load)
+        scale = p[P.SLIDE_TO_ROLL] * math.sqrt(entrain * entrain + _SLOWEST_2) + p[P.TRACTION_FLOOR]
         sum_t = 0.0
         sum_m = 0.0
         spin = w[row + R.AN + j]
@@ -137,7 +171,8 @@ def lubricated_traction(p, c, lanes, race, w):
             um = w[row + R.UM + j] + sag * w[row + R.AT + j]
             inside = 1.0 - node * node
             area = strip_area(half, half * width, share, node)
-            if eyring:
+            own = 0.0
+            if law == EYRING:
                 thick = viscosity_under_pressure(eta, index, pressure * half * math.sqrt(inside))
                 # half the strip's width over a: its share over the density 3/4 (1 - xi^2) of the load; across
                 # it the mean square weighted with the pressure, b^2 / 4 (1 - xi^2)
@@ -145,9 +180,18 @@ def lubricated_traction(p, c, lanes, race, w):
                     area, thick, film, stress, mu * share * load, ut, um, half * spin,
                     share / (1.5 * inside), across * inside, floor_2,
                 )  # fmt: skip
-                moment_n -= own * half * half * spin
+            elif law == REGULARISED:
+                drag = mu * share * load / math.sqrt(ut * ut + um * um + scale * scale)
             else:
                 drag = area * eta / film
+            if heated:
+                flux = drag * (ut * ut + um * um) / (area + _NOWHERE)
+                narrow = half * width * math.sqrt(inside)
+                warms = warming(narrow, entrain, effusivity, film, p[P.OIL_CONDUCTIVITY])
+                left = heated_share(thinning * warms * flux)
+                drag *= left
+                own *= left
+            moment_n -= own * half * half * spin
             ft = -drag * ut
             fm = -drag * um
             sum_t += ft

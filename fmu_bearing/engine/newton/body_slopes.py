@@ -95,29 +95,30 @@ def land_column(p, x, axis, rate, dfy, dfz, dturn, jac):
 
 
 @kernel
-def land_slopes(p, y, speed, x, jac):
+def land_slopes(p, c, y, speed, x, jac):
     """Add one land at ``x`` (m) to block E."""
     i = Y.Q0
     k = Y.Q0 + Q.CAGE
     vi = Y.V0
     vk = Y.V0 + Q.CAGE
     sleeve = y[vk + Q.TURN]
+    viscosity = c[C.LAND_VISCOSITY]
     dy = y[k + Q.Y] - y[i + Q.Y] + x * (y[k + Q.BZ] - y[i + Q.INNER_BZ])
     dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
     vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
     vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-    fy, fz, _, turn, _, _ = land(p, dy, dz, vy, vz, speed, sleeve)
+    fy, fz, _, turn, _, _ = land(p, viscosity, dy, dz, vy, vz, speed, sleeve)
     for rate in range(2):
         h = _VELOCITY if rate == 1 else _PLACE * p[P.LAND_CLEARANCE]
         near = h if rate == 0 else 0.0
         fast = h if rate == 1 else 0.0
         per = 1.0 / h
-        fy1, fz1, _, turn1, _, _ = land(p, dy + near, dz, vy + fast, vz, speed, sleeve)
+        fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy + near, dz, vy + fast, vz, speed, sleeve)
         land_column(p, x, 0, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
-        fy1, fz1, _, turn1, _, _ = land(p, dy, dz + near, vy, vz + fast, speed, sleeve)
+        fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy, dz + near, vy, vz + fast, speed, sleeve)
         land_column(p, x, 1, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
     per = 1.0 / _RATE
-    fy1, fz1, _, turn1, _, _ = land(p, dy, dz, vy, vz, speed, sleeve + _RATE)
+    fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy, dz, vy, vz, speed, sleeve + _RATE)
     column = Q.SIZE + Q.CAGE + Q.TURN
     jac[J.E + (Q.CAGE + Q.TURN) * J.BODIES + column] += (turn1 - turn) * per / p[P.CAGE_POLAR]
     for n in range(4):
@@ -210,5 +211,5 @@ def body_slopes(p, c, y, speed, jac):
         gyroscope(p, Q.CAGE + Q.BY, p[P.CAGE_POLAR] * y[Y.V0 + Q.CAGE + Q.TURN], jac)
         spun_up(p, y, Q.CAGE + Q.TURN, p[P.CAGE_POLAR], jac)
         if p[P.LAND] != 0.0:
-            land_slopes(p, y, speed, p[P.LAND_OFFSET], jac)
-            land_slopes(p, y, speed, -p[P.LAND_OFFSET], jac)
+            land_slopes(p, c, y, speed, p[P.LAND_OFFSET], jac)
+            land_slopes(p, c, y, speed, -p[P.LAND_OFFSET], jac)

@@ -2,17 +2,18 @@
 
 A strip of the regularised law answers a change of its own sliding by a symmetric 2 x 2 matrix; sliding and
 spins of the contact reach the strip, and its force comes back, through the same two levers: its place along
-the major axis and the sag of the contact's curved surface. The other laws are functions of eight numbers with
-logarithms of logarithms: they are differentiated by differences of the law alone.
+the major axis and the sag of the contact's curved surface. The other laws, and any law in oil that friction
+heats, are functions of eight numbers with logarithms of logarithms: they are differentiated by differences of
+the law alone.
 """
 
 import math
 
-from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, K, P, R, W
 from fmu_bearing.engine.mechanics.inlet import LIGHTEST, SLOWEST_2, inlet_factors, local_powers
+from fmu_bearing.engine.mechanics.race import plain_traction
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 
 # steps of the differences: small against the laws' own scales (1e-4 m/s, 1 rad/s over a contact), large
@@ -166,7 +167,7 @@ def clear_traction(w):
 @kernel
 def traction_slopes(p, c, lanes, race, w):
     """Fill the columns of traction of one race, zero before, at the state that the rows of ``w`` hold."""
-    if p[P.TRACTION_LAW] == REGULARISED:
+    if plain_traction(p):
         strip_slopes(p, lanes, race, w)
     else:
         tried_slopes(p, c, lanes, race, w)

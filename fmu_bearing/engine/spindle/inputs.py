@@ -50,7 +50,7 @@ def bearing_conditions(p, u, b, speed, w):
 def grow(p, u, s, w, speed):
     """Let the races of all bearings grow to ``speed`` (rad/s), which is reached within a communication step.
 
-    Growth that changed at communication points alone would be heard at their rate.
+    Growth that changed at communication points alone would sound at their rate.
     """
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     for b in range(members.count(p)):

@@ -106,7 +106,7 @@ def show_steady_forces(p, b, y, speed, s, w, out, to):
     if pb[P.CAGE] != 0.0 and pb[P.LAND] != 0.0:
         for i in range(F.SIZE):
             f[i] = 0.0
-        lands(pb, y, speed, f, wb)
+        lands(pb, c, y, speed, f, wb)
         for i in range(Q.OUTER):
             out[to + i] += f[F.BODY + i]
     if weighs(p):

@@ -263,7 +263,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     167 N, 1.54 GPa
     67 N, 1.17 GPa
     >>> print(f"{operating_point('examples/spindle_set/7003C-DB.toml').heat.total:.1f} W")
-    27.9 W
+    32.9 W
     """
     scene = still_of(scene_of(scene))
     found = point(scene, tell=tell)

@@ -36,6 +36,7 @@ def test_a_pushed_set_of_one_is_the_single_bearing():
             "mounting.preload_N": 500.0,
             "fidelity.race_control": "outer",
             "fidelity.terms.gravity": False,
+            "fidelity.terms.rolling_hysteresis": True,  # as of a scene that does not say otherwise
         }
     )
     alone = operating_point(single)

@@ -32,8 +32,9 @@ OWN = ("scene", "arrangement", "position_mm", "preload", "nose", "spacing", "cau
 AT_REST = 4e-6
 #: The torque is that of fidelity response; damping is small beside stiffness over frequency.
 LOOSER = {"friction_torque": 6e-5, "heat_W": 2e-4, "C": 5e-5, "against_static": 1e-5}
-#: Ends of a torque's range lie where the cage's whirl begins, too: single and set find whirls there whose
-#: torques differ by 2.2 % with the softer conformities and 1.2 % with half the clearance of the lands.
+#: Ends of a torque's range lie where the cage begins to whirl, too. There it may rest or whirl, and either
+#: lasts in runs of full; the single bearing finds one, the set the other. Their torques differ by 2.2 % with
+#: the softer conformities, by 1.2 % with half the clearance of the lands.
 LOOSER |= {"torque_range": 3e-2, "friction_torque_range": 1e-2, "heat_range": 1e-2}
 #: What small figures are compared with: the preload (N), its moment at 10 mm (N m), a whole, 1 W.
 LEAST = {"force": PRELOAD, "radial_load": PRELOAD, "moment": 0.01 * PRELOAD, "spread": 1.0, "heat_W": 1.0}

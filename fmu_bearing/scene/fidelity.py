@@ -38,8 +38,8 @@ class Terms(Part):
     )
     thermal_traction: bool = Field(
         default=False,
-        description="Traction that falls as friction heats the oil it shears: 0.5 to 5 % less heat, and "
-        "slower steps of fidelity full.",
+        description="Traction that falls as friction heats the oil it shears: 0.5 to 5 % less heat; runs of "
+        "fidelity full take 2 to 4 times as long.",
         examples=[False],
     )
     contact_damping: bool = Field(

@@ -1,7 +1,7 @@
 """What a wheel brings along for one platform: ``python -m fmu_bearing.fmi.native.prebuilt FOLDER PLATFORM``.
 
-Objects for Python, bitcode for objects of other platforms, and the linked library of native FMUs, so that on
-its own platform nothing is compiled.
+Objects for Python, bitcode for the libraries of other platforms, and the linked library of native FMUs, so
+that on its own platform nothing is compiled.
 """
 
 import sys
@@ -11,7 +11,7 @@ from fmu_bearing.compiled import BuildError
 from fmu_bearing.compiled.make import PREBUILT, bitcode, objects, sources_key
 from fmu_bearing.compiled.platforms import Platform, host, platform_named
 from fmu_bearing.compiled.units import UNITS, object_name
-from fmu_bearing.fmi.native.link import library, library_name
+from fmu_bearing.fmi.native.link import LINKED, library, library_name
 
 __all__ = ["WHEEL_TAGS", "fill"]
 
@@ -39,7 +39,7 @@ def fill(folder: Path, platform: Platform) -> None:
     sets = [suffix for suffix, _ in platform.instruction_sets]
     for (unit, one), data in objects(platform, UNITS, sets).items():
         (folder / object_name(unit, platform.name, one)).write_bytes(data)
-    for unit in UNITS:
+    for unit in LINKED:  # the other units serve Python, which runs on this platform alone
         (folder / f"{unit}.bc").write_bytes(bitcode(unit))
     (folder / library_name(platform)).write_bytes(library(platform, "portable", print))
     (folder / "key").write_text(f"{sources_key()}\n", encoding="ascii")

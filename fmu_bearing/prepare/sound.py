@@ -15,6 +15,7 @@ from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import sound_scene
+from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
     from fmu_bearing.acoustics.radiation.radiators import Radiators
@@ -56,6 +57,7 @@ def from_lines(scene: Scene, fidelity: str | None = None) -> bool:
     return RECIPES[scene.sound.radiation_model].form != "scalars"
 
 
+@one_thread
 def sound_parameters(scene: Scene, wanted: Block) -> NDArray[np.float64]:
     """Compute the block. SciPy is imported here, because that takes half a second."""
     from fmu_bearing.acoustics.filters import design as stream

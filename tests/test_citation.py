@@ -5,8 +5,6 @@ import tomllib
 
 import pytest
 
-import fmu_bearing
-
 ROOT = pathlib.Path(__file__).parents[1]
 
 
@@ -18,7 +16,7 @@ def citation():
 
 def test_the_package_and_its_citation_agree(citation):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert citation["version"] == project["version"] == fmu_bearing.__version__
+    assert "version" not in citation  # it has one place (tests/test_release.py)
     assert citation["license"] == project["license"]
     assert citation["authors"] == project["authors"]
     assert citation["keywords"] == project["keywords"]

@@ -12,6 +12,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
+from fmu_bearing import __version__
 from fmu_bearing.fmi.description import ENUMERATIONS, LOG_CATEGORIES, description_xml, interface_guid
 from fmu_bearing.fmi.units import UNITS
 from fmu_bearing.prepare.model import prepare
@@ -114,8 +115,8 @@ def test_outputs_are_declared_free_of_direct_feedthrough(tree):
 def test_head(tree, expected):
     assert "generationDateAndTime" not in tree.attrib
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    assert tree.get("generationTool") == f"fmu-bearing {project['version']}"
-    assert (tree.get("version"), tree.get("license")) == (project["version"], project["license"])
+    assert tree.get("generationTool") == f"fmu-bearing {__version__}"
+    assert (tree.get("version"), tree.get("license")) == (__version__, project["license"])
     assert tree.get("author") == project["authors"][0]["name"]
     assert tree.get("copyright") in (ROOT / "LICENSE").read_text("utf-8")
     assert tree.get("variableNamingConvention") == "structured"

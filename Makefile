@@ -9,6 +9,8 @@
 # make measured  compare with what others measured; writes docs/measured.md, its figures and its table
 # make docs    build the documentation site into out/site; opens from the disk, works offline
 # make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
+# make wheel-check   look into these wheels, and use this machine's in a new environment without a compiler
+# make release-fmus  the FMUs of the example scenes for the same platforms, into out/fmus
 # make clean   remove what was made here
 
 PYTHON ?= python3
@@ -32,7 +34,8 @@ export PYTHONDONTWRITEBYTECODE =
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy bits lint soak bench papers measured docs kernels compiled wheels clean
+.PHONY: demo test heavy bits lint soak bench papers measured docs kernels compiled wheels wheel-check \
+	release-fmus clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -87,9 +90,10 @@ measured: compiled
 	$(BIN)/python -m benchmarks.measured.run
 
 # References are made from the code here, so it is installed too.
+SITE ?= $(OUT)/site
 docs: $(VENV)/.installed-docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir $(abspath $(OUT))/site
-	@echo "open $(OUT)/site/index.html"
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir $(abspath $(SITE))
+	@echo "open $(SITE)/index.html"
 
 # The universal wheel last: it and the source distribution compile on first use.
 PLATFORMS ?= linux64 aarch64-linux win64 darwin64 aarch64-darwin
@@ -101,6 +105,18 @@ wheels: $(VENV)/.installed-test
 			$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(OUT)/wheels . || exit 1; \
 	done
 	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(OUT)/wheels .
+
+# Needs Python alone, nothing of this repository's environment; on Windows and macOS, too.
+wheel-check:
+	$(PYTHON) -m tests.compiled.first_use $(OUT)/wheels
+
+EXAMPLES := $(wildcard examples/scenes/*.toml)
+FMUS := $(patsubst examples/scenes/%.toml,$(OUT)/fmus/%.fmu,$(EXAMPLES))
+release-fmus: $(FMUS)
+$(FMUS): $(OUT)/fmus/%.fmu: examples/scenes/%.toml $(VENV)/.installed-test build_fmu.py $(SOURCES)
+	@mkdir -p $(OUT)/fmus
+	$(BIN)/python build_fmu.py $< -o $@ --platforms $(subst $() $(),$(comma),$(PLATFORMS))
+comma := ,
 
 # While pip installs the test tools, kernels are compiled with what is there: on two cores at the same time.
 kernels: $(VENV)/.installed

@@ -13,6 +13,7 @@ import typer
 from typer.testing import CliRunner
 
 from fmu_bearing.cli import app
+from tests.blocks import blocks, commands
 
 ROOT = pathlib.Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -20,19 +21,6 @@ DOCS = ROOT / "docs"
 #: Frames of tables in a terminal, which a page may leave out.
 _FRAMES = re.compile(r"[│┃┏┓┗┛┡┩└┘┳┻╇┷┴━─|]")
 _NUMBER = re.compile(r"[+-]?\d+(?:\.(\d+))?")
-_BLOCK = re.compile(r'^```(\w+)(?: title="([^"]+)")?\n(.*?)^```', flags=re.MULTILINE | re.DOTALL)
-
-
-def blocks(page):
-    """Language, file name (or None) and text of every fenced block of a page."""
-    text = pathlib.Path(page).read_text(encoding="utf-8")
-    return [(match[1], match[2], match[3]) for match in _BLOCK.finditer(text)]
-
-
-def commands(script):
-    """Command lines of a block as lists of words; remarks and line breaks taken out."""
-    lines = script.replace("\\\n", " ").splitlines()
-    return [words for line in lines if (words := shlex.split(line, comments=True))]
 
 
 def run_page(page, folder, monkeypatch, shown=False):

@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import venv
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,9 +19,9 @@ from fmu_bearing.compiled import disk_cache
 from fmu_bearing.compiled.make import bitcode, folder, objects, sources_key
 from fmu_bearing.compiled.platforms import PLATFORMS, host, instruction_set
 from fmu_bearing.compiled.units import UNITS, object_name
-from fmu_bearing.fmi.native.link import library_name
+from fmu_bearing.fmi.native.link import LINKED, library_name
 from fmu_bearing.fmi.native.prebuilt import WHEEL_TAGS
-from tests.compiled import unoptimised
+from tests.compiled import first_use, unoptimised
 from tests.conftest import ROOT
 from tests.native import binaries
 
@@ -36,18 +35,7 @@ FORMATS = {
     "darwin64": ("Mach-O", "x86-64"),
     "aarch64-darwin": ("Mach-O", "aarch64"),
 }
-INSIDE = "fmu_bearing/compiled/prebuilt/"
 BITCODE = b"BC\xc0\xde"
-#: What a user does first, where no compiler is found.
-_FIRST = """
-import sys, time
-sys.modules["ziglang"] = None  # as if it were not installed
-import fmu_bearing
-run = fmu_bearing.simulate(sys.argv[1], 2e-3)
-print(time.process_time())
-print(fmu_bearing.__file__)
-print(fmu_bearing.build_fmu(sys.argv[1], sys.argv[2]).platforms)
-"""
 
 
 @dataclass(frozen=True)
@@ -65,7 +53,8 @@ class Wheel:
             names = archive.namelist()
             (about,) = (name for name in names if name.endswith(".dist-info/WHEEL"))
             fields = email.message_from_bytes(archive.read(about))
-            prebuilt = {name.removeprefix(INSIDE): archive.read(name) for name in names if INSIDE in name}
+            inside = [name for name in names if name.startswith(first_use.INSIDE)]
+            prebuilt = {name.removeprefix(first_use.INSIDE): archive.read(name) for name in inside}
         return cls(path, fields["Tag"], fields["Root-Is-Purelib"] == "true", prebuilt)
 
 
@@ -73,7 +62,7 @@ def kernel_files():
     """Return all files of kernels that wheels need, by name; optimised are those that this machine runs."""
     own = objects(host(), UNITS, [instruction_set(host())])
     files = {object_name(unit, host().name, one): data for (unit, one), data in own.items()}
-    files |= {f"{unit}.bc": bitcode(unit) for unit in UNITS}
+    files |= {f"{unit}.bc": bitcode(unit) for unit in LINKED}
     for platform in (host(), PLATFORMS[FOREIGN]):
         for suffix, _ in platform.instruction_sets:
             for unit in UNITS:
@@ -124,7 +113,7 @@ def test_a_wheel_holds_what_its_platform_runs(wheels, own):
     objects = {
         object_name(unit, platform.name, suffix) for unit in UNITS for suffix, _ in platform.instruction_sets
     }
-    code = {f"{unit}.bc" for unit in UNITS}
+    code = {f"{unit}.bc" for unit in LINKED}  # of the units in FMUs for other platforms
     assert wheel.prebuilt.keys() == {*objects, *code, library_name(platform), "key", "tag", "about.txt"}
     for name in objects:
         assert binaries.object_format(wheel.prebuilt[name]) == FORMATS[platform.name], name
@@ -145,18 +134,37 @@ def test_the_universal_wheel_holds_no_kernels(wheels):
     assert not wheel.prebuilt
 
 
+@pytest.mark.heavy
+def test_every_wheel_is_small_and_typed(wheels):
+    for wheel in wheels.values():
+        assert first_use.look_into(wheel.path) > 500_000  # the package's own files take more than this
+
+
+@pytest.mark.parametrize(("size", "names", "words"), [(10**7, [], "10.00 MB"), (0, ["a.py"], "py.typed")])
+def test_a_wheel_that_is_large_or_untyped_is_refused(size, names, words, tmp_path):
+    path = tmp_path / "a.whl"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("filling", b"0" * size)
+        for name in names:
+            archive.writestr(name, "")
+    with pytest.raises(first_use.Problem, match=words):
+        first_use.look_into(path)
+
+
+def test_a_slow_first_run_is_refused():
+    first_use.on_time({"scene new": 99.0, "simulate my.toml": 4.9})
+    with pytest.raises(first_use.Problem, match=r"15\.1 CPU s"):
+        first_use.on_time({"scene new": 1.0, "simulate my.toml": 15.1})
+
+
 @pytest.fixture(scope="module")
 def installed(wheels, tmp_path_factory):
     """Python of a new environment in which pip has installed the wheel of this machine.
 
     What the package needs is that of the environment that runs the tests, so that nothing is loaded down.
     """
-    folder = tmp_path_factory.mktemp("environment")
-    venv.create(folder, with_pip=True)
-    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-    pip = [python, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    wheel = wheels[WHEEL_TAGS[host().name]].path
-    subprocess.run([*pip, "install", "--no-index", "--no-deps", wheel], check=True, timeout=600)
+    python = first_use.environment(tmp_path_factory.mktemp("environment"))
+    first_use.pip(python, "install", "--no-index", "--no-deps", wheels[WHEEL_TAGS[host().name]].path)
     site = subprocess.run(
         [python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
         check=True, stdout=subprocess.PIPE, text=True, timeout=600,
@@ -164,26 +172,15 @@ def installed(wheels, tmp_path_factory):
     # behind the environment's own packages; links in there, to a checkout, are not followed
     places = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     Path(site, "outer.pth").write_text("\n".join(sorted(places)) + "\n", encoding="utf-8")
-    subprocess.run([*pip, "check"], check=True, timeout=600)  # of versions that the wheel asks for
-    return python, Path(site)
+    first_use.pip(python, "check")  # of versions that the wheel asks for
+    return python
 
 
 @pytest.mark.heavy
-def test_the_first_run_from_a_wheel_compiles_nothing(installed, tmp_path, scene_file):
-    """Neither kernels nor, for the machine's own platform, a C compiler: 5 s to the first result."""
-    python, site = installed
-    lonely = {"PATH": "", "CC": "", "HOME": str(tmp_path), "FMU_BEARING_CACHE": str(tmp_path / "empty")}
-    run = [python, "-c", _FIRST, str(scene_file), str(tmp_path / "bearing.fmu")]
-    ran = subprocess.run(run, env=lonely, cwd=tmp_path, capture_output=True, text=True, timeout=600)
-    assert ran.returncode == 0, ran.stderr
-    seconds, place, platforms = ran.stdout.splitlines()
-    assert Path(place).is_relative_to(site)
-    assert platforms == str((host().name,))  # a native build
-    assert "compiling" not in ran.stderr
-    assert not list((tmp_path / "empty").glob("compiled-*"))
-    with zipfile.ZipFile(tmp_path / "bearing.fmu") as fmu:
-        (library,) = (name for name in fmu.namelist() if name.endswith(host().suffix))
-        assert fmu.read(library) == (site / INSIDE / library_name(host())).read_bytes()
-    # Imports, filters, the run, and 2.9 s of Numba for two kernels of boundary elements: 4.3 to 7.2 s of a
-    # processor whose cores others share. Compiling the engine would take 90 s.
-    assert float(seconds) < 15.0
+def test_the_first_use_of_a_wheel_compiles_nothing(installed, tmp_path):
+    """The README's commands and an FMU in FMPy, without a compiler or any other program."""
+    seconds = first_use.first_use(installed, tmp_path)
+    commands = [" ".join(name.split()[:2]) for name in seconds]
+    assert commands == ["scene new", "simulate my.toml", "info my.toml", "build my.toml"]
+    # 5.2 to 6.4 s of a processor whose cores four other programs share; compiling would take 90 s
+    first_use.on_time(seconds)

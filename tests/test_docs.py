@@ -1,8 +1,10 @@
 """The documentation builds without a warning, its code runs, its links hold, it names everything there is."""
 
+import contextlib
 import importlib.util
 import re
 import shutil
+import subprocess
 import tomllib
 from html import unescape
 
@@ -39,6 +41,7 @@ def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("NO_MKDOCS_2_WARNING", "1")
+        patch.setenv("READTHEDOCS_CANONICAL_URL", "https://example.org/en/latest/")  # as a host sets it
         commands.build(load_config(str(DOCS / "site" / "mkdocs.yml"), site_dir=str(folder), strict=True))
     return folder
 
@@ -88,8 +91,9 @@ def test_search_knows_the_generated_pages(site):
         assert word in unescape(index), word
 
 
-@pytest.mark.lint
-def test_search_works_on_pages_opened_from_the_disk(site):
+@contextlib.contextmanager
+def opened(site):
+    """Page of the site, opened from the disk with its search ready; its complaints and what it asked for."""
     program = shutil.which("chromium")
     if program is None:
         pytest.skip("no chromium on the path")
@@ -101,16 +105,78 @@ def test_search_works_on_pages_opened_from_the_disk(site):
         page.on("pageerror", lambda error: said.append(str(error)))
         page.on("request", lambda request: asked.append(request.url))
         page.goto((site / "index.html").as_uri())
-        box = page.locator("input[name=query]")
-        box.focus()  # the index is loaded then
+        page.locator("input[name=query]").focus()  # the index is loaded then
         page.wait_for_selector(".md-search-result__meta:not(:has-text('Initializing'))", state="attached")
-        box.press_sequentially("preload")
+        yield page, said, asked
+        browser.close()
+
+
+@pytest.mark.lint
+def test_search_works_on_pages_opened_from_the_disk(site):
+    with opened(site) as (page, said, asked):
+        page.locator("input[name=query]").press_sequentially("preload")
         page.wait_for_selector(".md-search-result__item", state="attached")
         found = page.text_content(".md-search-result__list")
-        browser.close()
     assert "preload" in found.lower()
     assert not said
     assert all(url.startswith(("file:", "data:")) for url in asked)
+
+
+#: Asks the site's own search, a worker that answers one message by another (0 set up, 1 ready, 2 query, 3
+#: result), and returns the pages that it finds for each query, the best first.
+_ASK = """async queries => {
+    const config = JSON.parse(document.getElementById("__config").textContent)
+    const index = await __index
+    const worker = new Worker(new URL(config.search, location.href).href)
+    const ask = (type, data, answer) => new Promise(done => {
+        const take = event => {
+            if (event.data.type !== answer) return
+            worker.removeEventListener("message", take)
+            done(event.data.data)
+        }
+        worker.addEventListener("message", take)
+        worker.postMessage({type, data})
+    })
+    await ask(0, {config: index.config, docs: index.docs, options: {suggest: false}}, 1)
+    const found = {}
+    for (const query of queries) {
+        const {items} = await ask(2, query, 3)
+        found[query] = items.map(([first]) => first.location.split("#")[0])
+    }
+    return found
+}"""
+
+
+@pytest.mark.lint
+def test_search_finds_every_command_and_every_variable(site, reference):
+    """Commands and variables as users write them, `ball[1].velocity.x` for the row `ball[i].velocity.x`."""
+    named = {reference.shown(one.name): one.name for one in reference.all_variables()}
+    pages = dict.fromkeys(leaves(typer.main.get_command(app), "fmu-bearing"), "cli.html")
+    pages |= dict.fromkeys(named.values(), "fmu-reference.html")
+    assert len(pages) > 150
+    with opened(site) as (page, said, _):
+        found = page.evaluate(_ASK, list(pages))
+    assert not said
+    assert not [name for name, page in pages.items() if page not in found[name]]
+    # Words of every day, such as preload, are in titles of other pages, which go first; of 196 they were 12.
+    first = [name for name, page in pages.items() if page in found[name][:3]]
+    assert len(first) > 0.9 * len(pages)
+
+
+@pytest.mark.lint
+def test_every_page_states_the_version_and_the_date_of_the_commit(site):
+    """By the commit and not by the clock, so that a commit always makes the same site."""
+    asked = subprocess.run(
+        ["git", "log", "-1", "--format=%cs"], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+    if asked.returncode != 0:
+        pytest.skip("not in a clone of the repository")
+    date = asked.stdout.strip()
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", date)
+    for page in ("index.html", "results/tradeoff.html", "api.html"):
+        assert f"fmu-bearing {fmu_bearing.__version__}, {date}" in text(site, page), page
+    dates = set(re.findall(r"<lastmod>(.*?)</lastmod>", text(site, "sitemap.xml")))
+    assert dates == {date}
 
 
 @pytest.mark.parametrize("page", PAGES[1:], ids=names(PAGES[1:]))

@@ -1,23 +1,30 @@
-"""What MkDocs does not do by itself: generated references, links to files outside docs, captions, formulas.
+"""What MkDocs does not do by itself: references, links to files outside docs, captions, formulas, the date.
 
 A page says ``<!-- generated: scene -->`` where ``reference.scene()`` belongs, or a function of ``structure``;
 the text is made when the site is built and kept nowhere else. Formulas between dollar signs become MathML
-when the site is built, so that no script has to set them in the browser.
+when the site is built, so that no script has to set them in the browser. The foot of each page states version
+and date of the commit, not of the build: the same commit makes the same files.
 """
 
+import functools
 import html
 import importlib.util
 import json
 import logging
 import posixpath
 import re
+import subprocess
 from pathlib import Path
 
 from latex2mathml.converter import convert
 from mkdocs.structure.files import File, InclusionLevel
 
+from fmu_bearing import __version__
+
 ROOT = Path(__file__).parents[2]
 
+#: Who searches for a command or a variable looks for what it means, not for every page that uses it.
+_REFERENCES = ("cli.md", "fmu-reference.md")
 #: Pages of the root of the repository that have a place in the site.
 _ROOT_PAGES = {"CHANGELOG.md": "changes.md", "CONTRIBUTING.md": "contributing.md"}
 
@@ -44,10 +51,28 @@ _FUNCTION = re.compile(r"<mi>(sin|cos|log)</mi>")
 _LANGUAGES = {".py": "python", ".toml": "toml", ".c": "c", ".h": "c"}
 
 
+def on_config(config):
+    """State version and date at the foot of each page."""
+    config.copyright = ", ".join(filter(None, (f"fmu-bearing {__version__}", _date())))
+    return config
+
+
+@functools.cache
+def _date():
+    """Date of the commit (YYYY-MM-DD); empty where there is no git, as in an unpacked source distribution."""
+    try:
+        command = ["git", "-C", str(ROOT), "log", "-1", "--format=%cs"]
+        return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout.strip()
+    except (OSError, subprocess.SubprocessError):
+        return ""
+
+
 def on_files(files, config):
     """Add pages of the root, and each file outside docs that a page links to as a page of its own."""
     for name, page in _ROOT_PAGES.items():
         content = (ROOT / name).read_text("utf-8").replace("](docs/", "](")
+        for other, place in _ROOT_PAGES.items():
+            content = content.replace(f"]({other}", f"]({place}")
         files.append(File.generated(config, page, content=content))
     linked = {
         _outside(file.src_uri, link)
@@ -65,10 +90,13 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, config, files):
     """Put generated references in their places, and point links to files outside docs at their pages."""
-    if page.file.src_uri.startswith("results/"):
+    here = page.file.src_uri
+    if here in _REFERENCES:
+        page.meta.setdefault("search", {"boost": 4})
+    page.update_date = _date() or page.update_date  # in the map of the site
+    if here.startswith("results/"):
         page.meta.setdefault("hide", ["toc"])  # room for wide tables
     markdown = _GENERATED.sub(lambda match: _makers[match[1]](), markdown)
-    here = page.file.src_uri
 
     def pointed(match):
         path = _outside(here, match[1])

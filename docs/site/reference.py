@@ -198,17 +198,23 @@ _INDICES = (
 )
 
 
+def shown(name):
+    """Name of the row in which a variable is shown."""
+    for pattern, index, _, _ in _INDICES:
+        name = re.sub(pattern, index, name)
+    return name
+
+
 def fmu():
     """Every variable of an FMU, grouped; one row stands for all balls, microphones, bands, orders."""
     groups = {title: {} for title in (*dict(GROUPS), _SETS)}
-    for variable in _all_variables():
+    for variable in all_variables():
         title = _SETS
         if not variable.name.startswith(_OF_SETS):
             title = next(title for title, fits in GROUPS if fits(variable))
-        name, sentence = variable.name, variable.description
-        for in_name, index, in_sentence, words in _INDICES:
-            if re.search(in_name, name):
-                name = re.sub(in_name, index, name)
+        name, sentence = shown(variable.name), variable.description
+        for in_name, _, in_sentence, words in _INDICES:
+            if re.search(in_name, variable.name):
                 sentence = re.sub(in_sentence, words, sentence)
         groups[title].setdefault(name, (variable, sentence))
     lines = []
@@ -222,7 +228,7 @@ def fmu():
     return "\n".join(lines)
 
 
-def _all_variables():
+def all_variables():
     """Variables of scenes that together have everything: sound in bands, bending rings, a cage, fits, a set.
 
     Of the set those that no single bearing has.

@@ -54,6 +54,7 @@ def several(
     """Run a study of several values, and write and print what it finds."""
     from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.scene import scene_of
+    from fmu_bearing.sweeps import sampling
     from fmu_bearing.sweeps.global_sensitivity import evaluated, lay_out
     from fmu_bearing.sweeps.plan import SETTLE, WINDOW
     from fmu_bearing.sweeps.ranges import parse_range
@@ -64,6 +65,7 @@ def several(
     ranges = dict(pairs)
     if len(ranges) < len(pairs):
         raise Refusal("a range is given twice: give each --vary once")
+    sampling.check(study.method, study.samples)  # names the extra, which brings Matplotlib too
     picture = check_picture(plot or output / "sensitivity.png")
     check_new(force, picture)
     check_new_in(force, output, "sensitivity.md", "sensitivity.csv")

@@ -33,7 +33,7 @@ _ROUNDING = 1e-9  # relative: a figure that moves by less does not change
 _PURPOSE = "sensitivity over several values at once"
 
 
-def check(method: str, samples: int | None, seed: int) -> int:
+def check(method: str, samples: int | None, seed: int = 1) -> int:
     """Return the number of samples after all three are checked.
 
     Raises

@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing import global_sensitivity, sweep, with_fidelity
+from fmu_bearing import global_sensitivity, new_scene, sweep, with_fidelity
 from fmu_bearing.scene.values import value_at
 from fmu_bearing.sweeps import global_sensitivity as study, sampling
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.point import Outcome
 from fmu_bearing.sweeps.ranges import parse_range, ranges_of
+from tests.conftest import ROOT
 
 PRELOAD, VISCOSITY, SEED = "mounting.preload_N", "lubricant.viscosity_Pa_s", "imperfections.seed"
 VARY = {"preload": (100.0, 300.0), "viscosity": "0.004..0.016log", "seed": (1, 4)}
@@ -214,3 +215,33 @@ def test_a_bearing_as_on_a_grid(silent, tmp_path):
     again = global_sensitivity(scene, ends, **short, **asked)
     assert np.array_equal(again.values, found.values)
     assert all(np.array_equal(again.indices[name], found.indices[name]) for name in again.indices)
+
+
+@pytest.mark.heavy
+def test_a_pair_is_ranked_as_a_single_bearing(tmp_path):
+    """Of each bearing and of the whole set; the preload by the short name that it has elsewhere in a set."""
+    path = tmp_path / "pair.toml"
+    path.write_text(new_scene("pair", "7003C", speed_rpm=15000.0, preload_N=150.0, arrangement="DB"), "utf-8")
+    found = global_sensitivity(
+        with_fidelity(path, model="rings").replace({"sound": None}),
+        {"preload": (100.0, 200.0), "speed": (8000.0, 15000.0)},
+        samples=4,
+        settle=0.0,
+        window=1e-3,
+        figures=["friction_torque", "bearing[*].contact.inner.pressure_max"],
+        workers=1,
+    )
+    assert found.keys == ("spindle.preload.preload_N", "operation.speed_rpm")
+    for number in (1, 2):
+        (first, effect), _ = found.ranked(f"bearing[{number}].contact.inner.pressure_max")
+        assert first == "spindle.preload.preload_N"
+        # Hertz: pressure goes with the cube root of the load, 1.5 GPa at 150 N: +26 % over the range
+        # the contact angle grows with the load and takes some of it
+        assert effect == pytest.approx(0.26 * 1.5e9, rel=0.4)
+
+
+def test_bearings_on_another_models_shaft_are_refused():
+    with pytest.raises(ValueError, match="cannot have a sensitivity study"):
+        global_sensitivity(
+            ROOT / "examples" / "port" / "7003C-DB-port.toml", {"preload": (100, 200), "speed": (8000, 15000)}
+        )

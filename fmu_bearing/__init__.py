@@ -32,7 +32,7 @@ Data flow in one direction::
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
 ``identification``  numbers of a scene from measured sound and vibration
-``sweeps``          a scene over a grid of its values
+``sweeps``          a scene over a grid or samples of its values
 ``reports``         one HTML page about a run
 ``validation``      checks of an FMU against FMI 2.0
 ``testing``         fixtures for pytest: FMUs against recorded references
@@ -80,6 +80,7 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.statics import Statics, statics
     from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
+    from fmu_bearing.sweeps.global_sensitivity import global_sensitivity
 
 __version__ = "0.1.0"
 
@@ -102,6 +103,7 @@ _PLACES = {
     "compare": "recording.studies.compare",
     "conformity_from_stiffness": "scene.conformity",
     "fits": "design.fits",
+    "global_sensitivity": "sweeps.global_sensitivity",
     "identify": "identification",
     "measure": "recording.measurements",
     "modes": "modal.modes.points",
@@ -140,6 +142,7 @@ __all__ = [
     "compare",
     "conformity_from_stiffness",
     "fits",
+    "global_sensitivity",
     "identify",
     "measure",
     "modes",

@@ -21,6 +21,7 @@ EXTRAS = {
     "fmu_manipulation_toolbox": "validate",
     "mosqito": "psychoacoustics",
     "ziglang": "cross",
+    "SALib": "salib",
 }
 
 

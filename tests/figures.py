@@ -7,6 +7,7 @@ Each function yields what its page has to say, made from today's tables. A page 
 import re
 
 from tests.figures_of_limits import limits
+from tests.figures_of_paper import paper
 from tests.figures_of_settled import settled
 from tests.tables import (
     CASES,
@@ -315,7 +316,7 @@ def examples():
 
 
 PAGES = {
-    "../README.md": settings, "examples.md": examples, "gallery.md": gallery,
+    "../README.md": settings, "../paper.md": paper, "examples.md": examples, "gallery.md": gallery,
     "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
     "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
 }  # fmt: skip

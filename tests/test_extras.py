@@ -64,6 +64,19 @@ USES = {
         "print(import_module('fmu_bearing.validation.tools').fmutool('any.fmu'))"
     ],
     "mosqito": ["fmu_bearing.measure.sensation([0.0], 48000.0)"],
+    "SALib": [
+        [
+            "sensitivity",
+            "rigid.toml",
+            "--method",
+            "morris",
+            "--vary",
+            "preload=100..200",
+            "--vary",
+            "speed=1000..2000",
+        ],
+        "fmu_bearing.global_sensitivity('rigid.toml', {'preload': (100, 200), 'speed': (1000, 2000)})",
+    ],
     "ziglang": [["build", "rigid.toml", "--platforms", "OTHER"]],
 }
 

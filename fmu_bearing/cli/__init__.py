@@ -11,6 +11,7 @@
 ``compare``     two scenes, recordings or runs side by side
 ``sound``       levels, spectra, directivity, WAV
 ``studies``     choose, tradeoff, sensitivity, changes
+``several``     sensitivity to several values at once
 ``stiffness``   K and C over speed, preload and frequency, and of a set's shaft
 ``fits``        what tolerances of shaft and housing do
 ``sweep``       a scene over a grid of its values

@@ -11,7 +11,7 @@ import math
 import os
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -202,6 +202,11 @@ def check_new_in(force: bool, folder: Path | None, *patterns: str) -> None:
 def print_json(result: Any) -> None:
     """Print ``result`` as JSON; NaN and infinity become null, because JSON does not have them."""
     typer.echo(json.dumps(_plain(result), indent=2, ensure_ascii=False))
+
+
+def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:
+    """Rows of a table with their columns' names."""
+    return [dict(zip(columns, row, strict=True)) for row in rows]
 
 
 def _plain(value: Any) -> Any:

@@ -92,3 +92,17 @@ Variables = Annotated[
         help="Variables, with commas between or one option each; * matches any text.",
     ),
 ]
+#: Of a study of many runs.
+Figures = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--variables",
+        "-v",
+        metavar="NAME[:STATISTIC],...",
+        help="What is kept, with commas between or one option each, * matches any text; statistics: "
+        "mean, rms, min, max, last, 1x.",
+    ),
+]
+Workers = Annotated[
+    int | None, typer.Option("--workers", "-w", min=1, help="Processes; default: one per core.")
+]

@@ -1,18 +1,18 @@
 """``fmu-bearing choose``, ``tradeoff``, ``sensitivity``, ``changes``: accuracy, what figures rest on."""
 
 import textwrap
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import app, check_new, check_new_in, print_json, refusals, tell
+from fmu_bearing.cli.base import Refusal, app, check_new, check_new_in, named, print_json, refusals, tell
 from fmu_bearing.cli.options import (
     SEEDS,
     Catalogues,
     Fidelity,
+    Figures,
     Folder,
     Force,
     Json,
@@ -23,11 +23,16 @@ from fmu_bearing.cli.options import (
     Seeds,
     Settings,
     Speed,
+    Workers,
     settle as time_left_out,
 )
 from fmu_bearing.cli.settings import at_speed, source_of
+from fmu_bearing.cli.several import Study, several
 from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps, work
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene import Scene
 
 #: s: the windows of a quick study.
 _QUICK = 0.005
@@ -115,36 +120,97 @@ def tradeoff(
 @app.command()
 def sensitivity(
     scene: SceneFile,
-    settle: Annotated[
-        float | None, time_left_out("; default 0.03, for some fifty short runs; 0.005 with --quick")
+    method: Annotated[
+        str | None,
+        typer.Option(
+            "--method",
+            metavar="NAME",
+            help="morris or sobol: the values of --vary vary together; default: each assumed value alone.",
+        ),
     ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            metavar="KEY=LOW..HIGH",
+            help="With --method: a range, KEY=LOW..HIGH or KEY=LOW..HIGHlog, KEY as of a sweep's axis; two "
+            "or more, one option each.",
+        ),
+    ] = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            "--samples",
+            metavar="N",
+            help="With --method: N (keys + 1) runs for morris, default 16; N (keys + 2) for sobol, a power "
+            "of two, default 64.",
+        ),
+    ] = None,
+    variables: Figures = None,
+    settle: Annotated[
+        float | None,
+        time_left_out("; default 0.03, for some fifty short runs, 0.02 with --method; 0.005 with --quick"),
+    ] = None,
+    window: Annotated[
+        float | None,
+        typer.Option(
+            "--window",
+            metavar="S",
+            help="Time over which figures are read, s; default 0.06, 0.1 with --method; 0.005 with --quick.",
+        ),
+    ] = None,
+    workers: Workers = None,
     speed: Speed = None,
     settings: Settings = None,
     quick: Quick = False,
+    plot: Plot = None,
     output: Folder = Path("out/sensitivity"),
     force: Force = False,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
-    """Change every assumed value of a scene, one at a time, and print the effect.
+    """Change every assumed value of a scene, one at a time, or some of any kind at once; print the effect.
 
-    All runs have fidelity full, so there is no --fidelity.
+    One at a time, all runs have fidelity full, so there is no --fidelity; with --method they have the
+    scene's. The options --vary, --samples, --variables, --workers and --plot go with --method; the picture is
+    sensitivity.png in the folder, or the file of --plot. Finished runs are kept there: the same command goes
+    on where an earlier one was interrupted.
     """
+    times: dict[str, float] = {"settle": _QUICK, "window": _QUICK} if quick else {}
+    given = {"settle": settle, "window": window}
+    times |= {name: value for name, value in given.items() if value is not None}
+    with refusals():
+        check_folder(output)  # refused before minutes of measuring
+        source = partial(source_of, scene, at_speed(speed, settings))
+        if method is None:
+            of_several = {
+                "--vary": vary, "--samples": samples, "--variables": variables, "--workers": workers,
+                "--plot": plot,
+            }  # fmt: skip
+            for name, value in of_several.items():
+                if value is not None:
+                    raise Refusal(f"{name} needs --method morris or --method sobol")
+            check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
+            _each_alone(source(), scene.stem, times, quick, output, as_json)
+        else:
+            study = Study(
+                method, vary or [], 4 if quick and samples is None else samples, variables, times, workers
+            )
+            several(source(), study, plot, output, force, as_json)
+
+
+def _each_alone(
+    source: "Path | Scene", name: str, times: dict[str, float], quick: bool, output: Path, as_json: bool
+) -> None:  # fmt: skip
+    """Change one assumed value at a time."""
     from fmu_bearing.accuracy import sensitivity as moving
     from fmu_bearing.results.table import show
 
-    with refusals():
-        check_folder(output)  # refused before minutes of measuring
-        check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
-        source = source_of(scene, at_speed(speed, settings))
-        times: dict[str, float] = {"warm_up": _QUICK, "window": _QUICK} if quick else {}
-        times |= {} if settle is None else {"warm_up": settle}
-        with work(f"sensitivity of {scene.stem}"):
-            study = moving.sensitivity(
-                source, moving.QUICK if quick else tuple(moving.ASSUMED), track=partial(steps, what="moves"),
-                **times,
-            )  # fmt: skip
-        moving.write(study, output)
+    keys = moving.QUICK if quick else tuple(moving.ASSUMED)
+    spans = {"warm_up" if one == "settle" else one: value for one, value in times.items()}
+    with work(f"sensitivity of {name}"):
+        study = moving.sensitivity(source, keys, track=partial(steps, what="moves"), **spans)
+    moving.write(study, output)
     files = [output / "sensitivity.md", output / "sensitivity.csv"]
     if as_json:
         print_json({"moves": named(moving.COLUMNS, study.cells()), "files": files})
@@ -185,8 +251,3 @@ def changes(
     for line in (f"unchanged: {found.unchanged()}", found.resonance(), found.conditions(), *found.remarks()):
         if line:
             typer.echo(textwrap.fill(line, 80))
-
-
-def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:
-    """Rows of a table with their columns' names."""
-    return [dict(zip(columns, row, strict=True)) for row in rows]

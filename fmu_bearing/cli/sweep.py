@@ -18,11 +18,13 @@ from fmu_bearing.cli.base import (
 from fmu_bearing.cli.options import (
     Catalogues,
     Fidelity,
+    Figures,
     Folder,
     Force,
     Json,
     Plot,
     Settings,
+    Workers,
     settle as time_left_out,
 )
 from fmu_bearing.cli.runs import split
@@ -44,21 +46,8 @@ AxisTexts = Annotated[
         "(mounting.preload_N) or speed, preload, pedestal, viscosity, seed, fidelity. Once per axis.",
     ),
 ]
-Names = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--variables",
-        "-v",
-        metavar="NAME[:STATISTIC],...",
-        help="What is kept, with commas between or one option each, * matches any text; statistics: "
-        "mean, rms, min, max, last, 1x.",
-    ),
-]
 Settle = Annotated[float | None, time_left_out("; default 0.02, or the sweep file's: a map has many points")]
 Window = Annotated[float | None, typer.Option(help="Time over which it is read, s; default 0.1.")]
-Workers = Annotated[
-    int | None, typer.Option("--workers", "-w", min=1, help="Processes; default: one per core.")
-]
 Scheduler = Annotated[
     str | None,
     typer.Option(metavar="ADDRESS", help="Dask scheduler to use in their place, such as tcp://host:8786."),
@@ -72,7 +61,7 @@ DryRun = Annotated[
 def sweep(
     source: Source,
     axis: AxisTexts = None,
-    variables: Names = None,
+    variables: Figures = None,
     settle: Settle = None,
     window: Window = None,
     workers: Workers = None,

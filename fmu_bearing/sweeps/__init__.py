@@ -1,18 +1,22 @@
-"""Sweeps: a scene over a grid of its values, on all cores or a cluster, resumable.
+"""A scene over a grid or samples of its values, on all cores or a cluster, resumable.
 
-=================  =======================================================================
-``description``    a sweep as a TOML file
-``axes``           the varied keys, their values, their text on the command line
-``figures``        the figures of a run: variables with a statistic
-``plan``           all points, checked before the first is run
-``point``          one point: its key, its run
-``local``          points in this process or on worker processes
-``cluster``        points on a Dask cluster
-``store``          finished points on disk
-``runs``           runs the points that are not finished; progress; Ctrl-C
-``result``         the dataset, netCDF and CSV
-``picture``        curves and maps
-=================  =======================================================================
+======================  ======================================================================
+``description``         a sweep as a TOML file
+``axes``                the varied keys, their values, their text on the command line
+``figures``             the figures of a run: variables with a statistic
+``plan``                all points, checked before the first is run
+``point``               one point: its key, its run
+``local``               points in this process or on worker processes
+``cluster``             points on a Dask cluster
+``store``               finished points on disk
+``runs``                runs the points that are not finished; progress; Ctrl-C
+``result``              the dataset, netCDF and CSV
+``picture``             curves and maps
+``ranges``              ranges in place of an axis's values, for a study of sensitivity
+``sampling``            samples of several ranges at once, and the indices from them
+``global_sensitivity``  what figures rest on, by Morris or Sobol, on the points of a sweep
+``index_picture``       the indices as bars
+======================  ======================================================================
 
 Equal keys give equal figures. Each point is a separate run from its steady state, with the scene's own
 seed unless the seed is an axis. Order, number of workers and restarts therefore do not change the results.

@@ -25,7 +25,7 @@ _MOST = 20  # lines of a refusal
 
 @dataclass(frozen=True)
 class Plan:
-    """All points of a sweep.
+    """All points of a sweep, or of a study that samples ranges.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Plan:
         In s.
     figures : tuple of Figure
     tasks : tuple of Task
-        One per point, the last axis fastest.
+        One per point; of a sweep with the last axis fastest.
     note : str
         How fidelity ``auto`` was resolved, and why.
     """
@@ -51,7 +51,7 @@ class Plan:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of values of each axis."""
+        """Number of values of each axis of a sweep."""
         return tuple(len(axis.values) for axis in self.axes)
 
     @property
@@ -80,14 +80,40 @@ def plan(
     MissingExtra
         Where a ring bends, without scikit-fem.
     """
-    _check_times(settle, window)
     scene = scene_of(source)
     found = axes_of(scene, axes)
+    points = list(itertools.product(*(axis.values for axis in found)))
+    return plan_of(scene, found, points, settle, window, figures)
+
+
+def plan_of(
+    scene: Scene,
+    axes: tuple[Axis, ...],
+    points: Sequence[Sequence[Any]],
+    settle: float,
+    window: float,
+    figures: Sequence[str] | None,
+) -> Plan:
+    """Check given points of a scene and lay them out.
+
+    Parameters
+    ----------
+    axes : tuple of Axis
+        What is varied.
+    points : sequence of sequence
+        The values of the axes at each point, in the keys' units. Equal points have equal tasks.
+
+    Raises
+    ------
+    SweepError, UnknownName, MissingExtra
+        As `plan`.
+    """
+    _check_times(settle, window)
     note = ""
-    if "fidelity.model" not in {axis.key for axis in found}:
+    if "fidelity.model" not in {axis.key for axis in axes}:
         scene, choice = resolve(scene)
         note = "" if choice is None else choice.summary
-    scenes = _scenes(scene, found)
+    scenes = _scenes(scene, axes, points)
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # reported once, and not as the reason of every point
     mounted = (one for one in scenes if one.mounting is not None)
@@ -101,10 +127,10 @@ def plan(
         silent = one.sound is None or not one.microphones
         sound = None if silent else first.setdefault(sound_key(one), one)
         tasks.append(task_of(one, settle, window, names, sound))
-    return Plan(scene, found, settle, window, kept, tuple(tasks), note)
+    return Plan(scene, axes, settle, window, kept, tuple(tasks), note)
 
 
-def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
+def _scenes(scene: Scene, axes: tuple[Axis, ...], points: Sequence[Sequence[Any]]) -> list[Scene]:
     """Return the scene of each point, or raise with all refusals."""
     found: list[Scene] = []
     problems = [
@@ -114,7 +140,7 @@ def _scenes(scene: Scene, axes: tuple[Axis, ...]) -> list[Scene]:
     ]
     if problems:
         raise SweepError("\n".join(problems))
-    for values in itertools.product(*(axis.values for axis in axes)):
+    for values in points:
         chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}
         if chosen.get("fidelity.model") == "auto":
             problems.append(
@@ -140,4 +166,4 @@ def _check_times(settle: float, window: float) -> None:
         raise SweepError(f"window = {window} s is refused: allowed are 0.001 to 1000 s")
 
 
-__all__ = ["SETTLE", "WINDOW", "Plan", "SceneError", "plan"]
+__all__ = ["SETTLE", "WINDOW", "Plan", "SceneError", "plan", "plan_of"]

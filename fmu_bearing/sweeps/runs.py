@@ -37,15 +37,16 @@ def run_plan(
     outcomes = finished(plan, store)
     # points with the same sound follow each other, so that a worker keeps one sound at a time
     order = {scene: place for place, scene in enumerate(plan.sounds)}
+    tasks = {task.key: task for task in plan.tasks}  # equal points are run once
     todo = sorted(
-        (task for task in plan.tasks if task.key not in outcomes),
+        (task for key, task in tasks.items() if key not in outcomes),
         key=lambda task: -1 if task.sound is None else order[task.sound],
     )
     if not todo:
         return outcomes
     try:
         with (
-            _bar(len(plan.tasks), len(outcomes), progress) as tell,
+            _bar(len(tasks), len(outcomes), progress) as tell,
             closing(_ends(todo, workers, scheduler)) as ends,
         ):
             for task, outcome in ends:
@@ -54,7 +55,7 @@ def run_plan(
                     store.keep(task, outcome)
                 tell(len(outcomes))
     except KeyboardInterrupt:
-        raise Interrupted(outcomes, len(plan.tasks)) from None
+        raise Interrupted(outcomes, len(tasks)) from None
     return outcomes
 
 

@@ -36,6 +36,14 @@ WRITING = {
     "tradeoff": (("tradeoff", "{scene}", "-o", "{folder}"), ["tradeoff.csv"]),
     "tradeoff, picture": (("tradeoff", "{scene}", "-o", "{folder}", "--plot", "{folder}/t.png"), ["t.png"]),
     "sensitivity": (("sensitivity", "{scene}", "-o", "{folder}"), ["sensitivity.md"]),
+    "sensitivity, several": (
+        ("sensitivity", "{scene}", "--method", "morris", "--vary", "speed=5000..9000", "--vary",
+         "preload=200..500", "-o", "{folder}"), ["sensitivity.png"],
+    ),
+    "sensitivity, picture": (
+        ("sensitivity", "{scene}", "--method", "morris", "--vary", "speed=5000..9000", "--vary",
+         "preload=200..500", "-o", "{folder}", "--plot", "{folder}/s.png"), ["s.png"],
+    ),
     "sweep": (("sweep", "{scene}", "-a", "speed=5000,9000", "-o", "{folder}"), ["sweep.nc"]),
     "sweep, picture": (
         ("sweep", "{scene}", "-a", "speed=5000,9000", "-o", "{folder}", "--plot", "{folder}/s.png"),

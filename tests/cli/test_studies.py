@@ -78,3 +78,45 @@ def test_quick_studies_write_their_tables(run, silent_file, tmp_path):
         "tradeoff.md",
         "tradeoff.png",
     }
+
+
+SEVERAL = (
+    "--method", "morris", "--vary", "preload=100..300", "--vary", "viscosity=0.004..0.016log", "--quick",
+    "--settle", "0", "--window", "0.001", "--workers", "1", "-v", "friction_torque,contact.inner.load_mean",
+)  # fmt: skip
+
+
+def test_sensitivity_to_several_values_writes_table_and_picture(run, silent_file, tmp_path):
+    words = ("sensitivity", silent_file, *SEVERAL, "--set", "fidelity.model=rings", "-o", tmp_path)
+    found = run(*words, "--plot", tmp_path / "bars.svg", "--json").data
+    assert (found["method"], found["samples"]) == ("morris", 4)
+    assert "fidelity rings" in found["conditions"] and "0.004 to 0.016 Pa s" in found["conditions"]
+    rows = found["indices"]
+    assert [row["figure"] for row in rows] == ["friction_torque"] * 2 + ["contact.inner.load_mean"] * 2
+    assert rows[2]["key"] == "mounting.preload_N" and float(rows[2]["mu*"]) > 0.0
+    assert b"mu*" in (tmp_path / "bars.svg").read_bytes()
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "bars.svg", "points", "sensitivity.csv", "sensitivity.md",
+    }  # fmt: skip
+    again = run(*words, "--force")  # its runs are kept
+    assert again.exit_code == 0, again.output
+    assert "what friction_torque rests on, N.m" in again.output
+    assert (tmp_path / "sensitivity.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize(
+    ("words", "answer"),
+    [
+        (("--vary", "preload=1..2"), "--vary needs --method morris or --method sobol"),
+        (("--samples", "8"), "--samples needs --method"),
+        (("--plot", "a.png"), "--plot needs --method"),
+        (("--method", "fast"), "allowed are morris and sobol"),
+        (("--method", "sobol", "--vary", "preload=1..2"), "give two ranges or more"),
+        (("--method", "sobol", "--vary", "preload"), "write KEY=LOW..HIGH"),
+        (("--method", "sobol", *["--vary", "preload=1..2"] * 2), "give each --vary once"),
+    ],
+)
+def test_sensitivity_to_several_values_refuses_in_one_line(run, silent_file, tmp_path, words, answer):
+    result = run("sensitivity", silent_file, *words, "-o", tmp_path / "new")
+    assert result.exit_code == 2 and answer in result.output and result.output.count("\n") == 1
+    assert not (tmp_path / "new").exists()

@@ -1,0 +1,120 @@
+"""``fmu-bearing sensitivity --method``: several values of a scene at once."""
+
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from fmu_bearing.cli.base import (
+    ENDED_EARLY,
+    INTERRUPTED,
+    Refusal,
+    check_new,
+    check_new_in,
+    named,
+    print_json,
+    tell,
+)
+from fmu_bearing.cli.runs import split
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene import Scene
+    from fmu_bearing.sweeps.global_sensitivity import GlobalSensitivity
+
+
+@dataclass(frozen=True)
+class Study:
+    """What the command line asks for.
+
+    Attributes
+    ----------
+    method : str
+    vary : list of str
+        Texts of the ranges.
+    samples : int, optional
+    variables : list of str, optional
+    times : dict
+        ``settle`` and ``window``, s, where they are given.
+    workers : int, optional
+    """
+
+    method: str
+    vary: list[str]
+    samples: int | None
+    variables: list[str] | None
+    times: dict[str, float]
+    workers: int | None
+
+
+def several(
+    source: "Path | Scene", study: Study, plot: Path | None, output: Path, force: bool, as_json: bool
+) -> None:  # fmt: skip
+    """Run a study of several values, and write and print what it finds."""
+    from fmu_bearing.results.picture_parts import check_picture
+    from fmu_bearing.scene import scene_of
+    from fmu_bearing.sweeps import sampling
+    from fmu_bearing.sweeps.global_sensitivity import evaluated, lay_out
+    from fmu_bearing.sweeps.plan import SETTLE, WINDOW
+    from fmu_bearing.sweeps.ranges import parse_range
+    from fmu_bearing.sweeps.runs import Interrupted, run_plan
+    from fmu_bearing.sweeps.store import Store
+
+    pairs = [parse_range(text) for text in study.vary]
+    ranges = dict(pairs)
+    if len(ranges) < len(pairs):
+        raise Refusal("a range is given twice: give each --vary once")
+    sampling.check(study.method, study.samples)  # names the extra, which brings Matplotlib too
+    picture = check_picture(plot or output / "sensitivity.png")
+    check_new(force, picture)
+    check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
+    settle, window = study.times.get("settle", SETTLE), study.times.get("window", WINDOW)
+    names = split(study.variables)
+    layout = lay_out(scene_of(source), ranges, study.method, study.samples, settle, window, names)
+    if layout.plan.note:
+        tell(layout.plan.note)
+    try:
+        outcomes = run_plan(layout.plan, Store(output), study.workers)
+    except Interrupted as stop:
+        tell(f"{stop} and kept; the same command runs those that are left")
+        raise typer.Exit(INTERRUPTED) from None
+    found = evaluated(layout, outcomes)
+    _report(found, picture, output, as_json)
+    if any(not outcome.lasting for outcome in outcomes.values()):
+        raise typer.Exit(ENDED_EARLY)
+
+
+def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> None:
+    """Write table and picture; print the table."""
+    from fmu_bearing.results.picture_parts import save
+    from fmu_bearing.results.table import show
+    from fmu_bearing.sweeps.global_sensitivity import COLUMNS
+    from fmu_bearing.sweeps.index_picture import index_picture
+
+    files = found.write(output)
+    save(index_picture(found), picture)
+    files["picture"] = picture
+    columns, cells = COLUMNS[found.layout.method], found.cells()
+    if as_json:
+        print_json(
+            {
+                "method": found.layout.method,
+                "samples": found.layout.samples,
+                "conditions": found.conditions(),
+                "remarks": found.remarks(),
+                "indices": named(columns, cells),
+                "files": files,
+            }
+        )
+        return
+    size = len(found.keys)
+    for at in range(0, len(cells), size):  # a table per figure: it fits the terminal
+        name, unit = cells[at][:2]
+        title = f"{found.layout.plan.scene.name}: what {name} rests on"
+        if found.layout.method == "morris":
+            title += f", {unit}" if unit else ""
+        show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
+    for line in (found.conditions(), *found.remarks()):
+        typer.echo(textwrap.fill(line, 80))
+    typer.echo(f"written: {', '.join(map(str, files.values()))}")

@@ -63,6 +63,12 @@ def groove_centre(scene: Scene, mode: RingMode) -> NDArray[np.float64]:
     return np.array([x - mode.groove_tilt * dr, r + mode.groove_tilt * dx, t])
 
 
+def inner_modes(table: NDArray[np.float64]) -> int:
+    """Return how many modes of a table are the inner ring's: the engine takes the first ones for them."""
+    bodies = table.reshape(-1, P.MODE_SIZE)[:, P.MODE_BODY]
+    return int((bodies == 0.0).sum())
+
+
 def longest_step(table: NDArray[np.float64], method: str) -> float:
     """Longest internal step (s) that resolves every mode of a table; infinite without modes."""
     if table.size == 0:

@@ -16,7 +16,7 @@ from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.table import input_values
 from fmu_bearing.prepare import bodies, contacts, fits
-from fmu_bearing.prepare.flexure import longest_step, mode_table
+from fmu_bearing.prepare.flexure import inner_modes, longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
     ball_oversizes,
     ball_waves,
@@ -206,6 +206,7 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
     p[P.WAVE_RATE] = fastest_wave(scene, waves, int(p[P.BALL_WAVES]))
     if tables[P.AT_MODES].size:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
+        p[P.INNER_MODES] = inner_modes(tables[P.AT_MODES])
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
     _sound(with_microphones, sound, p)

@@ -57,6 +57,7 @@ def with_modes(p, rows, step=1e-5):
     """Parameters with the modes of ``rows`` and their longest internal step (s)."""
     longer = np.concatenate([p, np.ravel(rows)])
     longer[P.MODES], longer[P.AT_MODES], longer[P.MODE_STEP] = len(rows), p.size, step
+    longer[P.INNER_MODES] = sum(row[P.MODE_BODY] == 0.0 for row in rows)
     return longer
 
 

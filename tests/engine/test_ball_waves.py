@@ -23,9 +23,9 @@ def series_at(p, orders, x, out):
     store(out, 0, height)
     store(out, FOUR, rise)
     store(out, 2 * FOUR, curve)
-    height, rise = zonal(p, 1, orders, load(x, 0))
-    store(out, 3 * FOUR, height)
-    store(out, 4 * FOUR, rise)
+    heights, rises = zonal(p, 1, orders, (splat(0.0), splat(1.0), load(x, 0)))
+    store(out, 3 * FOUR, heights[2])
+    store(out, 4 * FOUR, rises[2])
 
 
 @kernel

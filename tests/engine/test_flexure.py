@@ -3,10 +3,51 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import FL, MO, F, P, Q, W
+from fmu_bearing.engine.layout import FL, MO, STRIDE, C, F, P, Q, W, X, Y
 from fmu_bearing.engine.readout.motion import flexure_motion
 from tests.engine.flexible import FRICTIONLESS, MODES, SCENE, Flexure, shaken, thin_ring, untouched
 from tests.engine.helpers import RPM, Run
+
+
+def of_lanes(w, at, count=1):
+    """Rows of the work space over twelve balls."""
+    rows = w[at : at + count * STRIDE].reshape(count, STRIDE)[:, :12]
+    return rows[0] if count == 1 else rows
+
+
+def test_groove_moves_as_the_shapes_say(problem):
+    """Places and velocities of the balls against bent rings, less those against round ones, by definition."""
+    one, round_rings = problem(), problem([])
+    x = shaken(one)
+    y, speed = one.evaluate(0.0, x)
+    round_rings.evaluate(0.0, x[: one.modes_at])
+    q, v = x[one.modes_at :].reshape(2, -1, 2)
+    for race, spin in ((0, speed), (1, y[Y.V0 + Q.OUTER + Q.TURN])):
+        pose = W.POSE + race * X.SIZE
+        n, h, t = (of_lanes(round_rings.w, pose + at, 3) for at in (X.N, X.H, X.T))
+        c, s = of_lanes(round_rings.w, W.COS), of_lanes(round_rings.w, W.SIN)
+        phi = np.arctan2(s * h[1] + c * h[2], c * h[1] - s * h[2])
+        axial, radial, vx, vr, turn = np.zeros((5, 12))
+        for row, (a, b), (va, vb) in zip(MODES, q, v, strict=True):
+            if row[P.MODE_BODY] == race:
+                order = row[P.MODE_ORDER]
+                c, s = np.cos(order * phi), np.sin(order * phi)
+                shape, rate = a * c + b * s, va * c + vb * s + order * spin * (b * c - a * s)
+                axial, radial = axial + row[P.MODE_X] * shape, radial + row[P.MODE_R] * shape
+                vx, vr = vx + row[P.MODE_X] * rate, vr + row[P.MODE_R] * rate
+                turn = turn + row[P.MODE_TILT] * rate
+        for place, moved in ((X.A, axial), (X.RHO, radial)):
+            found = of_lanes(round_rings.w, pose + place) - of_lanes(one.w, pose + place)
+            np.testing.assert_allclose(found, moved, rtol=1e-9, atol=1e-16)  # of 1e-2 m: rounding 2e-18
+        groove = C.RACES + race * C.RACE_SIZE
+        sx = of_lanes(one.w, pose + X.A) - one.c[groove + C.GROOVE_X]
+        sr = of_lanes(one.w, pose + X.RHO) - one.c[groove + C.GROOVE_RADIUS]
+        velocity = (vx - turn * sr) * n + (vr + turn * sx) * h
+        for place, moved in ((X.DV, velocity), (X.DW, turn * t)):
+            before = of_lanes(round_rings.w, pose + place, 3)
+            found = before - of_lanes(one.w, pose + place, 3)
+            # rounding of what is subtracted, 30 m/s or 1e4 rad/s
+            np.testing.assert_allclose(found, moved, rtol=1e-9, atol=1e-15 * np.abs(before).max())
 
 
 @pytest.mark.parametrize("tilt", [0.0, 1.0])

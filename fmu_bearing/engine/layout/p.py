@@ -27,6 +27,7 @@ MICS = _at()  # number of microphones
 BANDS = _at()  # third octaves per microphone; 0: none
 STRIPS = _at()  # over a contact's major axis
 MODES = _at()  # flexural modes of both rings; 0: rigid rings
+INNER_MODES = _at()  # those of the inner ring, which come first in the table
 BALL_WAVES = _at()  # zonal orders of the balls' waviness; 0: none
 WAVE_ORDERS = _at()  # highest order of the races' waviness; 0: none
 WAVE_INTERVALS = _at()  # of a race table: a power of two

@@ -24,23 +24,32 @@ _STILL = 1e-24  # rad2: below this turn sin x / x is 1
 
 
 @kernel
+def next_orders(x, here, back, before):
+    """Polynomials of the order after ``here`` at three times four places ``x``."""
+    x0, x1, x2 = x
+    h0, h1, h2 = here
+    b0, b1, b2 = before
+    return x0 * h0 - back * b0, x1 * h1 - back * b1, x2 * h2 - back * b2
+
+
+@kernel
 def zonal(p, form, orders, x):
-    """Height of the zonal harmonics and its derivative by ``x`` (m), at ``x`` of four balls.
+    """Height of the zonal harmonics and its derivative by ``x`` (m), each at three times four places ``x``.
 
     ``form``: where their rows of ``P.FORM_ROW`` numbers begin (``prepare.surfaces.form_rows``). Legendre
     polynomials without their leading coefficients follow Q_(n+1) = x Q_n - n^2/(4 n^2 - 1) Q_(n-1); what they
-    leave out is in the rows.
+    leave out is in the rows. Each order waits for the one before: three recurrences fill that time.
     """
-    before = splat(1.0)
+    before = (splat(1.0), splat(1.0), splat(1.0))
     here = x
-    height = splat(0.0)
-    rise = splat(p[form + P.FORM_RISE])
+    height = (splat(0.0), splat(0.0), splat(0.0))
+    rise = scaled(p[form + P.FORM_RISE], before)
     row = form
     for _ in range(orders):
         row += P.FORM_ROW
-        height += p[row + P.FORM_HEIGHT] * here
-        rise += p[row + P.FORM_RISE] * here
-        here, before = x * here - p[row + P.FORM_BACK] * before, here
+        height = added(height, scaled(p[row + P.FORM_HEIGHT], here))
+        rise = added(rise, scaled(p[row + P.FORM_RISE], here))
+        here, before = next_orders(x, here, p[row + P.FORM_BACK], before), here
     return height, rise
 
 
@@ -48,6 +57,30 @@ def zonal(p, form, orders, x):
 def has_wavy_balls(p, c):
     """Whether the balls' waviness acts: without imperfections nobody has turned their axes."""
     return p[P.BALL_WAVES] != 0.0 and c[C.OVERSIZE_SCALE] != 0.0
+
+
+@kernel
+def heights_under(p, lanes, row, w):
+    """Height of each ball at its contact and the derivative into the rows ``R.BUMP_T`` and ``R.BUMP_M``."""
+    last = lanes - FOUR
+    for j in range(0, lanes, 3 * FOUR):
+        # beyond the last four lanes these are done again
+        k = min(j + FOUR, last)
+        m = min(j + 2 * FOUR, last)
+        x = (
+            dot(three(w, W.AXES + j), three(w, row + R.EN + j)),
+            dot(three(w, W.AXES + k), three(w, row + R.EN + k)),
+            dot(three(w, W.AXES + m), three(w, row + R.EN + m)),
+        )
+        height, rise = zonal(p, int(p[P.AT_FORM]), int(p[P.BALL_WAVES]), x)
+        h0, h1, h2 = height
+        r0, r1, r2 = rise
+        store(w, row + R.BUMP_T + j, h0)
+        store(w, row + R.BUMP_T + k, h1)
+        store(w, row + R.BUMP_T + m, h2)
+        store(w, row + R.BUMP_M + j, r0)
+        store(w, row + R.BUMP_M + k, r1)
+        store(w, row + R.BUMP_M + m, r2)
 
 
 @kernel
@@ -59,18 +92,18 @@ def add_ball_waves(p, c, lanes, race, w):
     """
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    form = int(p[P.AT_FORM])
-    orders = int(p[P.BALL_WAVES])
     scale = c[C.OVERSIZE_SCALE]
     hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     half = p[P.RACES + race * P.RACE_SIZE + P.RACE_HALF_LENGTH]
     damping = 1.5 * p[P.CONTACT_DAMPING]
+    heights_under(p, lanes, row, w)
     for j in range(0, lanes, FOUR):
         a = three(w, W.AXES + j)
         m = three(w, row + R.EM + j)
         t = three(w, pose + X.T + j)
         dv = three(w, pose + X.DV + j)
-        height, rise = zonal(p, form, orders, dot(a, three(w, row + R.EN + j)))
+        height = load(w, row + R.BUMP_T + j)
+        rise = load(w, row + R.BUMP_M + j)
         bump_t = scale * rise * dot(a, t)
         bump_m = scale * rise * dot(a, m)
         approach = load(w, row + R.APPROACH + j) + scale * height

@@ -58,10 +58,10 @@ def race_forces(p, c, y, lanes, race, turned, w):
     waves(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
     flexible = bends(p, race)
     if flexible:
-        lean(p, lanes, race, w)
+        lean(lanes, race, w)
     normal(p, c, y, lanes, race, w)
     if flexible:
-        slide(p, lanes, race, w)
+        slide(lanes, race, w)
     if has_wavy_balls(p, c):
         add_ball_waves(p, c, lanes, race, w)
     if plain_traction(p):

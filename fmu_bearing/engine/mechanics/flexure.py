@@ -24,8 +24,9 @@ is left out.
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import FL, STRIDE, C, F, P, Q, R, S, W, X, Y
+from fmu_bearing.engine.lanes import consecutive, load, select, splat, store, sum_four
+from fmu_bearing.engine.layout import FL, FOUR, STRIDE, C, F, P, Q, R, S, W, X, Y
+from fmu_bearing.engine.mechanics.triples import added, dot, scaled, store_three, three
 
 
 @kernel
@@ -35,13 +36,17 @@ def flexure_state(p):
 
 
 @kernel
+def modes_of(p, race):
+    """First mode of the ring of ``race`` in the table, and where they end: the inner ring's come first."""
+    inner = int(p[P.INNER_MODES])
+    return (0, inner) if race == 0 else (inner, int(p[P.MODES]))
+
+
+@kernel
 def bends(p, race):
     """Whether the ring of ``race`` has flexural modes."""
-    found = False
-    for k in range(int(p[P.MODES])):
-        if int(p[int(p[P.AT_MODES]) + k * P.MODE_SIZE + P.MODE_BODY]) == race:
-            found = True
-    return found
+    first, end = modes_of(p, race)
+    return first < end
 
 
 @kernel
@@ -69,85 +74,59 @@ def keep_accelerations(p, s, w):
 
 
 @kernel
-def first_order(lanes, race, w, own):
-    """Cosine and sine of each ball's angle about the displaced ring's own centre."""
-    pose = W.POSE + race * X.SIZE
-    for j in range(lanes):
-        c = w[W.COS + j]
-        s = w[W.SIN + j]
-        hr = w[pose + X.H + STRIDE + j]
-        ht = w[pose + X.H + 2 * STRIDE + j]
-        unit = 1.0 / math.sqrt(hr * hr + ht * ht)
-        own[FL.COS + j] = (c * hr - s * ht) * unit
-        own[FL.SIN + j] = (s * hr + c * ht) * unit
+def first_order(race, j, w):
+    """Cosine and sine of the angles of four balls about the displaced ring's own centre."""
+    c = load(w, W.COS + j)
+    s = load(w, W.SIN + j)
+    _, hr, ht = three(w, W.POSE + race * X.SIZE + X.H + j)
+    unit = 1.0 / math.sqrt(hr * hr + ht * ht)
+    return (c * hr - s * ht) * unit, (s * hr + c * ht) * unit
 
 
 @kernel
-def raise_order(times, lanes, own, source, at):
-    """Cosine and sine of the order ``times`` above that of the rows at ``source`` into those at ``at``."""
-    for j in range(2 * STRIDE):
-        own[at + j] = own[source + j]
-    for _ in range(times):
-        for j in range(lanes):
-            c = own[at + j]
-            s = own[at + STRIDE + j]
-            c1 = own[FL.COS + j]
-            s1 = own[FL.SIN + j]
-            own[at + j] = c * c1 - s * s1
-            own[at + STRIDE + j] = s * c1 + c * s1
+def bend(p, race, spin, j, w, own):
+    """Motion of the groove of one ring under four balls; each mode's cosine and sine into ``own``.
 
-
-@kernel
-def add_mode(p, mode, lanes, spin, own, at, a, b, va, vb):
-    """Add one mode's share to the rows of the groove's motion; ``at``: its cosine and sine."""
-    n = p[mode + P.MODE_ORDER]
-    psi_x = p[mode + P.MODE_X]
-    psi_r = p[mode + P.MODE_R]
-    psi_t = p[mode + P.MODE_T]
-    tilt = p[mode + P.MODE_TILT]
-    da = va + n * spin * b
-    db = vb - n * spin * a
-    for j in range(lanes):
-        c = own[at + j]
-        s = own[at + STRIDE + j]
-        along = a * c + b * s
+    Returns displacement (m) x, r, its change with the angle (m) x, r, velocity of the material (m/s)
+    x, r, theta and angular velocity (rad/s) about the circumferential direction.
+    """
+    cosine, sine = first_order(race, j, w)
+    c = cosine
+    s = sine
+    order = 1
+    x = r = gx = gr = vx = vr = vt = turn = splat(0.0)
+    first, end = modes_of(p, race)
+    for k in range(first, end):
+        mode = int(p[P.AT_MODES]) + k * P.MODE_SIZE
+        n = p[mode + P.MODE_ORDER]
+        if n < order:
+            c = cosine
+            s = sine
+            order = 1
+        for _ in range(int(n) - order):
+            c, s = c * cosine - s * sine, s * cosine + c * sine
+        order = int(n)
+        at = FL.MODES + 2 * k * STRIDE + j
+        store(own, at, c)
+        store(own, at + STRIDE, s)
+        psi_x = p[mode + P.MODE_X]
+        psi_r = p[mode + P.MODE_R]
+        a = own[FL.Q + 2 * k]
+        b = own[FL.Q + 2 * k + 1]
+        da = own[FL.V + 2 * k] + n * spin * b
+        db = own[FL.V + 2 * k + 1] - n * spin * a
+        out = a * c + b * s
         across = n * (a * s - b * c)
         moving = da * c + db * s
-        own[FL.X + j] += psi_x * along
-        own[FL.R + j] += psi_r * along
-        own[FL.GX + j] -= psi_x * across
-        own[FL.GR + j] -= psi_r * across
-        own[FL.VX + j] += psi_x * moving
-        own[FL.VR + j] += psi_r * moving
-        own[FL.VT + j] += psi_t * (da * s - db * c)
-        own[FL.TURN + j] += tilt * moving
-
-
-@kernel
-def bend(p, lanes, race, spin, own):
-    """Motion of the groove of one ring under each ball, into the rows of ``own``."""
-    table = int(p[P.AT_MODES])
-    q = FL.Q
-    v = FL.V
-    source = FL.COS
-    order = 1
-    for i in range(FL.COS):
-        own[i] = 0.0
-    for k in range(int(p[P.MODES])):
-        mode = table + k * P.MODE_SIZE
-        if int(p[mode + P.MODE_BODY]) == race:
-            at = FL.MODES + 2 * k * STRIDE
-            n = int(p[mode + P.MODE_ORDER])
-            if n < order:
-                source = FL.COS
-                order = 1
-            raise_order(n - order, lanes, own, source, at)
-            source = at
-            order = n
-            add_mode(
-                p, mode, lanes, spin, own, at, own[q + 2 * k], own[q + 2 * k + 1], own[v + 2 * k],
-                own[v + 2 * k + 1],
-            )  # fmt: skip
+        x += psi_x * out
+        r += psi_r * out
+        gx -= psi_x * across
+        gr -= psi_r * across
+        vx += psi_x * moving
+        vr += psi_r * moving
+        vt += p[mode + P.MODE_T] * (da * s - db * c)
+        turn += p[mode + P.MODE_TILT] * moving
+    return x, r, gx, gr, vx, vr, vt, turn
 
 
 @kernel
@@ -159,60 +138,51 @@ def move_groove(p, c, lanes, race, spin, w):
     """
     own = w[W.FLEX :]
     pose = W.POSE + race * X.SIZE
-    first_order(lanes, race, w, own)
-    bend(p, lanes, race, spin, own)
     held = C.RACES + race * C.RACE_SIZE
     groove_x = c[held + C.GROOVE_X]
     groove_r = c[held + C.GROOVE_RADIUS]
-    for j in range(lanes):
-        axial = w[pose + X.A + j] - own[FL.X + j]
-        before = w[pose + X.RHO + j]
-        rho = before - own[FL.R + j]
+    for j in range(0, lanes, FOUR):
+        x, r, gx, gr, vx, vr, vt, turn = bend(p, race, spin, j, w, own)
+        axial = load(w, pose + X.A + j) - x
+        before = load(w, pose + X.RHO + j)
+        rho = before - r
         sx = axial - groove_x
         sr = rho - groove_r
-        turn = own[FL.TURN + j]
         # the section turns about the centre of the groove's circle
-        vx = own[FL.VX + j] - turn * sr
-        vr = own[FL.VR + j] + turn * sx
-        slope = (sx * own[FL.GX + j] + sr * own[FL.GR + j]) / math.sqrt(sx * sx + sr * sr)
-        own[FL.GX + j] = -slope
-        own[FL.GR + j] = rho / before
-        w[pose + X.A + j] = axial
-        w[pose + X.RHO + j] = rho
-        hx = w[pose + X.H + j]
-        hr = w[pose + X.H + STRIDE + j]
-        ht = w[pose + X.H + 2 * STRIDE + j]
-        w[pose + X.DV + j] -= vx * w[pose + X.N + j] + vr * hx
-        w[pose + X.DV + STRIDE + j] -= vx * w[pose + X.N + STRIDE + j] + vr * hr
-        w[pose + X.DV + 2 * STRIDE + j] -= vx * w[pose + X.N + 2 * STRIDE + j] + vr * ht
-        w[pose + X.DW + j] -= turn * w[pose + X.T + j]
-        w[pose + X.DW + STRIDE + j] -= turn * w[pose + X.T + STRIDE + j]
-        w[pose + X.DW + 2 * STRIDE + j] -= turn * w[pose + X.T + 2 * STRIDE + j]
+        vx -= turn * sr
+        vr += turn * sx
+        store(own, FL.GX + j, -((sx * gx + sr * gr) / math.sqrt(sx * sx + sr * sr)))
+        store(own, FL.GR + j, rho / before)
+        store(own, FL.VT + j, vt)
+        store(w, pose + X.A + j, axial)
+        store(w, pose + X.RHO + j, rho)
+        moved = added(scaled(vx, three(w, pose + X.N + j)), scaled(vr, three(w, pose + X.H + j)))
+        store_three(w, pose + X.DV + j, added(three(w, pose + X.DV + j), scaled(-1.0, moved)))
+        turned = scaled(-turn, three(w, pose + X.T + j))
+        store_three(w, pose + X.DW + j, added(three(w, pose + X.DW + j), turned))
 
 
 @kernel
-def lean(p, lanes, race, w):
+def lean(lanes, race, w):
     """Add the flexed track's slope to the waviness'; both over the radius before the shift."""
     own = w[W.FLEX :]
-    row = W.RACE + race * R.SIZE
-    for j in range(lanes):
-        slope = w[row + R.SLOPE + j] + own[FL.GX + j]
-        w[row + R.SLOPE + j] = slope * own[FL.GR + j]
+    row = W.RACE + race * R.SIZE + R.SLOPE
+    for j in range(0, lanes, FOUR):
+        store(w, row + j, (load(w, row + j) + load(own, FL.GX + j)) * load(own, FL.GR + j))
 
 
 @kernel
-def slide(p, lanes, race, w):
+def slide(lanes, race, w):
     """Take the circumferential velocity of the groove from the sliding along the track."""
     own = w[W.FLEX :]
-    row = W.RACE + race * R.SIZE
-    for j in range(lanes):
-        w[row + R.UT + j] -= own[FL.VT + j]
+    row = W.RACE + race * R.SIZE + R.UT
+    for j in range(0, lanes, FOUR):
+        store(w, row + j, load(w, row + j) - load(own, FL.VT + j))
 
 
 @kernel
 def groove_forces(p, c, lanes, race, w, own):
     """Gather forces and moment of the balls on one ring's groove into four rows; spare lanes put none."""
-    balls = int(p[P.BALLS])
     pose = W.POSE + race * X.SIZE
     force = W.FORCE + race * W.FORCE_SIZE
     row = W.RACE + race * R.SIZE
@@ -220,47 +190,44 @@ def groove_forces(p, c, lanes, race, w, own):
     held = C.RACES + race * C.RACE_SIZE
     groove_x = c[held + C.GROOVE_X]
     groove_r = c[held + C.GROOVE_RADIUS]
-    for j in range(lanes):
-        live = -1.0 if j < balls else 0.0
-        fx = w[force + W.FX + j]
-        fr = w[force + W.FR + j]
-        ft = w[force + W.FT + j]
-        fn = fx * w[pose + X.N + j] + fr * w[pose + X.N + STRIDE + j] + ft * w[pose + X.N + 2 * STRIDE + j]
-        fh = fx * w[pose + X.H + j] + fr * w[pose + X.H + STRIDE + j] + ft * w[pose + X.H + 2 * STRIDE + j]
-        mt = (
-            w[force + W.MX + j] * w[pose + X.T + j]
-            + w[force + W.MR + j] * w[pose + X.T + STRIDE + j]
-            + w[force + W.MT + j] * w[pose + X.T + 2 * STRIDE + j]
-        )
-        sx = w[pose + X.A + j] - groove_x
-        sr = w[pose + X.RHO + j] - groove_r
-        drag = live * w[row + R.FT + j]
-        own[FL.X + j] = live * fn
-        own[FL.R + j] = live * fh
-        own[FL.GX + j] = drag
-        own[FL.GR + j] = live * (mt + sx * fh - sr * fn)
+    for j in range(0, lanes, FOUR):
+        live = select(consecutive(j) < p[P.BALLS], -1.0, 0.0)
+        on_ball = three(w, force + W.FX + j)
+        fn = dot(on_ball, three(w, pose + X.N + j))
+        fh = dot(on_ball, three(w, pose + X.H + j))
+        mt = dot(three(w, force + W.MX + j), three(w, pose + X.T + j))
+        sx = load(w, pose + X.A + j) - groove_x
+        sr = load(w, pose + X.RHO + j) - groove_r
+        drag = live * load(w, row + R.FT + j)
+        store(own, FL.X + j, live * fn)
+        store(own, FL.R + j, live * fh)
+        store(own, FL.GX + j, drag)
+        store(own, FL.GR + j, live * (mt + sx * fh - sr * fn))
         # the loss was taken from velocities without the groove's circumferential one
-        w[loss + j] -= drag * own[FL.VT + j]
+        store(w, loss + j, load(w, loss + j) - drag * load(own, FL.VT + j))
 
 
 @kernel
 def mode_force(p, mode, lanes, own, at, turning):
     """Generalised forces (N) of the force rows on one mode's cosine and sine coordinate.
 
-    ``turning``: 1 with the moment on the section, 0 without.
+    ``at``: rows of its cosine and sine under the balls; ``turning``: 1 with the moment on the section, 0
+    without.
     """
     psi_x = p[mode + P.MODE_X]
     psi_r = p[mode + P.MODE_R]
     psi_t = p[mode + P.MODE_T]
     tilt = turning * p[mode + P.MODE_TILT]
-    for j in range(lanes):
-        c = own[at + j]
-        s = own[at + STRIDE + j]
-        push = psi_x * own[FL.X + j] + psi_r * own[FL.R + j] + tilt * own[FL.GR + j]
-        drag = psi_t * own[FL.GX + j]
-        own[FL.VX + j] = push * c + drag * s
-        own[FL.VR + j] = push * s - drag * c
-    return sum_lanes(own, FL.VX, lanes), sum_lanes(own, FL.VR, lanes)
+    cosine = splat(0.0)
+    sine = splat(0.0)
+    for j in range(0, lanes, FOUR):
+        c = load(own, at + j)
+        s = load(own, at + STRIDE + j)
+        push = psi_x * load(own, FL.X + j) + psi_r * load(own, FL.R + j) + tilt * load(own, FL.GR + j)
+        drag = psi_t * load(own, FL.GX + j)
+        cosine += push * c + drag * s
+        sine += push * s - drag * c
+    return sum_four(cosine), sum_four(sine)
 
 
 @kernel
@@ -268,14 +235,11 @@ def press_modes(p, c, lanes, race, w):
     """Generalised forces of the balls on the modes of one ring, from the forces in the rows of ``w``."""
     own = w[W.FLEX :]
     groove_forces(p, c, lanes, race, w, own)
-    table = int(p[P.AT_MODES])
-    out = FL.FORCE
-    for k in range(int(p[P.MODES])):
-        mode = table + k * P.MODE_SIZE
-        if int(p[mode + P.MODE_BODY]) == race:
-            cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + 2 * k * STRIDE, 1.0)
-            own[out + 2 * k] = cosine
-            own[out + 2 * k + 1] = sine
+    first, end = modes_of(p, race)
+    for k in range(first, end):
+        mode = int(p[P.AT_MODES]) + k * P.MODE_SIZE
+        i = 2 * k
+        own[FL.FORCE + i], own[FL.FORCE + i + 1] = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 1.0)
 
 
 @kernel

@@ -10,9 +10,9 @@ import math
 
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import consecutive, dot_six, select, six, store
+from fmu_bearing.engine.lanes import consecutive, dot_six, load, select, six, splat, store
 from fmu_bearing.engine.layout import FL, FOUR, STRIDE, TAB, J, P, W
-from fmu_bearing.engine.mechanics.flexure import bends, mode_force
+from fmu_bearing.engine.mechanics.flexure import bends, mode_force, modes_of
 from fmu_bearing.engine.newton.modes import inverse_of_modes, partner, ring_factors
 
 
@@ -29,34 +29,32 @@ def groove_residual(rows, d, lanes, balls, own):
 
 
 @kernel
-def ball_residual(rows, d, lanes, own):
-    """Take from the balls' residual ``d`` what the groove's increment in three rows of ``own`` does."""
-    for i in range(J.BALL):
-        at = i * FL.GROOVE * STRIDE
-        last = at + 2 * STRIDE
-        for j in range(lanes):
-            two = rows[at + j] * own[FL.X + j] + rows[at + STRIDE + j] * own[FL.R + j]
-            d[i * STRIDE + j] -= two + rows[last + j] * own[FL.GX + j]
-
-
-@kernel
-def spread(p, mode, lanes, own, at, a, b):
-    """Add the groove's increment by one mode's coordinates ``a``, ``b`` to the rows X, R, GX."""
-    psi_x = p[mode + P.MODE_X]
-    psi_r = p[mode + P.MODE_R]
-    psi_t = p[mode + P.MODE_T]
-    for j in range(lanes):
-        c = own[at + j]
-        s = own[at + STRIDE + j]
-        along = a * c + b * s
-        own[FL.X + j] += psi_x * along
-        own[FL.R + j] += psi_r * along
-        own[FL.GX + j] += psi_t * (a * s - b * c)
+def answer_modes(p, rows, race, lanes, own, out, d):
+    """Take from the balls' residual ``d`` what increments at ``own[out:]`` of one ring's modes do to them."""
+    first, end = modes_of(p, race)
+    for j in range(0, lanes, FOUR):
+        x = r = t = splat(0.0)
+        for k in range(first, end):
+            mode = int(p[P.AT_MODES]) + k * P.MODE_SIZE
+            at = FL.MODES + 2 * k * STRIDE + j
+            a = own[out + 2 * k]
+            b = own[out + 2 * k + 1]
+            c = load(own, at)
+            s = load(own, at + STRIDE)
+            moved = a * c + b * s
+            x += p[mode + P.MODE_X] * moved
+            r += p[mode + P.MODE_R] * moved
+            t += p[mode + P.MODE_T] * (a * s - b * c)
+        for i in range(J.BALL):
+            at = i * FL.GROOVE * STRIDE + j
+            pushed = load(rows, at) * x + load(rows, at + STRIDE) * r + load(rows, at + 2 * STRIDE) * t
+            store(d, i * STRIDE + j, load(d, i * STRIDE + j) - pushed)
 
 
 @kernel
 def combine(p, inverse, residual, out):
     """Increments of all modes from their residuals: each from its own and its partner's."""
+    both = bends(p, 0) and bends(p, 1)  # else nobody has a partner
     for k in range(int(p[P.MODES])):
         i = 2 * k
         at = k * FL.PER_INVERSE + FL.OWN
@@ -64,7 +62,7 @@ def combine(p, inverse, residual, out):
         im = inverse[at + 1]
         a = re * residual[i] - im * residual[i + 1]
         b = re * residual[i + 1] + im * residual[i]
-        m = partner(p, k)
+        m = partner(p, k) if both else -1
         if m >= 0:
             at = k * FL.PER_INVERSE + FL.PARTNER
             re = inverse[at]
@@ -91,28 +89,19 @@ def solve_modes(p, flexure, stage, d, w):
     residual = FL.FORCE
     out = FL.D
     for race in range(2):
-        if not bends(p, race):
-            continue
-        groove_residual(ring_factors(flexure, modes, race), d, lanes, p[P.BALLS], own)
-        for k in range(modes):
+        first, end = modes_of(p, race)
+        if first < end:
+            groove_residual(ring_factors(flexure, modes, race), d, lanes, p[P.BALLS], own)
+        for k in range(first, end):
             mode = table + k * P.MODE_SIZE
-            if int(p[mode + P.MODE_BODY]) == race:
-                i = 2 * k
-                cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 0.0)
-                own[residual + i] = own[found + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
-                own[residual + i + 1] = own[found + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
+            i = 2 * k
+            cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 0.0)
+            own[residual + i] = own[found + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
+            own[residual + i + 1] = own[found + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
     combine(p, inverse_of_modes(flexure, modes), own[residual:], own[out:])
     for race in range(2):
-        if not bends(p, race):
-            continue
-        for i in range(FL.GROOVE * STRIDE):
-            own[FL.X + i] = 0.0
-        for k in range(modes):
-            mode = table + k * P.MODE_SIZE
-            if int(p[mode + P.MODE_BODY]) == race:
-                at = FL.MODES + 2 * k * STRIDE
-                spread(p, mode, lanes, own, at, own[out + 2 * k], own[out + 2 * k + 1])
-        ball_residual(ring_factors(flexure, modes, race), d, lanes, own)
+        if bends(p, race):
+            answer_modes(p, ring_factors(flexure, modes, race), race, lanes, own, out, d)
 
 
 @kernel

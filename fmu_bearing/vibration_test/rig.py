@@ -121,7 +121,7 @@ def operation(
     if not by_standard(scene) and (speed_rpm is None or load_N is None):
         raise SceneError(
             f"{scene.name}: bearing.outside_diameter_mm = {outside:g}: the vibration test is for "
-            f"{_SMALLEST:g} to {_LARGEST:g} mm; give both --speed (r/min) and --load (N), speed_rpm and load_N in Python: "
+            f"{_SMALLEST:g} to {_LARGEST:g} mm; give both --speed and --load (speed_rpm, load_N): "
             "that is no test by the standard then"
         )
     usual_speed = _SPEED if outside <= _LARGE else _SLOW_SPEED

@@ -20,7 +20,6 @@ from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps
 from fmu_bearing.scene.template import MATERIALS
 
-
 _SHOWN = 4  # lines of a band
 
 

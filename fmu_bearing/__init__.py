@@ -30,6 +30,7 @@ Data flow in one direction::
 ``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
+``vibration_test``  the vibration test of a bearing by itself: velocity of the outer ring in bands
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
 ``identification``  numbers of a scene from measured sound and vibration
 ``sweeps``          a scene over a grid or samples of its values
@@ -81,6 +82,7 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
     from fmu_bearing.sweeps.global_sensitivity import global_sensitivity
+    from fmu_bearing.vibration_test.vibration import vibration
 
 __version__ = "0.1.0"
 
@@ -121,6 +123,7 @@ _PLACES = {
     "sweep": "sweeps",
     "tables": "recording.measurements",
     "verdicts": "design.verdicts",
+    "vibration": "vibration_test.vibration",
     "with_fidelity": "scene.read",
 }
 
@@ -160,6 +163,7 @@ __all__ = [
     "sweep",
     "tables",
     "verdicts",
+    "vibration",
     "with_fidelity",
 ]
 

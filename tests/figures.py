@@ -315,10 +315,28 @@ def examples():
     yield f"the critical speed of {critical_speed()} r/min"
 
 
+def vibration():
+    """What the vibration test reads, by class and piece, and each source alone."""
+    for name, grade, rings, words in (
+        ("7003C", "P2", "bend", ""), ("7003C", "P4", "bend", ""), ("7003C", "P5", "bend", ""),
+        ("7003C", "P4", "round", ", rigid rings"), ("7009C", "P4", "bend", ""),
+    ):  # fmt: skip
+        for piece in ("soft", "firm"):
+            case = {"bearing": name, "class": grade, "rings": rings}
+            found = row("vibration", what=f"{piece} piece", **case)
+            cells = [f"{rounded(found[f'{band} mean'], 3)} ({found[f'{band} std, %']})" for band in "LMH"]
+            yield f"| {name}, {grade}{words}, {piece} | {found['seeds']} | {' | '.join(cells)} |"
+    for source in ("inner race", "outer race", "ball sizes", "form of the balls"):
+        case = {"bearing": "7003C", "class": "P4", "rings": "bend", "what": f"{source} alone"}
+        cells = [row("vibration", **case)[f"{band} mean"] for band in "LMH"]
+        yield f"| {source} | {' | '.join(cells)} |"
+
+
 PAGES = {
     "../README.md": settings, "../paper.md": paper, "examples.md": examples, "gallery.md": gallery,
     "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
     "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
+    "vibration.md": vibration,
 }  # fmt: skip
 
 

@@ -41,8 +41,7 @@ def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
     step = _round_below(largest / _TICKS)
     base = _BASE * largest
     angle = np.sign(one.rpm) * 2.0 * np.pi * np.arange(1, rows.shape[1] + 1) / rows.shape[1]
-    for row in rows:
-        ax.plot(_closed(angle), base + factor * _closed(row), color="0.6", linewidth=0.4, alpha=0.5)
+    ax.plot(np.tile(angle, len(rows)), base + factor * rows.ravel(), color="0.6", linewidth=0.4, alpha=0.5)
     ax.plot(_closed(angle), base + factor * _closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
     around = np.linspace(0.0, 2.0 * np.pi, 181)
     ax.plot(around, np.full_like(around, base), color="0.2", linewidth=0.8, linestyle="--")

@@ -10,20 +10,31 @@ from fmu_bearing.cli import app
 from tests.pages import DOCS
 
 RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
-SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose"}
+SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose", "error-motion"}
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
-    "sensitivity", "sweep", "identify", "realtime", "fits",
+    "sensitivity", "sweep", "identify", "realtime", "fits", "error-motion",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
     "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new"} - {"sweep", "identify"},
-    "--fidelity": {*RUN, "build", "realtime"} - {"tradeoff", "sensitivity"},
+    "--fidelity": {*RUN, "build", "realtime", "error-motion"} - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
-    "--plot": {"simulate", "sound", "compare", "modes", "stiffness", "fits", "tradeoff", "sweep", "identify"},
+    "--plot": {
+        "simulate",
+        "sound",
+        "compare",
+        "modes",
+        "stiffness",
+        "fits",
+        "tradeoff",
+        "sweep",
+        "identify",
+        "error-motion",
+    },  # fmt: skip
     "--output": WRITE - {"scene new"},
     "--force": WRITE,
     "--quick": {"tradeoff", "sensitivity"},
@@ -47,6 +58,9 @@ OTHERWISE = {
     ("sweep", "--variables"): "statistics",
     ("plot", "--scene"): "a result in .nc knows it",
     ("sound", "--scene"): "With a result",
+    ("sound", "--at"): "What makes the noise",
+    ("error-motion", "--at"): "Place of the point",
+    ("error-motion", "--speeds"): "default: the scene's",
     ("sound", "--microphone"): "Only these",
     ("compare", "--microphone"): "the loudest of A",
     ("modes", "--speeds"): "Campbell diagram",

@@ -146,8 +146,8 @@ def test_a_set_of_one_moves_as_the_bearing_does(scene):
     ours = error_motion(several, at=1e-3 * MIDDLE, revolutions=FEW).speeds[0]
     theirs = error_motion(one, against="ground", revolutions=FEW).speeds[0]
     for a, b in zip(ours.values, theirs.values, strict=True):
-        # a set has its losses where forces put its rings across the axis, see tests/test_set_of_one.py; widths
-        # are sums of a hundred lines, two of them on weakly damped modes
+        # a set has its losses where forces put its rings across the axis (tests/test_set_of_one.py), and its
+        # widths are sums of a hundred lines, some on weakly damped modes
         assert a.asynchronous == pytest.approx(b.asynchronous, rel=0.02), a.direction
     assert [line.origin.name for line in ours.lines[:3]] == [line.origin.name for line in theirs.lines[:3]]
 

@@ -1,4 +1,4 @@
-"""Lines by least squares: against NumPy's solution of the equations written out, and the near-integer trap."""
+"""Lines by least squares: against NumPy's solution of the whole equations, and the near-integer trap."""
 
 import numpy as np
 import pytest

@@ -196,8 +196,8 @@ class AtSpeed:
         needed = f"; {int(1.0 / apart) + 1} revolutions do" if 0.0 < apart < 1.0 / self.revolutions else ""
         yield (
             f"{self.rpm:g} r/min: {self.revolutions} revolutions do not part {worst.name} from "
-            f"{self._named(nearest)}, {apart:.4f} orders beside it, so that the synchronous value by line is "
-            f"uncertain, too{needed}"
+            f"{self._named(nearest)}, {apart:.4f} orders beside it: the synchronous value by line, "
+            f"and what each bearing makes alone, are uncertain{needed}"
         )
 
     def _named(self, one: Origin) -> str:

@@ -10,18 +10,30 @@ from fmu_bearing.cli import app
 from tests.pages import DOCS
 
 RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
-SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose", "vibration"}
+SCENES = {
+    *RUN,
+    "build",
+    "info",
+    "modes",
+    "stiffness",
+    "fits",
+    "realtime",
+    "choose",
+    "vibration",
+    "error-motion",
+}
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
     "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
+    "error-motion",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
     "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new", "vibration"}
     - {"sweep", "identify"},
-    "--fidelity": {*RUN, "build", "realtime", "vibration"} - {"tradeoff", "sensitivity"},
+    "--fidelity": {*RUN, "build", "realtime", "vibration", "error-motion"} - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
     "--plot": {
@@ -35,6 +47,7 @@ HAVE = {
         "sensitivity",
         "sweep",
         "identify",
+        "error-motion",
     },
     "--output": WRITE - {"scene new"},
     "--force": WRITE,
@@ -67,6 +80,9 @@ OTHERWISE = {
     ("modes", "--speeds"): "Campbell diagram",
     ("stiffness", "--speeds"): "default: the scene's",
     ("build", "--platforms"): "default: this machine's",
+    ("sound", "--at"): "What makes the noise",
+    ("error-motion", "--at"): "Place of the point",
+    ("error-motion", "--speeds"): "default: the scene's",
     ("vibration", "--speed"): "default: by the outside diameter",
     ("vibration", "--seeds"): "the first one the scene's own",
     ("vibration", "--kind"): "of a bearing by name",

@@ -87,9 +87,20 @@ def _harmonics(scene: Scene, race: int) -> Harmonics:
     orders = np.arange(flaws.lowest_order, highest_orders(scene)[race] + 1)
     patch = mean_patches(scene)[race]
     wave_length = patch.half_width / patch.radius if flaws.contact_filter else 0.0
-    return Harmonics(
-        law(first, flaws.waviness_exponent, orders, wave_length), orders, _phases(scene, race)[orders - 1]
-    )
+    amplitudes = law(first, flaws.waviness_exponent, orders, wave_length)
+    if flaws.order_scatter_seed is not None:
+        amplitudes *= np.sqrt(order_energies(flaws.order_scatter_seed, race)[orders - 1])
+    return Harmonics(amplitudes, orders, _phases(scene, race)[orders - 1])
+
+
+def order_energies(seed: int, race: int) -> NDArray[np.float64]:
+    """Energies of the orders 1 .. `HIGHEST_ORDER` of a race over those of the law, drawn from a seed.
+
+    ``race``: its place in `RACES`. The exponential distribution of mean 1: that of one line of a Gaussian
+    random surface whose mean spectrum is the law (Bendat and Piersol 2010, sec. 8.5.1: two degrees of
+    freedom). A factor belongs to its order and race, whatever the band.
+    """
+    return np.random.default_rng([seed, race, 5]).exponential(1.0, HIGHEST_ORDER)
 
 
 def _phases(scene: Scene, race: int) -> NDArray[np.float64]:

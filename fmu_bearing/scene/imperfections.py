@@ -28,7 +28,8 @@ class Imperfections(Part):
 
     Each race's waviness is a power law or a list of harmonics. The power law gives order n the amplitude
     A_1 n^-p times the contact filter, with a random phase, from ``lowest_order`` up to ``highest_order``, or
-    to the order that sounds at ``highest_frequency_kHz`` at the scene's speed.
+    to the order that sounds at ``highest_frequency_kHz`` at the scene's speed. With ``order_scatter_seed``
+    each order lies above or below the law by chance, as on a ring.
     """
 
     seed: int = Field(
@@ -60,6 +61,14 @@ class Imperfections(Part):
         le=4,
         examples=[1.35],
         description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders equal.",
+    )
+    order_scatter_seed: int | None = Field(
+        default=None,
+        ge=0,
+        le=2**31 - 1,
+        examples=[1],
+        description="Seed from which each order's energy is drawn about the law of a race, by an exponential "
+        "distribution; absent: each order has the law's amplitude.",
     )
     lowest_order: int = Field(
         default=2,
@@ -134,6 +143,12 @@ class Imperfections(Part):
             yield from self._repeated(table)
         yield from self._law_conflicts()
 
+    def redrawn(self, by: int) -> "Imperfections":
+        """Return the same imperfections from other seeds, each moved by ``by``."""
+        seeds = {"seed": self.seed, "order_scatter_seed": self.order_scatter_seed}
+        moved = {key: (seed + by) % 2**31 for key, seed in seeds.items() if seed is not None}
+        return self.model_copy(update=moved)
+
     @property
     def follows_law(self) -> bool:
         """Whether a race or the balls have waviness by the power law."""
@@ -152,8 +167,14 @@ class Imperfections(Part):
                 "is missing, for example waviness_exponent = 1.35: amplitudes are A_1 of the law "
                 "A_n = A_1 n^-p; 0 gives every order the same amplitude, as files before the law had",
             )
+        both_explicit = all((self.inner_race_harmonic, self.outer_race_harmonic))
+        if self.order_scatter_seed is not None and both_explicit:
+            yield Conflict(
+                "order_scatter_seed",
+                "has no meaning where both races have explicit harmonics: leave it out",
+            )
         if self.highest_order is not None:
-            if all((self.inner_race_harmonic, self.outer_race_harmonic)):
+            if both_explicit:
                 yield Conflict(
                     "highest_order", "has no meaning where both races have explicit harmonics: leave it out"
                 )

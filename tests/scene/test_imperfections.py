@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import P
-from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
+from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, order_energies, race_harmonics
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.scene import SceneError, read_scene_text
+from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import catalogue
-from tests.conftest import GATES
+from tests.conftest import EXAMPLES, GATES
 
+SETS = EXAMPLES.parent / "spindle_set"
 TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 FROM, TO = TEXT.index("[imperfections]"), TEXT.index("[operation]")
 GRADES = ["P0", "P6", "P5", "P4", "P2"]
@@ -262,3 +263,47 @@ def test_axes_of_wavy_balls_point_everywhere_equally():
     # its square sqrt(4/45/1200) = 0.009; four of each
     assert np.all(np.abs(axes.mean(axis=1)) < 0.07)
     np.testing.assert_allclose((axes**2).mean(axis=1), 1.0 / 3.0, atol=0.035)
+
+
+# --- orders that scatter about the law -------------------------------------------------------------
+
+
+def test_orders_scatter_about_the_law_from_a_seed_of_their_own():
+    """Oracle: the law's amplitudes times the root of exponential draws, numbered from order 1 on."""
+    exact, scattered = (flawed(f'grade = "P4"\nseed = 1\n{more}') for more in ("", "order_scatter_seed = 8"))
+    for race, (by_law, drawn) in enumerate(zip(race_harmonics(exact), race_harmonics(scattered), strict=True)):
+        factors = np.random.default_rng([8, race, 5]).exponential(1.0, 1000)
+        assert np.array_equal(by_law.orders, drawn.orders) and np.array_equal(by_law.phases, drawn.phases)
+        # the square root and one product: an ulp or two
+        energies = (drawn.amplitudes / by_law.amplitudes) ** 2
+        np.testing.assert_allclose(energies, factors[drawn.orders - 1], rtol=1e-14)
+    for draw in (ball_oversizes, lambda scene: ball_waves(scene)[1], lambda scene: ball_waves(scene)[0]):
+        assert np.array_equal(draw(exact), draw(scattered))
+
+
+def test_scatter_leaves_the_mean_energy_and_belongs_to_the_order():
+    energies = np.array([order_energies(seed, race) for seed in range(50) for race in range(2)])
+    # 100,000 draws of variance 1: four standard deviations of their mean; variance: of kurtosis 9
+    assert energies.mean() == pytest.approx(1.0, abs=4e-5**0.5 * 2.0)
+    assert energies.var() == pytest.approx(1.0, abs=4.0 * (8.0 / energies.size) ** 0.5)
+    assert not np.array_equal(energies[0], energies[1])  # races differ
+    low, high = (
+        race_harmonics(flawed(f'grade = "P4"\nseed = 1\norder_scatter_seed = 2\nhighest_order = {n}'))
+        for n in (60, 300)
+    )
+    assert np.array_equal(low[0].amplitudes, high[0].amplitudes[: low[0].orders.size])
+
+
+def test_every_bearing_of_a_set_has_orders_of_its_own():
+    pair = read_scene(SETS / "7003C-DB.toml").replace(
+        {"imperfections": {"grade": "P4", "seed": 3, "order_scatter_seed": 7}}
+    )
+    drawn = [one.scene.imperfections for one in pair.bearings()]
+    assert [(flaws.seed, flaws.order_scatter_seed) for flaws in drawn] == [(3, 7), (4, 8)]
+    exact = pair.replace({"imperfections.order_scatter_seed": None})
+    assert [one.scene.imperfections.order_scatter_seed for one in exact.bearings()] == [None, None]
+
+
+def test_scatter_beside_harmonics_of_both_races_is_refused():
+    (line,) = refused(BY_HAND + INNER + OUTER + "order_scatter_seed = 1")[:1]
+    assert "order_scatter_seed" in line

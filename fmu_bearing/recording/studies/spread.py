@@ -28,7 +28,7 @@ from fmu_bearing.scene.read import with_fidelity
 Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
 SEEDS = 8
 _SEEDS_FULL = 3  # with fidelity full, which costs a hundred times as much
-_EXPONENTS = (1.0, 1.6)  # assumed range of p, where the scene's lies within
+_EXPONENTS = (1.0, 1.8)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
 #: What makes noise, and the keys that take it away.
@@ -265,7 +265,7 @@ def _drawn(scene: Scene, flaws: Imperfections, fidelity: str) -> Scene:
 
 def _seeds(flaws: Imperfections, count: int) -> Iterator[Imperfections]:
     for k in range(count):
-        yield flaws.model_copy(update={"seed": (flaws.seed + 1 + k) % 2**31})
+        yield flaws.redrawn(1 + k)
 
 
 def _corners(flaws: Imperfections) -> Iterator[Imperfections]:

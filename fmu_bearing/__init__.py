@@ -30,6 +30,7 @@ Data flow in one direction::
 ``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
+``vibration_test``  the vibration test of a bearing by itself: velocity of the outer ring in bands
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
 ``identification``  numbers of a scene from measured sound and vibration
 ``sweeps``          a scene over a grid of its values

@@ -67,16 +67,22 @@ def kinematic_lines(
         base = float(getattr(frequencies, carrier))
         # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
         for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
-            lines.append(KinematicLine(n * base, _times(n, carrier), n - 1))
+            lines.append(KinematicLine(n * base, combination(n, carrier), n - 1))
             for modulator, sidebands in by.items():
                 step = float(getattr(frequencies, modulator))
                 for m in range(1, sidebands + 1):
-                    for sign, word in ((1, "+"), (-1, "-")):
-                        name = f"{_times(n, carrier)} {word} {_times(m, modulator)}"
+                    for sign in (1, -1):
+                        name = combination(n, carrier, sign * m, modulator)
                         lines.append(KinematicLine(n * base + sign * m * step, name, n + 2 * m + 1))
     return sorted(
         (line for line in lines if 0.0 < line.frequency <= highest), key=lambda line: line.frequency
     )
+
+
+def combination(n: int, carrier: str, m: int = 0, modulator: str = "") -> str:
+    """Return the name of a sum of frequencies: ``2 f_i - f_r`` for n = 2, m = -1."""
+    name = _times(n, carrier)
+    return name if m == 0 else f"{name} {'+' if m > 0 else '-'} {_times(abs(m), modulator)}"
 
 
 def _times(n: int, name: str) -> str:

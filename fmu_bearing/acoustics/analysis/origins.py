@@ -1,0 +1,136 @@
+"""Where a line of motion comes from: its order, the surface that makes it, and the bearing it belongs to.
+
+Orders count in turns of the shaft. A bearing with Z balls and rigid rings makes (Wardle 1988):
+
+==================  ====================================================================================
+order               what makes it
+==================  ====================================================================================
+whole               what turns with the shaft: unbalance, order 1 of the inner race
+k f_i + m f_r       waves of the inner race, orders k Z + m: m = 0 axial, m = +-1 radial and tilt
+k f_o + m f_r       waves of the outer race, orders near k Z; unequal loads make m f_r
+n f_c               balls of unequal size, an unbalanced cage
+q f_b, q f_b +- f_c  form of the balls: axial, and radial with tilt
+==================  ====================================================================================
+
+k f_o alone is also what balls make that pass the place of a radial load (varying compliance).
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from fmu_bearing.acoustics.analysis.lines import combination
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+
+#: Sources, in the words of tables.
+SHAFT, INNER, OUTER = "shaft", "inner race", "outer race"
+BALL_SIZES, BALL_FORM = "ball sizes, cage", "ball form"
+SOURCES = (SHAFT, INNER, OUTER, BALL_SIZES, BALL_FORM)
+_SIDEBANDS = 2  # by f_r, to either side: unequal loads and tilts make no more that is seen
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A line that rolling makes, and what makes it.
+
+    Attributes
+    ----------
+    name : str
+        As in spectra: ``2 f_i - f_r``.
+    source : str
+        One of `SOURCES`.
+    bearing : int
+        From 1, of a set from the nose on; 0: the shaft's.
+    order : float
+        Frequency over the shaft's.
+    terms : int
+        How many frequencies are added up: 3 for ``2 f_i - f_r``. The line with fewer explains better.
+    """
+
+    name: str
+    source: str
+    bearing: int
+    order: float
+    terms: int
+
+    @property
+    def off_whole(self) -> float:
+        """Distance from the nearest whole order."""
+        return abs(self.order - round(self.order))
+
+
+def shaft_origins(highest: float) -> list[Origin]:
+    """Return the whole orders up to ``highest``."""
+    return [Origin(combination(n, "f_r"), SHAFT, 0, float(n), n) for n in range(1, int(highest) + 1)]
+
+
+def bearing_origins(
+    frequencies: KinematicFrequencies, highest: float, bearing: int = 1, sidebands: int = _SIDEBANDS
+) -> list[Origin]:
+    """Return the lines of one bearing up to the order ``highest``, by order.
+
+    Parameters
+    ----------
+    frequencies : KinematicFrequencies
+        At any speed but 0, of rolling or measured: their ratios to f_r count.
+    highest : float
+        Order, in turns of the shaft.
+    bearing : int
+        Its number.
+    sidebands : int
+        Multiples of f_r to either side of those of f_i and f_o.
+
+    Raises
+    ------
+    ValueError
+        Where the shaft does not turn.
+    """
+    if not frequencies.f_r > 0.0:
+        raise ValueError(f"f_r = {frequencies.f_r:g} Hz: orders need a shaft that turns")
+    found = (
+        Origin(
+            combination(n, carrier, m, modulator), source, bearing,
+            (n * getattr(frequencies, carrier) + m * getattr(frequencies, modulator)) / frequencies.f_r,
+            n + abs(m),
+        )
+        for carrier, modulator, source, n, m in _combinations(frequencies, highest, sidebands)
+    )  # fmt: skip
+    return sorted((one for one in found if 0.0 < one.order <= highest), key=lambda one: one.order)
+
+
+def origins(
+    bearings: Sequence[KinematicFrequencies], highest: float, sidebands: int = _SIDEBANDS
+) -> list[Origin]:
+    """Return the lines of a shaft and its bearings up to the order ``highest``, by order."""
+    found = shaft_origins(highest)
+    for number, frequencies in enumerate(bearings, start=1):
+        found += bearing_origins(frequencies, highest, number, sidebands)
+    return sorted(found, key=lambda one: (one.order, one.bearing))
+
+
+def origin_of(order: float, known: Sequence[Origin], tolerance: float) -> Origin | None:
+    """Return what best explains a line at ``order``; None: nothing within ``tolerance`` (orders).
+
+    Of those within it the one with the fewest terms, of these the nearest.
+    """
+    near = [one for one in known if abs(one.order - order) <= tolerance]
+    return min(near, key=lambda one: (one.terms, abs(one.order - order)), default=None)
+
+
+def _combinations(
+    frequencies: KinematicFrequencies, highest: float, sidebands: int
+) -> Iterator[tuple[str, str, str, int, int]]:
+    """Yield carrier, modulator, source, and how many times each is taken."""
+    top = highest * frequencies.f_r
+
+    def times(base: float, beside: float) -> range:
+        return range(1, int((top + beside) / base) + 1)
+
+    beside = sidebands * frequencies.f_r
+    for carrier, source in (("f_i", INNER), ("f_o", OUTER)):
+        for n in times(getattr(frequencies, carrier), beside):
+            yield from ((carrier, "f_r", source, n, m) for m in range(-sidebands, sidebands + 1))
+    balls = round(frequencies.f_o / frequencies.f_c)
+    # balls times f_c is f_o, and what follows repeats its sidebands
+    yield from (("f_c", "f_r", BALL_SIZES, n, 0) for n in times(frequencies.f_c, 0.0) if n < balls)
+    for n in times(frequencies.f_b, frequencies.f_c):
+        yield from (("f_b", "f_c", BALL_FORM, n, m) for m in (-1, 0, 1))

@@ -1,0 +1,63 @@
+"""Names, sources and orders of lines, against sums of the frequencies written out."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing.acoustics.analysis.origins import (
+    BALL_FORM,
+    BALL_SIZES,
+    INNER,
+    OUTER,
+    SHAFT,
+    bearing_origins,
+    origin_of,
+    origins,
+)
+from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies
+
+#: Of a 7003C at 3600 r/min: f_r = 60 Hz.
+RATES = kinematic_frequencies(2.0 * np.pi * 60.0, 12, 4.5e-3, 26e-3, np.radians(15.0))
+
+
+def named(lines):
+    return {one.name: one for one in lines}
+
+
+def test_orders_and_sources_of_one_bearing():
+    found = named(bearing_origins(RATES, 20.0))
+    r, c, b, i, o = RATES
+    for name, hertz, source, terms in (
+        ("f_c", c, BALL_SIZES, 1),
+        ("3 f_c", 3 * c, BALL_SIZES, 3),
+        ("f_o", o, OUTER, 1),
+        ("3 f_o - 2 f_r", 3 * o - 2 * r, OUTER, 5),
+        ("2 f_i + f_r", 2 * i + r, INNER, 3),
+        ("2 f_b - f_c", 2 * b - c, BALL_FORM, 3),
+        ("2 f_b", 2 * b, BALL_FORM, 2),
+    ):
+        assert found[name].order == pytest.approx(hertz / r, rel=1e-12), name
+        assert (found[name].source, found[name].bearing, found[name].terms) == (source, 1, terms)
+    assert "12 f_c" not in found, "it is f_o"
+    orders = [one.order for one in bearing_origins(RATES, 20.0)]
+    assert orders == sorted(orders)
+    assert 0.0 < orders[0] < orders[-1] <= 20.0
+
+
+def test_a_set_has_the_shaft_once_and_each_bearing():
+    lines = origins([RATES, RATES], 12.5)
+    assert [one.name for one in lines if one.source == SHAFT] == ["f_r", *(f"{n} f_r" for n in range(2, 13))]
+    assert {one.bearing for one in lines} == {0, 1, 2}
+    assert len({(one.name, one.bearing) for one in lines}) == len(lines)
+
+
+def test_the_simplest_line_near_an_order_explains_it():
+    lines = origins([RATES], 20.0)
+    # f_o of a 7003C lies 0.003 orders beside 5 f_r: one term against five
+    assert origin_of(RATES.f_o / RATES.f_r, lines, 0.05).name == "f_o"
+    assert origin_of(0.2, lines, 0.05) is None
+    assert origin_of(5.0, lines, 1e-9).name == "5 f_r"
+
+
+def test_a_shaft_at_rest_has_no_orders():
+    with pytest.raises(ValueError, match="f_r = 0 Hz"):
+        bearing_origins(kinematic_frequencies(0.0, 12, 4.5e-3, 26e-3, 0.26), 20.0)

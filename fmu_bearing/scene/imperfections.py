@@ -11,6 +11,15 @@ RACES = ("inner", "outer")
 #: Highest order of a race's waviness: on a 7003C a wave is then 0.07 mm long, a contact 0.10 mm wide.
 HIGHEST_ORDER = 1000
 _HARMONICS = 200  # most per race
+#: What makes vibration and noise, and the keys that take it away.
+_SOURCES = {
+    "unbalance": ("unbalance_um",),
+    "inner race": ("inner_race_amplitude_um", "inner_race_harmonic"),
+    "outer race": ("outer_race_amplitude_um", "outer_race_harmonic"),
+    "ball sizes": ("ball_diameter_spread_nm",),
+    "form of the balls": ("ball_form_nm", "ball_waviness_nm"),
+}
+_SEEDS = 2**31  # there are
 
 
 class Harmonic(Part):
@@ -33,7 +42,7 @@ class Imperfections(Part):
     """
 
     seed: int = Field(
-        ge=0, le=2**31 - 1, examples=[1], description="Seed from which phases and ball sizes are drawn."
+        ge=0, le=_SEEDS - 1, examples=[1], description="Seed from which phases and ball sizes are drawn."
     )
     unbalance_um: float = Field(
         ge=0, le=100, examples=[0.5], description="Eccentricity of the rotating mass, um."
@@ -65,7 +74,7 @@ class Imperfections(Part):
     order_scatter_seed: int | None = Field(
         default=None,
         ge=0,
-        le=2**31 - 1,
+        le=_SEEDS - 1,
         examples=[1],
         description="Seed from which each order's energy is drawn about the law of a race, by an exponential "
         "distribution; absent: each order has the law's amplitude.",
@@ -143,16 +152,31 @@ class Imperfections(Part):
             yield from self._repeated(table)
         yield from self._law_conflicts()
 
-    def redrawn(self, by: int) -> "Imperfections":
-        """Return the same imperfections from other seeds, each moved by ``by``."""
-        seeds = {"seed": self.seed, "order_scatter_seed": self.order_scatter_seed}
-        moved = {key: (seed + by) % 2**31 for key, seed in seeds.items() if seed is not None}
-        return self.model_copy(update=moved)
-
     @property
     def follows_law(self) -> bool:
         """Whether a race or the balls have waviness by the power law."""
         return bool(self.inner_race_amplitude_um or self.outer_race_amplitude_um or self.ball_form_nm)
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the imperfections that are there: unbalance, each race, sizes and form of the balls."""
+        return tuple(name for name, keys in _SOURCES.items() if any(getattr(self, key) for key in keys))
+
+    def alone(self, source: str) -> "Imperfections":
+        """Return one of `sources` without the others; for a name that is not there none is left."""
+        gone = [key for name in self.sources if name != source for key in _SOURCES[name]]
+        return self.model_copy(update={key: () if key.endswith("_harmonic") else 0.0 for key in gone})
+
+    def redrawn(self, count: int) -> "Iterator[Imperfections]":
+        """Yield the same imperfections with ``count`` other seeds, those after its own."""
+        for k in range(count):
+            yield self.reseeded(1 + k)
+
+    def reseeded(self, by: int) -> "Imperfections":
+        """Return the same imperfections with each of its seeds moved by ``by``."""
+        seeds = {"seed": self.seed, "order_scatter_seed": self.order_scatter_seed}
+        moved = {key: (seed + by) % _SEEDS for key, seed in seeds.items() if seed is not None}
+        return self.model_copy(update=moved)
 
     def _repeated(self, table: str) -> Iterator[Conflict]:
         counted = Counter(harmonic.order for harmonic in getattr(self, table))

@@ -118,7 +118,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
     mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
-        flaws = flaws.redrawn(number)
+        flaws = flaws.reseeded(number)
     changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
     return scene.model_copy(update=changes)
 

@@ -7,7 +7,7 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, order_energies, race_harmonics
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
-from fmu_bearing.scene.imperfections import Imperfections
+from fmu_bearing.scene.imperfections import Harmonic, Imperfections
 from fmu_bearing.scene.read import catalogue
 from tests.conftest import EXAMPLES, GATES
 
@@ -265,13 +265,39 @@ def test_axes_of_wavy_balls_point_everywhere_equally():
     np.testing.assert_allclose((axes**2).mean(axis=1), 1.0 / 3.0, atol=0.035)
 
 
+def test_each_source_alone_is_a_scene_that_reads_back(example):
+    bare = example("7003C-bare")
+    flaws = bare.imperfections.model_copy(
+        update={
+            "inner_race_amplitude_um": None,
+            "inner_race_harmonic": (Harmonic(order=13, amplitude_um=0.1),),
+            "unbalance_um": 0.5,
+        }
+    )
+    assert flaws.sources == ("unbalance", "inner race", "outer race", "ball sizes", "form of the balls")
+    for source in flaws.sources:
+        alone = flaws.alone(source)
+        assert alone.sources == (source,)
+        # checked as a file is: a race without waves has an amplitude of 0
+        bare.replace({"imperfections": alone.model_dump()})
+    assert flaws.alone("weather").sources == ()
+
+
+def test_other_seeds_follow_the_own_one_and_begin_again_behind_the_last(example):
+    flaws = example("7003C-bare").imperfections.model_copy(update={"seed": 2**31 - 2})
+    assert [one.seed for one in flaws.redrawn(2)] == [2**31 - 1, 0]
+    assert {one.model_copy(update={"seed": flaws.seed}) for one in flaws.redrawn(2)} == {flaws}
+
+
 # --- orders that scatter about the law -------------------------------------------------------------
 
 
 def test_orders_scatter_about_the_law_from_a_seed_of_their_own():
     """Oracle: the law's amplitudes times the root of exponential draws, numbered from order 1 on."""
     exact, scattered = (flawed(f'grade = "P4"\nseed = 1\n{more}') for more in ("", "order_scatter_seed = 8"))
-    for race, (by_law, drawn) in enumerate(zip(race_harmonics(exact), race_harmonics(scattered), strict=True)):
+    for race, (by_law, drawn) in enumerate(
+        zip(race_harmonics(exact), race_harmonics(scattered), strict=True)
+    ):
         factors = np.random.default_rng([8, race, 5]).exponential(1.0, 1000)
         assert np.array_equal(by_law.orders, drawn.orders) and np.array_equal(by_law.phases, drawn.phases)
         # the square root and one product: an ulp or two

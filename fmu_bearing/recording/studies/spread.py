@@ -31,14 +31,6 @@ _SEEDS_FULL = 3  # with fidelity full, which costs a hundred times as much
 _EXPONENTS = (1.0, 1.8)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
-#: What makes noise, and the keys that take it away.
-_SOURCES = {
-    "unbalance": ("unbalance_um",),
-    "inner race": ("inner_race_amplitude_um", "inner_race_harmonic"),
-    "outer race": ("outer_race_amplitude_um", "outer_race_harmonic"),
-    "ball sizes": ("ball_diameter_spread_nm",),
-    "form of the balls": ("ball_form_nm", "ball_waviness_nm"),
-}
 
 
 @dataclass(frozen=True)
@@ -204,7 +196,7 @@ def spread(
     flaws = scene.imperfections
     weak = weakness(scene)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
-    draws = [flaws, *_seeds(flaws, seeds), *_corners(flaws)]
+    draws = [flaws, *flaws.redrawn(seeds), *_corners(flaws)]
     spectra = [estimator.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
     levels = level(np.array([each.sum(axis=1) for each in spectra]))
     change = levels - levels[0]
@@ -263,11 +255,6 @@ def _drawn(scene: Scene, flaws: Imperfections, fidelity: str) -> Scene:
     return with_fidelity(scene.with_rigid_rings().model_copy(update={"imperfections": flaws}), model=fidelity)
 
 
-def _seeds(flaws: Imperfections, count: int) -> Iterator[Imperfections]:
-    for k in range(count):
-        yield flaws.redrawn(1 + k)
-
-
 def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
     """Lower, then higher exponent, each with the lower, then the higher amplitude."""
     if not flaws.follows_law:
@@ -285,14 +272,10 @@ def _shares(
     scene: Scene, flaws: Imperfections, estimator: LevelEstimator, fidelity: str
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
-    there = {name: keys for name, keys in _SOURCES.items() if any(getattr(flaws, key) for key in keys)}
     heavy = scene.spindle is not None and bool(scene.spindle.shaft.unbalance)
     energies = {}
-    for name in (*there, *(["unbalance"] if heavy else [])):
-        gone = [key for other, keys in there.items() if other != name for key in keys]
-        others = {key: () if key.endswith("_harmonic") else 0.0 for key in gone}
+    for name in (*flaws.sources, *(["unbalance"] if heavy else [])):
         own = scene.replace({"spindle.shaft.unbalance": []}) if heavy and name != "unbalance" else scene
-        alone = _drawn(own, flaws.model_copy(update=others), fidelity)
-        energies[name] = estimator.spectrum(alone).sum(axis=1)
+        energies[name] = estimator.spectrum(_drawn(own, flaws.alone(name), fidelity)).sum(axis=1)
     whole = sum(energies.values(), np.full(len(estimator.places), 1e-30))
     return {name: energy / whole for name, energy in energies.items()}

@@ -81,6 +81,7 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.statics import Statics, statics
     from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
+    from fmu_bearing.vibration_test.vibration import vibration
 
 __version__ = "0.1.0"
 
@@ -120,6 +121,7 @@ _PLACES = {
     "sweep": "sweeps",
     "tables": "recording.measurements",
     "verdicts": "design.verdicts",
+    "vibration": "vibration_test.vibration",
     "with_fidelity": "scene.read",
 }
 
@@ -158,6 +160,7 @@ __all__ = [
     "sweep",
     "tables",
     "verdicts",
+    "vibration",
     "with_fidelity",
 ]
 

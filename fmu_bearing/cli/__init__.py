@@ -17,6 +17,7 @@
 ``identify``    numbers of a scene from measured levels
 ``realtime``    what steps cost beside the clock, by fidelity
 ``modes``       natural frequencies, and over speed what excites them
+``vibration``   the vibration test of a bearing by itself
 ``validate``    checks of an FMU
 ``report``      a page about a run
 ``warm_up``     compile before the first run needs it
@@ -40,6 +41,7 @@ from fmu_bearing.cli import (  # noqa: F401
     studies,
     sweep,
     validate,
+    vibration,
     warm_up,
 )  # fmt: skip
 from fmu_bearing.cli.base import app

@@ -36,6 +36,7 @@ Subject = Literal[
     "statics",
     "tradeoff",
     "unbalance",
+    "vibration test",
 ]
 Keys = Iterator[str]
 
@@ -153,6 +154,9 @@ _PAPER_SET = Kind(
 )
 _PORT = Kind("a set on another model's shaft (`spindle.shaft.external`)", lambda one: one.on_other_shaft)
 _BENDING = Kind("a scene whose rings bend", lambda one: one.bends)
+_ROUND = Kind(
+    "a scene of fidelity rings or response", lambda one: one.fidelity.model in ("rings", "response")
+)
 _NOT_BEM = Kind("a scene with another radiation model than bem", lambda one: _model(one) not in ("", "bem"))
 _TABLE = Kind("a scene with the radiation model table", lambda one: _model(one) == "table")
 _PAPER = Kind("a scene with a paper's radiation model", lambda one: _model(one).startswith("paper"))
@@ -167,6 +171,12 @@ BENDING = Exclusion(
     'give `fidelity.model` = "full" or "auto", or leave out `[mounting.flexure]` (of a set '
     "`[spindle.flexure]`)",
     _fidelities,
+)
+ROUND = Exclusion(
+    _ROUND,
+    {"vibration test": "a vibration test"},
+    "its sensor touches the outer ring, which bends, and the rings of these fidelities are rigid",
+    'give `fidelity.model` = "full" or "auto", or ask for rigid rings (`--rigid`), which read too little',
 )
 RIGID_PLANE = Exclusion(
     _NOT_BEM,
@@ -289,6 +299,7 @@ EXCLUSIONS = (
         _shaft,
     ),
     BENDING,
+    ROUND,
     RIGID_PLANE,
     TABLE_CHANNELS,
     PAPER_RUNS,

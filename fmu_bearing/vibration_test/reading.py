@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import power_spectral_density
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import Scene
 from fmu_bearing.vibration_test.rig import STEP, bands
@@ -29,11 +30,14 @@ class Reading:
         are squares of its rms velocity.
     seconds : float
         CPU time of the run (s).
+    orbit : float
+        Speed at which the balls orbit, over the shaft's.
     """
 
     frequency: NDArray[np.float64]
     energy: NDArray[np.float64]
     seconds: float
+    orbit: float = float("nan")
 
     def rms(self, low: float, high: float) -> float:
         """Return the rms velocity (um/s) between two frequencies (Hz), the upper one left out."""
@@ -61,8 +65,9 @@ def reading(scene: Scene) -> Reading:
     orders = () if flexure is None else flexure.outer_ring
     names = ["outer_ring.velocity.y", "outer_ring.velocity.z"]
     names += [f"outer_ring.flexure.n{order}.{part}" for order in orders for part in ("cosine", "sine")]
+    ball = ("ball[1].velocity.y", "ball[1].velocity.z")
     begun = time.process_time()
-    run = simulate(scene, _SETTLE + _LENGTH, step=STEP, outputs=names, progress=False)
+    run = simulate(scene, _SETTLE + _LENGTH, step=STEP, outputs=[*names, *ball], progress=False)
     first, count = round(_SETTLE / STEP), round(_LENGTH / STEP)
     if len(run) <= first + count - 1:
         raise ValueError(f"{scene.name}: the run of the vibration test ended early: {run.note}")
@@ -76,7 +81,11 @@ def reading(scene: Scene) -> Reading:
         kept = _MICRO * speed[first + 1 : first + 1 + count]
         frequency, density = power_spectral_density(kept, 1.0 / STEP)
         energies.append(density * (frequency[1] - frequency[0]))
-    return Reading(frequency, np.mean(energies, axis=0), time.process_time() - begun)
+    # the velocity of a ball turns as fast as the ball goes round
+    turned = np.unwrap(np.arctan2(run[ball[1]], run[ball[0]]))[first:]
+    shaft = scene.operation.speed_rpm * RPM * _LENGTH
+    orbit = float((turned[-1] - turned[0]) / shaft)
+    return Reading(frequency, np.mean(energies, axis=0), time.process_time() - begun, orbit)
 
 
 def levels(scene: Scene, found: Reading) -> dict[str, float]:

@@ -26,6 +26,7 @@ SHAFT, INNER, OUTER = "shaft", "inner race", "outer race"
 BALL_SIZES, BALL_FORM = "ball sizes, cage", "ball form"
 SOURCES = (SHAFT, INNER, OUTER, BALL_SIZES, BALL_FORM)
 _SIDEBANDS = 2  # by f_r, to either side: unequal loads and tilts make no more that is seen
+_BALL_SIDEBANDS = 1  # by f_c, of rigid rings
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,11 @@ class Origin:
         Frequency over the shaft's.
     terms : int
         How many frequencies are added up: 3 for ``2 f_i - f_r``. The line with fewer explains better.
+    wave : int
+        Order of the wave that makes it: of the inner race k Z + m in a line k f_i + m f_r, of the outer race
+        k Z, for all waves near it, of a ball q; 0: no wave does.
+    beside : int
+        How many times the sideband is taken, m: 0 in a line without.
     """
 
     name: str
@@ -51,6 +57,8 @@ class Origin:
     bearing: int
     order: float
     terms: int
+    wave: int = 0
+    beside: int = 0
 
     @property
     def off_whole(self) -> float:
@@ -64,8 +72,9 @@ def shaft_origins(highest: float) -> list[Origin]:
 
 
 def bearing_origins(
-    frequencies: KinematicFrequencies, highest: float, bearing: int = 1, sidebands: int = _SIDEBANDS
-) -> list[Origin]:
+    frequencies: KinematicFrequencies, highest: float, bearing: int = 1, sidebands: int = _SIDEBANDS,
+    ball_sidebands: int = _BALL_SIDEBANDS,
+) -> list[Origin]:  # fmt: skip
     """Return the lines of one bearing up to the order ``highest``, by order.
 
     Parameters
@@ -77,7 +86,9 @@ def bearing_origins(
     bearing : int
         Its number.
     sidebands : int
-        Multiples of f_r to either side of those of f_i and f_o.
+        Multiples of f_r to either side of those of f_i and f_o. A ring that bends in n lobes has n.
+    ball_sidebands : int
+        Multiples of f_c to either side of those of f_b, in the same way.
 
     Raises
     ------
@@ -90,9 +101,9 @@ def bearing_origins(
         Origin(
             combination(n, carrier, m, modulator), source, bearing,
             (n * getattr(frequencies, carrier) + m * getattr(frequencies, modulator)) / frequencies.f_r,
-            n + abs(m),
+            n + abs(m), _wave(carrier, n, m, round(frequencies.f_o / frequencies.f_c)), m,
         )
-        for carrier, modulator, source, n, m in _combinations(frequencies, highest, sidebands)
+        for carrier, modulator, source, n, m in _combinations(frequencies, highest, sidebands, ball_sidebands)
     )  # fmt: skip
     return sorted((one for one in found if 0.0 < one.order <= highest), key=lambda one: one.order)
 
@@ -116,8 +127,13 @@ def origin_of(order: float, known: Sequence[Origin], tolerance: float) -> Origin
     return min(near, key=lambda one: (one.terms, abs(one.order - order)), default=None)
 
 
+def _wave(carrier: str, n: int, m: int, balls: int) -> int:
+    """Return the order of the wave behind n times a carrier and m times its sideband."""
+    return {"f_i": n * balls + m, "f_o": n * balls, "f_b": n}.get(carrier, 0)
+
+
 def _combinations(
-    frequencies: KinematicFrequencies, highest: float, sidebands: int
+    frequencies: KinematicFrequencies, highest: float, sidebands: int, ball_sidebands: int
 ) -> Iterator[tuple[str, str, str, int, int]]:
     """Yield carrier, modulator, source, and how many times each is taken."""
     top = highest * frequencies.f_r
@@ -132,5 +148,5 @@ def _combinations(
     balls = round(frequencies.f_o / frequencies.f_c)
     # balls times f_c is f_o, and what follows repeats its sidebands
     yield from (("f_c", "f_r", BALL_SIZES, n, 0) for n in times(frequencies.f_c, 0.0) if n < balls)
-    for n in times(frequencies.f_b, frequencies.f_c):
-        yield from (("f_b", "f_c", BALL_FORM, n, m) for m in (-1, 0, 1))
+    for n in times(frequencies.f_b, ball_sidebands * frequencies.f_c):
+        yield from (("f_b", "f_c", BALL_FORM, n, m) for m in range(-ball_sidebands, ball_sidebands + 1))

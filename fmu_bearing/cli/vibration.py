@@ -1,0 +1,115 @@
+"""``fmu-bearing vibration``: the vibration test of a bearing by itself."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import (
+    Refusal,
+    app,
+    check_new_in,
+    print_json,
+    refusals,
+    shaft_speed,
+    tell,
+)
+from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json
+from fmu_bearing.files import check_folder
+from fmu_bearing.progress import steps
+from fmu_bearing.scene.template import MATERIALS
+
+
+_SHOWN = 4  # lines of a band
+
+
+@app.command()
+def vibration(
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="SCENE|BEARING",
+            help="Scene (.toml), of a set its bearing; or a bearing of the catalogue.",
+        ),
+    ],
+    kind: Annotated[
+        str | None,
+        typer.Option(metavar="|".join(MATERIALS), help="Materials of a bearing by name; default: hybrid."),
+    ] = None,
+    grade: Annotated[
+        str | None,
+        typer.Option(help="Tolerance class of the surfaces; default: the scene's own, of a bearing P4."),
+    ] = None,
+    seeds: Annotated[int, typer.Option(help="Draws of the surfaces, the first one the scene's own.")] = 8,
+    limits: Annotated[
+        str | None, typer.Option(metavar="L,M,H", help="What the bands may have, in the unit of --unit.")
+    ] = None,
+    unit: Annotated[
+        str, typer.Option(metavar="um/s|anderon", help="Of --limits, the table and the picture.")
+    ] = "um/s",
+    rigid: Annotated[
+        bool, typer.Option("--rigid", help="Rings stay round: for comparison, they read too little.")
+    ] = False,
+    load: Annotated[
+        float | None, typer.Option(metavar="N", help="Axial load, N; default: by the outside diameter.")
+    ] = None,
+    speed: Annotated[
+        float | None,
+        typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min; default: by the outside diameter."),
+    ] = None,
+    fidelity: Fidelity = None,
+    output: Folder = Path("out/vibration"),
+    force: Force = False,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
+) -> None:
+    """Run the vibration test of a bearing: velocity of the outer ring in the bands L, M and H, um/s rms.
+
+    The inner ring turns on an arbor, the outer ring rests on a loading piece, soft or firm, and is read at
+    three places. Shown are both pieces with their range over the seeds, and each source of vibration alone.
+    Written are bands.png, lines.csv (the strongest lines, named, with what makes them) and spectrum.csv.
+    Speed, loads, arbor and loading pieces are assumed.
+    """
+    from fmu_bearing.extras import need
+    from fmu_bearing.results.table import show
+    from fmu_bearing.scene.read import with_fidelity
+    from fmu_bearing.vibration_test.anderon import UNITS
+    from fmu_bearing.vibration_test.files import FILES
+    from fmu_bearing.vibration_test.subject import subject
+    from fmu_bearing.vibration_test.vibration import vibration as test
+
+    with refusals():
+        check_folder(output)
+        check_new_in(force, output, *FILES)
+        need("matplotlib", "a picture")
+        known = {str(one): one for one in UNITS}
+        if unit not in known:
+            raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
+        shaft_speed(speed)
+        allowed = None if limits is None else _limits(limits)
+        given = subject(source, kind, grade)
+        found = test(
+            given if fidelity is None else with_fidelity(given, model=fidelity), seeds, rigid=rigid,
+            speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
+            bar=partial(steps, what="vibration test", unit="runs"),
+        )  # fmt: skip
+        files = found.save(output, known[unit])
+    if as_json:
+        print_json(found.summary() | {"files": files})
+        return
+    at = found.scene.operation.speed_rpm
+    heading = f"{found.scene.name}: vibration test, {at:g} r/min, {found.scene.mounted.preload_N:g} N"
+    show(heading, *found.table(known[unit]))
+    show(f"strongest lines, {_SHOWN} of each band", *found.lines_table(_SHOWN))
+    for line in found.remarks:
+        typer.echo(line)
+    tell(f"written: {', '.join(map(str, files))}")
+
+
+def _limits(text: str) -> list[float]:
+    """Return the numbers of ``--limits``."""
+    try:
+        return [float(one) for one in text.split(",")]
+    except ValueError:
+        raise Refusal(f"--limits {text} is refused: write three numbers, as 52,18,18") from None

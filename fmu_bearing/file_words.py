@@ -10,6 +10,7 @@ __all__ = ["absent", "instead", "why"]
 
 EMPTY, SCENE, SWEEP, FMU, TABLE = "an empty file", "a scene", "a sweep", "an FMU", "a table of values (CSV)"
 RESULT, RECORDING, CATALOGUE = "a result of a run", "a recording", "a catalogue of bearings"
+SURFACE = "a surface found from a vibration test"
 
 #: What a file has to hold, and where one comes from.
 _DUE = {
@@ -20,6 +21,7 @@ _DUE = {
     RESULT: "`fmu-bearing simulate` writes results, as .csv or .nc",
     RECORDING: "`fmu-bearing sound` writes recordings, as .npz",
     CATALOGUE: "a catalogue is a TOML file with one table per bearing",
+    SURFACE: "`fmu-bearing vibration --measured` writes one",
 }
 #: Which commands read what is given.
 _READ = {
@@ -28,6 +30,7 @@ _READ = {
     FMU: "`fmu-bearing simulate` runs an FMU, `validate` checks one",
     TABLE: "`fmu-bearing plot` and `compare` read results of runs",
     RECORDING: "`fmu-bearing sound`, `report` and `compare` read recordings",
+    SURFACE: "a scene names it as surface in [imperfections], `fmu-bearing sound` as --surface",
 }
 _BEGINNINGS = {
     b"\x89HDF": "a netCDF or HDF5 file",
@@ -39,6 +42,7 @@ _BEGINNINGS = {
 }
 _OF_SCENE = re.compile(r"^\s*\[+\s*(bearing|mounting|spindle|operation|lubricant)\b", re.MULTILINE)
 _OF_SWEEP = re.compile(r"^\s*\[\s*axes\s*\]", re.MULTILINE)
+_OF_SURFACE = re.compile(r"^\s*\[\s*draws\s*\]", re.MULTILINE)
 _HEAD = 65_536  # bytes that are looked at; the tables of a scene begin among the first
 
 
@@ -97,6 +101,8 @@ def _holds(path: str | os.PathLike[str]) -> str:
         return SCENE
     if _OF_SWEEP.search(text):
         return SWEEP
+    if _OF_SURFACE.search(text):
+        return SURFACE
     if "=" not in first and any(mark in first for mark in ",;\t"):
         return TABLE
     return ""

@@ -123,6 +123,7 @@ ASSUMED: dict[str, Moves] = {
     "imperfections.inner_race_amplitude_um": by_share,
     "imperfections.outer_race_amplitude_um": by_share,
     "imperfections.waviness_exponent": to(1.0, 1.6),
+    "imperfections.order_scatter_seed": by(1),
     "imperfections.lowest_order": to(1, 3),
     "imperfections.highest_frequency_kHz": to(5.0, 20.0),
     "imperfections.contact_filter": to(False, True),

@@ -74,6 +74,15 @@ Speed = Annotated[
     float | None,
     typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min, in place of the scene's."),
 ]
+SurfaceFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--surface",
+        metavar="FILE",
+        help="Surface found from a vibration test: a scene takes its median law, the range of levels its "
+        "draws.",
+    ),
+]
 Step = Annotated[float, typer.Option("--step", metavar="S", help="Communication step, s.")]
 Duration = Annotated[
     float, typer.Option("--duration", "-t", metavar="S", help="Length of what is measured, s.")

@@ -18,6 +18,7 @@ from fmu_bearing.cli.options import (
     Settings,
     Settle,
     Speed,
+    SurfaceFile,
     output as target,
 )
 from fmu_bearing.cli.settings import source_of
@@ -78,6 +79,7 @@ def report(
             help="Whether it says what to change; default: yes, without levels where rings bend.",
         ),
     ] = None,
+    surface: SurfaceFile = None,
     keep: Annotated[
         Path | None, typer.Option(metavar="RUN.npz", help="Keep the run, for another report without running.")
     ] = None,
@@ -96,7 +98,8 @@ def report(
         chosen = source_of(source, settings, fidelity)
         made = make(
             chosen, output, duration=duration, settle=settle, radiation_model=radiation_model, radius=radius,
-            title=title, speed=turning, run_up=speeds, run_up_time=run_up_time, changes=changes, tell=tell,
+            title=title, speed=turning, run_up=speeds, run_up_time=run_up_time, changes=changes,
+            surface=surface, tell=tell,
         )  # fmt: skip
         if keep is not None and made.recording is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)

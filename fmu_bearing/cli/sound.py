@@ -30,6 +30,7 @@ from fmu_bearing.cli.options import (
     Settings,
     Settle,
     Speed,
+    SurfaceFile,
 )
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder
@@ -38,6 +39,7 @@ from fmu_bearing.progress import steps, work
 if TYPE_CHECKING:
     from fmu_bearing.recording.recording import Recording
     from fmu_bearing.recording.studies.spread import Spread
+    from fmu_bearing.scene.surface import Surface
 
 #: What may be written into the folder.
 _FILES = (
@@ -81,6 +83,7 @@ def sound(
     spread: Annotated[
         bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
     ] = True,
+    surface: SurfaceFile = None,
     plot: Plot = None,
     output: Folder = Path("out/sound"),
     force: Force = False,
@@ -100,6 +103,7 @@ def sound(
     from fmu_bearing.results.table import show
     from fmu_bearing.scene import scene_of
     from fmu_bearing.scene.exclusions import require
+    from fmu_bearing.scene.surface_file import read_surface
 
     with refusals():
         check_folder(output)  # refused before the run
@@ -108,6 +112,7 @@ def sound(
             check_new(force, check_picture(plot))
         chosen = source_of(source, settings, fidelity)
         turning = shaft_speed(speed)
+        rough = None if surface is None else read_surface(surface)
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
@@ -119,6 +124,7 @@ def sound(
                     f"not {duration:g} s"
                 )
             found = scene_of(chosen)
+            found = found if rough is None else rough.scene(found)
             require(found, "measurement")
             named_places(found.microphones, microphone)
             recording = record(
@@ -135,7 +141,7 @@ def sound(
             if plot is not None:
                 save(spectra_picture(recording, analysis), plot)
                 files.append(plot)
-        sure = _spread(recording, microphone, radiation_model, as_json) if spread else None
+        sure = _spread(recording, microphone, radiation_model, rough, as_json) if spread else None
         doubted = doubt_of(recording)
     if as_json:
         print_json(
@@ -167,14 +173,18 @@ def _heading(recording: "Recording") -> str:
 
 
 def _spread(
-    recording: "Recording", microphones: list[str] | None, radiation_model: str | None, quiet: bool
+    recording: "Recording",
+    microphones: list[str] | None,
+    radiation_model: str | None,
+    surface: "Surface | None",
+    quiet: bool,
 ) -> "Spread | None":
     """Range of the levels, or None with a line why there is none."""
     from fmu_bearing.recording.studies.spread import spread
 
     bar = partial(steps, what="range of levels", unit="draws")
     try:
-        return spread(recording, microphones, radiation_model=radiation_model, bar=bar)
+        return spread(recording, microphones, radiation_model=radiation_model, surface=surface, bar=bar)
     except ValueError as reason:
         if not quiet:
             tell(f"no range of the levels: {reason}")

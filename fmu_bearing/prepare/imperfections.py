@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.prepare.surfaces import ball_profile, frequencies, highest_orders, law, mean_patches
 from fmu_bearing.scene import Scene, si
@@ -87,9 +87,35 @@ def _harmonics(scene: Scene, race: int) -> Harmonics:
     orders = np.arange(flaws.lowest_order, highest_orders(scene)[race] + 1)
     patch = mean_patches(scene)[race]
     wave_length = patch.half_width / patch.radius if flaws.contact_filter else 0.0
-    return Harmonics(
-        law(first, flaws.waviness_exponent, orders, wave_length), orders, _phases(scene, race)[orders - 1]
-    )
+    amplitudes = law(first, flaws.waviness_exponent, orders, wave_length)
+    if flaws.order_scatter_seed is not None:
+        amplitudes *= np.sqrt(order_energies(flaws.order_scatter_seed, race, orders))
+    return Harmonics(amplitudes, orders, _phases(scene, race)[orders - 1])
+
+
+def order_energies(seeds: ArrayLike, race: int, orders: ArrayLike) -> NDArray[np.float64]:
+    """Energies of orders of a race over those of the law, by seed: the exponential distribution of mean 1.
+
+    It is that of one line of a Gaussian random surface whose mean spectrum is the law (Bendat and Piersol
+    2010, sec. 8.5.1: two degrees of freedom). A factor belongs to its order, race and seed, whatever else is
+    drawn: minus the logarithm of a number of the sequence SplitMix64 (Steele, Lea and Flood 2014, fig. 14)
+    at the place that the three give.
+
+    Parameters
+    ----------
+    seeds, orders : array_like of int
+        Of any shapes that go together; orders from 1 to `HIGHEST_ORDER`.
+    race : int
+        Its place in `RACES`.
+    """
+    seed, order = np.broadcast_arrays(np.asarray(seeds, np.uint64), np.asarray(orders, np.uint64))
+    place = np.atleast_1d((seed << np.uint64(11)) | np.uint64(race << 10) | order)
+    z = (place + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)  # wraps round, as meant
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    z ^= z >> np.uint64(31)
+    between = ((z >> np.uint64(11)).astype(float) + 0.5) * 2.0**-53  # above 0, below 1
+    return -np.log(between).reshape(seed.shape)
 
 
 def _phases(scene: Scene, race: int) -> NDArray[np.float64]:

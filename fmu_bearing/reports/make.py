@@ -30,7 +30,9 @@ from fmu_bearing.reports.sound import directivity_balloon, levels_and_spectra, p
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, read_scene, scene_of
 from fmu_bearing.scene.exclusions import refusal, require
-from fmu_bearing.scene.origins import origins
+from fmu_bearing.scene.origins import origins, with_surface
+from fmu_bearing.scene.surface import Surface
+from fmu_bearing.scene.surface_file import read_surface
 
 Source = Recording | SceneSource
 DURATION = 0.5  # s that are shown
@@ -101,6 +103,7 @@ def make(
     radius: float = RADIUS,
     title: str = "",
     changes: bool | None = None,
+    surface: Surface | str | os.PathLike[str] | None = None,
     tell: Tell = silent,
     progress: bool | None = None,
 ) -> Report:
@@ -130,6 +133,9 @@ def make(
     changes : bool, optional
         Whether the page says what to change; default: yes, but without levels where rings bend, because
         their runs take 40 s.
+    surface : Surface or path, optional
+        A surface that was found from a vibration test, or its file: a scene takes its median law, and the
+        range of the level its draws.
     tell : callable
         Takes a line of text before each piece of work.
     progress : bool, optional
@@ -151,6 +157,7 @@ def make(
     need("plotly.graph_objects", "a report")
     need("jinja2", "a report")
     path = check_file(output)
+    rough = surface if surface is None or isinstance(surface, Surface) else read_surface(surface)
     _check(duration, settle, radius, run_up, run_up_time)
     given = _set_of(source)
     if given is not None:
@@ -158,17 +165,17 @@ def make(
         runs: dict[str, tuple[object, object]] = {
             "run_up": (run_up, None), "radiation_model": (radiation_model, None), "changes": (changes, None),
             "duration": (duration, DURATION), "settle": (settle, SETTLE), "radius": (radius, RADIUS),
-            "run_up_time": (run_up_time, RUN_UP),
+            "run_up_time": (run_up_time, RUN_UP), "surface": (surface, None),
         }  # fmt: skip
         return _of_set(given, path, speed, title, tell, runs)
-    subject = _subject(source, duration, settle, speed, radiation_model, radius, tell, progress)
+    subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
         sections, microphones = _sections(subject, rising, changes, tell)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
-    sure = _spread(subject, microphones, tell)
+    sure = _spread(subject, microphones, rough, tell)
     shown = summary.tiles(subject, microphones, sure)
     verdicts = judged(subject)
     overall = None if verdicts is None else overall_of(verdicts.found)
@@ -204,7 +211,7 @@ def _check(
 
 def _subject(
     source: Source, duration: float, settle: float, speed: float | None, radiation_model: str | None,
-    radius: float, tell: Tell, progress: bool | None,
+    radius: float, surface: Surface | None, tell: Tell, progress: bool | None,
 ) -> Subject:  # fmt: skip
     """Load a recording, or run a scene."""
     text, whence = "", []
@@ -218,6 +225,7 @@ def _subject(
     if isinstance(source, Recording):
         return _taken(source, "a recording in memory", radiation_model, radius, speed)
     given = scene_of(source)
+    given = given if surface is None else surface.scene(given)
     if given.fidelity.model == "auto":
         tell("fidelity auto: finding the cheapest within the scene's accuracy")
     scene, choice = resolve(given)
@@ -230,6 +238,9 @@ def _subject(
     origin = f"scene {scene.name}, run for {settle + duration:g} s of which the last {duration:g} s are shown"
     if choice is not None:
         origin += f"; {choice.summary}"
+    if surface is not None:
+        origin += f"; surfaces: the median law of {surface.words}"
+        whence = with_surface(whence, surface)
     return Subject(recording, recording.radiation_model, origin, text, whence, notes, radius)
 
 
@@ -259,7 +270,9 @@ def _of_set(
     return Report(path, len(data), page.sections, page.figures, page.warnings, None, page.verdict)
 
 
-def _spread(subject: Subject, microphones: Microphones | None, tell: Tell) -> Spread | None:
+def _spread(
+    subject: Subject, microphones: Microphones | None, surface: Surface | None, tell: Tell
+) -> Spread | None:
     """Range of the level at the loudest microphone; None where there is none."""
     if microphones is None:
         return None
@@ -269,6 +282,7 @@ def _spread(subject: Subject, microphones: Microphones | None, tell: Tell) -> Sp
             subject.recording,
             [microphones.names[microphones.loudest]],
             radiation_model=subject.radiation_model,
+            surface=surface,
         )
     except ValueError:
         return None  # no scene, no waviness, or a speed that changes

@@ -19,6 +19,8 @@
 ``shaft``         its shaft, in sections or of another model
 ``housing``       the housing of a set where it radiates: its place, what it needs
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
+``surface``       `Surface`: the law of surfaces found from a measurement, with its uncertainty
+``surface_file``  its file, and the median law for scenes that name it
 ``operation``     speed and temperatures at the start
 ``sound``         radiator, radiation model, metering, microphones
 ``fidelity``      physics, integrator, accuracy, terms left out

@@ -37,7 +37,8 @@ class Imperfections(Part):
 
     Each race's waviness is a power law or a list of harmonics. The power law gives order n the amplitude
     A_1 n^-p times the contact filter, with a random phase, from ``lowest_order`` up to ``highest_order``, or
-    to the order that sounds at ``highest_frequency_kHz`` at the scene's speed.
+    to the order that sounds at ``highest_frequency_kHz`` at the scene's speed. With ``order_scatter_seed``
+    each order lies above or below the law by chance, as on a ring.
     """
 
     seed: int = Field(
@@ -69,6 +70,14 @@ class Imperfections(Part):
         le=4,
         examples=[1.35],
         description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders equal.",
+    )
+    order_scatter_seed: int | None = Field(
+        default=None,
+        ge=0,
+        le=_SEEDS - 1,
+        examples=[1],
+        description="Seed from which each order's energy is drawn about the law of a race, by an exponential "
+        "distribution; absent: each order has the law's amplitude.",
     )
     lowest_order: int = Field(
         default=2,
@@ -161,7 +170,13 @@ class Imperfections(Part):
     def redrawn(self, count: int) -> "Iterator[Imperfections]":
         """Yield the same imperfections with ``count`` other seeds, those after its own."""
         for k in range(count):
-            yield self.model_copy(update={"seed": (self.seed + 1 + k) % _SEEDS})
+            yield self.reseeded(1 + k)
+
+    def reseeded(self, by: int) -> "Imperfections":
+        """Return the same imperfections with each of its seeds moved by ``by``."""
+        seeds = {"seed": self.seed, "order_scatter_seed": self.order_scatter_seed}
+        moved = {key: (seed + by) % _SEEDS for key, seed in seeds.items() if seed is not None}
+        return self.model_copy(update=moved)
 
     def _repeated(self, table: str) -> Iterator[Conflict]:
         counted = Counter(harmonic.order for harmonic in getattr(self, table))
@@ -176,8 +191,14 @@ class Imperfections(Part):
                 "is missing, for example waviness_exponent = 1.35: amplitudes are A_1 of the law "
                 "A_n = A_1 n^-p; 0 gives every order the same amplitude, as files before the law had",
             )
+        both_explicit = all((self.inner_race_harmonic, self.outer_race_harmonic))
+        if self.order_scatter_seed is not None and both_explicit:
+            yield Conflict(
+                "order_scatter_seed",
+                "has no meaning where both races have explicit harmonics: leave it out",
+            )
         if self.highest_order is not None:
-            if all((self.inner_race_harmonic, self.outer_race_harmonic)):
+            if both_explicit:
                 yield Conflict(
                     "highest_order", "has no meaning where both races have explicit harmonics: leave it out"
                 )

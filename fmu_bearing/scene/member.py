@@ -101,8 +101,8 @@ def usual_load(spindle: Spindle, number: int) -> float:
 def one_of(scene: Given, number: int = 0) -> Given:
     """Return the scene of one bearing of a set, without its place: no load, no sound.
 
-    ``number``: from 0; each bearing has its own seed of imperfections. Its preload is its share of the set's,
-    for what depends on the width of a contact.
+    ``number``: from 0; each bearing has its own seeds of imperfections. Its preload is its share of the
+    set's, for what depends on the width of a contact.
     """
     spindle = set_of(scene)
     housing = spindle.housing
@@ -118,7 +118,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
     mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
-        flaws = flaws.model_copy(update={"seed": flaws.seed + number})
+        flaws = flaws.reseeded(number)
     changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
     return scene.model_copy(update=changes)
 

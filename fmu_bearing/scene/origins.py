@@ -1,7 +1,7 @@
 """Origin of each value of a scene file, and whether it is assumed, from the remarks in the files."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.seats import SIDES
+from fmu_bearing.scene.surface import KEYS, Surface
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
 
@@ -24,6 +25,7 @@ _NAMED = {"bearing": "bearings", "lubricant": "lubricants", "materials": "materi
 #: Tables whose defaults say how a scene is computed; these defaults are not assumptions.
 _CHOICES = ("fidelity", "sound", "name")
 _MARK = "assumed"
+_GIVEN_BY_SURFACE = tuple(f"imperfections.{key}" for key in KEYS)
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,8 @@ class Origin:
     value : Any
     unit : str
     origin : str
-        ``file``, ``catalogue NAME``, ``catalogue NAME of FILE``, ``grade NAME`` or ``default``.
+        ``file``, ``catalogue NAME``, ``catalogue NAME of FILE``, ``grade NAME``, ``surface FILE`` or
+        ``default``.
     assumed : bool
         Whether its remark says so, or it is a default of a physical value.
     remark : str
@@ -73,10 +76,22 @@ def origins(path: str | Path) -> list[Origin]:
         known |= {key: (words, remark) for key, remark in _remarks(_table(entry, name), table)}
     if "spindle" in document:
         known.pop("imperfections.unbalance_um", None)  # a set takes none from a grade
+    flaws = document.get("imperfections")
+    if isinstance(flaws, Mapping) and "surface" in flaws:
+        known |= dict.fromkeys(_GIVEN_BY_SURFACE, (f"surface {flaws['surface']}", ""))
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
     known |= _preload(document, scene)
     known |= dict(_fit(document, scene, known))
     return [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
+
+
+def with_surface(found: list[Origin], surface: Surface) -> list[Origin]:
+    """Return origins of a scene's values where the median law of a surface has taken the place of its own."""
+    law = {f"imperfections.{key}": value for key, value in surface.median().items()}
+    return [
+        replace(one, value=law[one.key], origin="surface", assumed=False, remark=surface.words)
+        if one.key in law else one for one in found
+    ]  # fmt: skip
 
 
 def _table(entry: Entry, name: str) -> Table:

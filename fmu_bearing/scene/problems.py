@@ -45,7 +45,7 @@ _RESOLVED: dict[Location, tuple[str, ...]] = {
     (): ("catalogues",),
     ("bearing",): ("catalogue",),
     ("lubricant",): ("catalogue",),
-    ("imperfections",): ("grade",),
+    ("imperfections",): ("grade", "surface"),
     ("mounting",): ("preload_class", "preload_offset_um"),
     ("spindle", "preload"): ("preload_class", "preload_offset_um"),
 }

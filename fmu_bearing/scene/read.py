@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
-from fmu_bearing.scene import fit_conflicts, fit_file
+from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
@@ -133,7 +133,8 @@ class Scene(Tables):
             Values by dotted key, in the unit of the key: ``"mounting.preload_N"``,
             ``"sound.microphone[1].y_mm"``. Whole tables can be given, None takes an optional value or table
             out. The name of a catalogue entry (``"bearing.catalogue"``, ``"materials.balls"``) replaces all
-            that the entry holds, ``"imperfections.grade"`` for the grade's values; keys given beside it win.
+            that the entry holds, ``"imperfections.grade"`` for the grade's values,
+            ``"imperfections.surface"`` for those of a surface's file; keys given beside it win.
             ``"mounting.preload_class"`` or ``"mounting.preload_offset_um"`` gives another ``preload_N``, as
             do these keys of ``spindle.preload``.
 
@@ -238,6 +239,9 @@ def _checked(
     """Return the scene that tables hold; `SceneError` with all problems, those found before included."""
     lines = list(problems)
     unresolved: list[Location] = []
+    if line := surface_file.fill(data.get("imperfections"), folder or Path()):
+        lines.append(line)
+        unresolved.append(("imperfections",))
     _resolve(data, _bearings(data, folder, lines), lines, unresolved)
     for where, line in too_long(data):
         lines.append(line)
@@ -305,6 +309,9 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
             part.pop(FORCE, None)
         elif key == "imperfections.grade" and isinstance(name, str):
             for value in catalogue("grades").get(name, {}):
+                part.pop(value, None)
+        elif key == surface_file.KEY and isinstance(name, str):
+            for value in surface.KEYS:
                 part.pop(value, None)
 
 

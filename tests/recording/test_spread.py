@@ -9,6 +9,7 @@ from fmu_bearing import record, spread
 from fmu_bearing.recording.studies import spread as spreading
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.surface import Surface
 
 
 def changed(scene, **keys):
@@ -44,7 +45,7 @@ def test_range_holds_the_runs_made_one_by_one(bare, found):
     runs = [recorded(bare, places, seed=seed) for seed in (2, 3, 4)]
     law = [
         recorded(bare, places, waviness_exponent=p, **scaled_surfaces(bare, factor))
-        for p in (1.0, 1.6)
+        for p in (1.0, 1.8)
         for factor in (0.5, 2.0)
     ]
     every = np.array([own, *runs, *law]) - own
@@ -52,6 +53,37 @@ def test_range_holds_the_runs_made_one_by_one(bare, found):
     assert found.low - found.levels == pytest.approx(every.min(axis=0), abs=1e-6)
     assert found.high - found.levels == pytest.approx(every.max(axis=0), abs=1e-6)
     assert found.seeds == pytest.approx(np.ptp(every[:4], axis=0), abs=1e-6)
+
+
+def test_draws_of_a_surface_take_the_place_of_the_assumed_law(bare):
+    """Oracle: each draw's run made by itself; the range is theirs, without the assumed corners."""
+    numbers = np.arange(4)
+    surface = Surface(
+        "7003C", "L = 41 um/s", np.array([0.2, 0.3, 0.4, 0.5]), np.array([1.5, 1.45, 1.6, 1.5]),
+        np.full(4, 80.0), numbers, 10 + numbers,
+    )  # fmt: skip
+    places = [place.position_m for place in bare.microphones if place.name == "P1"]
+    own = recorded(bare, places)
+    runs = []
+    for k in range(4):
+        law = {
+            "inner_race_amplitude_um": surface.amplitude_um[k],
+            "outer_race_amplitude_um": surface.amplitude_um[k],
+            "waviness_exponent": surface.exponent[k],
+        }
+        runs.append(recorded(bare, places, seed=k, order_scatter_seed=10 + k, ball_form_nm=80.0, **law))
+    sure = spread(recorded(bare), ["P1"], seeds=1, surface=surface)
+    change = np.array(runs) - own
+    # the same runs and the same short-time spectra: rounding of sums
+    assert sure.low - sure.levels == pytest.approx(change.min(axis=0), abs=1e-6)
+    assert sure.high - sure.levels == pytest.approx(change.max(axis=0), abs=1e-6)
+    assert "Range over 4 draws of the surface that was found: 60 %" in sure.remark()
+    assert "what the measured surface leaves open" in sure.decides(0)
+    explicit = changed(
+        bare, inner_race_amplitude_um=None, inner_race_harmonic=(Harmonic(order=5, amplitude_um=0.1),)
+    )
+    with pytest.raises(ValueError, match="leave the harmonics out"):
+        spread(explicit, ["P1"], surface=surface)
 
 
 def test_amplitude_counts_in_proportion(found):

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import P
-from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
+from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, order_energies, race_harmonics
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.scene import SceneError, read_scene_text
+from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.imperfections import Harmonic, Imperfections
 from fmu_bearing.scene.read import catalogue
-from tests.conftest import GATES
+from tests.conftest import EXAMPLES, GATES
 
+SETS = EXAMPLES.parent / "spindle_set"
 TEXT = (GATES / "7003C-bare.toml").read_text(encoding="utf-8")
 FROM, TO = TEXT.index("[imperfections]"), TEXT.index("[operation]")
 GRADES = ["P0", "P6", "P5", "P4", "P2"]
@@ -286,3 +287,64 @@ def test_other_seeds_follow_the_own_one_and_begin_again_behind_the_last(example)
     flaws = example("7003C-bare").imperfections.model_copy(update={"seed": 2**31 - 2})
     assert [one.seed for one in flaws.redrawn(2)] == [2**31 - 1, 0]
     assert {one.model_copy(update={"seed": flaws.seed}) for one in flaws.redrawn(2)} == {flaws}
+
+
+# --- orders that scatter about the law -------------------------------------------------------------
+
+
+def split_mix(place):
+    """Number ``place`` (from 0) of the sequence SplitMix64 from the state 0, in whole numbers of Python."""
+    mask = 2**64 - 1
+    z = (place + 1) * 0x9E3779B97F4A7C15 & mask
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 & mask
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EB & mask
+    return z ^ (z >> 31)
+
+
+def test_orders_scatter_about_the_law_from_a_seed_of_their_own():
+    """Oracle: the law's amplitudes times the root of -ln of a uniform number per seed, race and order."""
+    assert split_mix(0) == 0xE220A8397B1DCDAF  # the first number that its authors' program prints
+    exact, scattered = (flawed(f'grade = "P4"\nseed = 1\n{more}') for more in ("", "order_scatter_seed = 8"))
+    pairs = zip(race_harmonics(exact), race_harmonics(scattered), strict=True)
+    for race, (by_law, drawn) in enumerate(pairs):
+        places = [(8 << 11) + (race << 10) + int(order) for order in drawn.orders]
+        factors = [-np.log(((split_mix(place) >> 11) + 0.5) / 2**53) for place in places]
+        assert np.array_equal(by_law.orders, drawn.orders) and np.array_equal(by_law.phases, drawn.phases)
+        # the square root, a logarithm and one product: some ulp
+        np.testing.assert_allclose((drawn.amplitudes / by_law.amplitudes) ** 2, factors, rtol=1e-14)
+    for draw in (ball_oversizes, lambda scene: ball_waves(scene)[1], lambda scene: ball_waves(scene)[0]):
+        assert np.array_equal(draw(exact), draw(scattered))
+
+
+def test_scatter_leaves_the_mean_energy_and_belongs_to_the_order():
+    seeds, orders = np.arange(50)[:, None], np.arange(1, 1001)
+    energies = np.array([order_energies(seeds, race, orders) for race in range(2)])
+    # 100,000 draws of mean and variance 1, kurtosis 9: four standard deviations of their mean and variance
+    assert energies.mean() == pytest.approx(1.0, abs=4.0 * energies.size**-0.5)
+    assert energies.var() == pytest.approx(1.0, abs=4.0 * (8.0 / energies.size) ** 0.5)
+    # neighbours in race, seed and order know nothing of each other
+    for one, other in (
+        (energies[0], energies[1]), (energies[:, 1:], energies[:, :-1]), (energies[..., 1:], energies[..., :-1])
+    ):  # fmt: skip
+        assert abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 4.0 * one.size**-0.5
+    assert np.array_equal(order_energies(3, 1, 12), energies[1, 3, 11])
+    low, high = (
+        race_harmonics(flawed(f'grade = "P4"\nseed = 1\norder_scatter_seed = 2\nhighest_order = {n}'))
+        for n in (60, 300)
+    )
+    assert np.array_equal(low[0].amplitudes, high[0].amplitudes[: low[0].orders.size])
+
+
+def test_every_bearing_of_a_set_has_orders_of_its_own():
+    pair = read_scene(SETS / "7003C-DB.toml").replace(
+        {"imperfections": {"grade": "P4", "seed": 3, "order_scatter_seed": 7}}
+    )
+    drawn = [one.scene.imperfections for one in pair.bearings()]
+    assert [(flaws.seed, flaws.order_scatter_seed) for flaws in drawn] == [(3, 7), (4, 8)]
+    exact = pair.replace({"imperfections.order_scatter_seed": None})
+    assert [one.scene.imperfections.order_scatter_seed for one in exact.bearings()] == [None, None]
+
+
+def test_scatter_beside_harmonics_of_both_races_is_refused():
+    (line,) = refused(BY_HAND + INNER + OUTER + "order_scatter_seed = 1")[:1]
+    assert "order_scatter_seed" in line

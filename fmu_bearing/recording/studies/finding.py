@@ -130,9 +130,8 @@ def _estimator(side: ComparisonData, microphone: str) -> LevelEstimator:
 
 
 def _level(scene: Scene | None, estimator: LevelEstimator, k: int) -> float:
-    """Return the level (dB(A)) of a scene whose surfaces are drawn with its seed plus ``k``."""
+    """Return the level (dB(A)) of a scene whose surfaces are drawn with its seeds plus ``k``."""
     assert scene is not None and scene.imperfections is not None
-    flaws = scene.imperfections
-    drawn = flaws.model_copy(update={"seed": (flaws.seed + k) % 2**31})
+    drawn = scene.imperfections.reseeded(k)
     one = with_fidelity(scene.model_copy(update={"imperfections": drawn}), model=_FIDELITY)
     return float(np.asarray(level(estimator.spectrum(one).sum(axis=1)))[0])

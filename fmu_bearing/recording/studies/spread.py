@@ -2,9 +2,11 @@
 
 The phases of waviness are drawn from a seed that means nothing, and the power law of the surfaces is assumed.
 Both are drawn again in cheap runs (fidelity ``response``, rigid rings; ``full`` where a mode is weakly
-damped), and the differences of their levels are added to the level in question.
+damped), and the differences of their levels are added to the level in question. Where a surface was found
+from a measurement, its draws take the place of the assumed law.
 """
 
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -23,14 +25,19 @@ from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import Imperfections
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.surface import Surface, check_taken
+from fmu_bearing.scene.surface_file import read_surface
 
 #: Wraps a list of draws and yields them.
 Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
 SEEDS = 8
 _SEEDS_FULL = 3  # with fidelity full, which costs a hundred times as much
-_EXPONENTS = (1.0, 1.6)  # assumed range of p, where the scene's lies within
+_EXPONENTS = (1.0, 1.8)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
+#: Draws of a surface that was found; a further one lies between the ends of n with (n - 1) / (n + 1): 95 %.
+_DRAWS = 40
+_DRAWS_FULL = 6  # with fidelity full: 71 %
 
 
 @dataclass(frozen=True)
@@ -60,6 +67,8 @@ class Spread:
         How many other seeds were drawn.
     doubt, weak : str
         Why the levels in question are in doubt; which weakly damped mode made fidelity full draw the range.
+    surface : int
+        How many draws of a surface that was found make the range; 0: the law is assumed.
     """
 
     names: tuple[str, ...]
@@ -76,20 +85,34 @@ class Spread:
     drawn: int = SEEDS
     doubt: str = ""
     weak: str = ""
+    surface: int = 0
 
     @property
     def line_is_found(self) -> bool:
         """Whether the strongest line stays the strongest in most draws."""
         return 2 * self.stays[0] > self.stays[1]
 
+    @property
+    def over(self) -> str:
+        """What the range is taken over."""
+        return "draws of the measured surface" if self.surface else "seeds and assumed surfaces"
+
     def remark(self) -> str:
         """Return one sentence on what varies in the range."""
+        if self.surface:
+            share = 100.0 * (self.surface - 1.0) / (self.surface + 1.0)
+            return (
+                f"Range over {self.surface} draws of the surface that was found: {share:.0f} % of levels lie "
+                "within it as far as the surface alone decides." + self._with_full()
+            )
         return (
             f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
             "factor of two in its amplitude either way, that of the balls too. Both are assumed: two "
-            "published spindles lie 15 and 18 dB above grade P4."
-            + (f" Drawn with fidelity full, because {self.weak}." if self.weak else "")
+            "published spindles lie 15 and 18 dB above grade P4." + self._with_full()
         )
+
+    def _with_full(self) -> str:
+        return f" Drawn with fidelity full, because {self.weak}." if self.weak else ""
 
     def decides(self, mic: int) -> str:
         """Return what moves the level at a microphone most, and the imperfection that makes most of it."""
@@ -98,6 +121,8 @@ class Spread:
             "exponent of the surfaces": abs(self.exponent[mic]),
             "amplitude of the surfaces": abs(self.amplitude[mic]),
         }
+        if self.surface:
+            causes = {"what the measured surface leaves open": self.high[mic] - self.low[mic]}
         cause = max(causes, key=lambda name: causes[name])
         words = f"{cause} ({causes[cause]:.1f} dB)"
         if self.sources:
@@ -145,6 +170,7 @@ def spread(
     radiation_model: str | None = None,
     weighting: str = "A",
     seeds: int = SEEDS,
+    surface: Surface | str | os.PathLike[str] | None = None,
     bar: Bar = iter,
 ) -> Spread:
     """Find the range of a recording's levels over seeds and the assumed surface law.
@@ -160,6 +186,9 @@ def spread(
         As for `Recording.levels`.
     seeds : int
         How many other seeds are drawn; 3 at most where a weakly damped mode needs fidelity full.
+    surface : Surface or path, optional
+        A surface that was found from a measurement, or its file: 40 of its draws make the range (6 where a
+        weakly damped mode needs fidelity full) in the place of the assumed law.
     bar : callable
         Wraps the list of draws, to show progress; default: no progress is shown.
 
@@ -170,7 +199,8 @@ def spread(
     Raises
     ------
     ValueError
-        Without scene, imperfections or microphones, or where the speed changes.
+        Without scene, imperfections or microphones, where the speed changes, and for a surface where a race
+        has explicit harmonics.
 
     Examples
     --------
@@ -196,12 +226,15 @@ def spread(
     flaws = scene.imperfections
     weak = weakness(scene)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
-    draws = [flaws, *flaws.redrawn(seeds), *_corners(flaws)]
+    others = list(_corners(flaws)) if surface is None else _found(surface, scene, bool(weak))
+    draws = [flaws, *flaws.redrawn(seeds), *others]
     spectra = [estimator.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
     levels = level(np.array([each.sum(axis=1) for each in spectra]))
     change = levels - levels[0]
     here = recording.levels(places, radiation_model, weighting)
-    corners = change[1 + seeds :].reshape(-1, 2, len(places)) if flaws.follows_law else np.zeros((2, 2, 1))
+    law = surface is None and flaws.follows_law
+    corners = change[1 + seeds :].reshape(-1, 2, len(places)) if law else np.zeros((2, 2, 1))
+    within = change if surface is None else change[1 + seeds :]
     loudest = int(np.argmax(here))
     strongest = np.array([each[loudest].argmax() for each in spectra])
     stays = int((np.abs(strongest[1:] - strongest[0]) <= 1).sum())
@@ -209,8 +242,8 @@ def spread(
         tuple(name for name, _ in chosen),
         weighting,
         here,
-        here + change.min(axis=0),
-        here + change.max(axis=0),
+        here + within.min(axis=0),
+        here + within.max(axis=0),
         np.ptp(change[: 1 + seeds], axis=0),
         (corners[1] - corners[0]).mean(axis=0) * np.ones(len(places)),
         (corners[:, 1] - corners[:, 0]).mean(axis=0) * np.ones(len(places)),
@@ -220,6 +253,7 @@ def spread(
         seeds,
         doubt_of(recording),
         weak,
+        0 if surface is None else len(others),
     )
 
 
@@ -248,6 +282,14 @@ def doubt_of(recording: Recording) -> str:
     except ValueError:
         found = ""
     return "; ".join(filter(None, (restarted(recording.restarts), found)))
+
+
+def _found(surface: Surface | str | os.PathLike[str], scene: Scene, weak: bool) -> list[Imperfections]:
+    """Return draws of a surface that was found, with all that is no part of it as in the scene."""
+    found = surface if isinstance(surface, Surface) else read_surface(surface)
+    check_taken(scene.imperfections, scene.name)
+    count = min(len(found), _DRAWS_FULL if weak else _DRAWS)
+    return list(found.draws(count, scene.imperfections))
 
 
 def _drawn(scene: Scene, flaws: Imperfections, fidelity: str) -> Scene:

@@ -46,7 +46,7 @@ def tiles(subject: Subject, microphones: Microphones | None, sure: Spread | None
         add(
             "laeq_dB",
             f"loudest, at {microphones.names[k]}"
-            + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} over seeds and assumed surfaces" if sure else ""),
+            + (f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} over {sure.over}" if sure else ""),
             "dB(A)",
             ".1f",
             lambda: float(microphones.levels["A"]["total"][k]),

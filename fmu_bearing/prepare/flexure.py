@@ -6,13 +6,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.acoustics.radiation.frequencies import BAND
 from fmu_bearing.elastic.modes import RingMode
 from fmu_bearing.engine.layout import MAX_MODES, P
 from fmu_bearing.scene import Scene, SceneError, si
 
-# Internal steps over the period of the highest mode at rest. The methods then lower a free mode's frequency
-# by 0.5 % (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 5e-4) or 0.03 % (rk4, 1e-4);
-# lower modes fare better by the square of the frequency at least.
+# Internal steps over the period of the highest audible mode at rest. The methods then lower a free mode's
+# frequency by 0.5 % (esdirk4, which damps it like a damping ratio of 1e-4), 1 % (trbdf2, 5e-4) or 0.03 %
+# (rk4, 1e-4); lower modes fare better by the square of the frequency at least.
 _STEPS = {"esdirk4": 4.0, "trbdf2": 12.5, "rk4": 14.0}
 
 
@@ -70,9 +71,12 @@ def inner_modes(table: NDArray[np.float64]) -> int:
 
 
 def longest_step(table: NDArray[np.float64], method: str) -> float:
-    """Longest internal step (s) that resolves every mode of a table; infinite without modes."""
-    if table.size == 0:
-        return math.inf
+    """Longest internal step (s) that resolves every audible mode of a table; infinite where there is none.
+
+    Modes above hearing bend with their stiffness at any step. Their own ringing is damped and lowered by the
+    method, unless the step's error estimate, of which they are part, asks for shorter steps.
+    """
     rows = table.reshape(-1, P.MODE_SIZE)
-    highest = np.sqrt((rows[:, P.MODE_STIFFNESS] / rows[:, P.MODE_MASS]).max()) / (2.0 * math.pi)
-    return 1.0 / (_STEPS[method] * float(highest))
+    frequencies = np.sqrt(rows[:, P.MODE_STIFFNESS] / rows[:, P.MODE_MASS]) / (2.0 * math.pi)
+    heard = frequencies[frequencies <= BAND[1]]
+    return 1.0 / (_STEPS[method] * float(heard.max())) if heard.size else math.inf

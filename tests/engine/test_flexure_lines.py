@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.choices import METHODS
-from fmu_bearing.engine.layout import STRIDE, P, S
+from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, TABLEAUX
+from fmu_bearing.engine.layout import STRIDE, TAB, P, S
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.flexure import longest_step
 from tests.engine.flexible import FRICTIONLESS, SCENE, FirstOrder, Flexure, bending, thin_ring, untouched
@@ -68,6 +69,58 @@ def test_free_mode_rings_at_its_frequency(scene, method, bent):
     envelope = np.abs(values[:16, 0]).max() / np.abs(values[-16:, 0]).max()
     # damping ratio 0.01; the methods add up to 5e-4
     assert np.log(envelope) / (2 * np.pi * 6640.0 * 144 * h) == pytest.approx(0.01, rel=0.12)
+
+
+def factor_per_step(scene, row, size, step):
+    """Factor by which ``step`` (s) multiplies a free mode's q - i v / w0, over e^(i w0 h), as a logarithm.
+
+    The mode is let go at ``size`` (m) once the bearing has come to rest. With it the internal steps per step.
+    """
+    run = Run(quiet(scene(SCENE)), 20000, modes=[row], MODE_STEP=np.inf, MAX_STEP=1.01 * step).init()
+    run.run(0.02, 1e-3)
+    flexure = Flexure(run.p, run.w)
+    free = np.sqrt(row[P.MODE_STIFFNESS] / row[P.MODE_MASS])
+    flexure.state(run.s)[:] = [[size, 0.0], [0.0, 0.0], [-(free**2) * size, 0.0]]
+    before, z = run.s[S.STEPS], [size]
+    for _ in range(160):
+        assert run.step(step) == OK
+        q, v, _ = flexure.state(run.s)
+        z.append(q[0] - 1j * v[0] / free)
+    logarithms = np.log(np.array(z[1:]) / z[:-1] * np.exp(-1j * free * step))
+    return logarithms.mean(), (run.s[S.STEPS] - before) / 160
+
+
+def test_a_mode_above_hearing_is_resolved_where_it_rings_loud(scene):
+    """Two steps over its period: as the method's stability function says, unless the error estimate objects.
+
+    R(z) of esdirk4 on the imaginary axis, from its Butcher tableau.
+    """
+    row, step = untouched(thin_ring(1, 4, 40e3, 0.022)), 1.25e-5
+    begin, count = AT_ESDIRK4 + TAB.A, int(TABLEAUX[AT_ESDIRK4 + TAB.COUNT])
+    stages = np.diag([0.0] + [TABLEAUX[AT_ESDIRK4 + TAB.GAMMA]] * (count - 1))
+    stages[:, : TAB.ROW] += TABLEAUX[begin : begin + count * TAB.ROW].reshape(count, TAB.ROW)
+    z = 2j * np.pi * 40e3 * step
+    wanted = np.log(
+        (1.0 + z * stages[-1] @ np.linalg.solve(np.eye(count) - z * stages, np.ones(count))) / np.exp(z)
+    )
+    found, steps = factor_per_step(scene, row, 1e-11, step)
+    assert steps == 1.0
+    # the outer ring hardly turns on its pedestal: nothing else moves the pattern
+    assert found == pytest.approx(wanted, rel=1e-4)
+    low, ratio = -found.imag / abs(z), -found.real / abs(z)
+    assert (low, ratio) == pytest.approx((0.049, 1.11e-3), rel=0.01)  # as the theory page says
+    # 1 um at 40 kHz is 0.25 m/s, far above what rings do
+    found, steps = factor_per_step(scene, row, 1e-6, step)
+    assert steps > 5.0
+    assert abs(found) < 1e-4 * abs(z)
+
+
+def test_steps_resolve_what_is_heard():
+    """A quarter of the period of the highest mode up to 20 kHz; modes above hearing ask for no step."""
+    rows = [thin_ring(1, n, f, 0.022) for n, f in ((2, 6640.0), (3, 18450.0), (4, 34460.0))]
+    assert longest_step(np.ravel(rows), "esdirk4") == pytest.approx(0.25 / 18450.0)
+    assert longest_step(np.ravel(rows[:1]), "rk4") == pytest.approx(1.0 / (14.0 * 6640.0))
+    assert longest_step(np.ravel(rows[2:]), "esdirk4") == np.inf
 
 
 def test_contacts_stiffen_the_outer_ring(scene):

@@ -118,7 +118,7 @@ def plan_of(
         need("skfem", BENDING)  # reported once, and not as the reason of every point
     mounted = (one for one in scenes if one.mounting is not None)
     for model in dict.fromkeys(one.fidelity.model for one in mounted if not one.mounted.preload_N > 0.0):
-        warnings.warn(loose(model), stacklevel=2)  # once, and not by each worker
+        warnings.warn(loose(model), stacklevel=3)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)
     first: dict[str, Scene] = {}  # the first scene of all with the same sound

@@ -120,3 +120,26 @@ def test_sensitivity_to_several_values_refuses_in_one_line(run, silent_file, tmp
     result = run("sensitivity", silent_file, *words, "-o", tmp_path / "new")
     assert result.exit_code == 2 and answer in result.output and result.output.count("\n") == 1
     assert not (tmp_path / "new").exists()
+
+
+def test_sensitivity_to_several_values_keeps_its_runs_on_ctrl_c(run, silent_file, tmp_path, monkeypatch):
+    from fmu_bearing.sweeps import local
+
+    whole = local.here
+
+    def stopped(tasks, *more):
+        for number, found in enumerate(whole(tasks, *more)):
+            if number == 3:
+                raise KeyboardInterrupt
+            yield found
+
+    monkeypatch.setattr("fmu_bearing.sweeps.runs.here", stopped)
+    words = ("sensitivity", silent_file, *SEVERAL, "--set", "fidelity.model=rings", "-o", tmp_path)
+    result = run(*words)
+    assert result.exit_code == 130
+    assert "interrupted: 3 of " in result.output and "the same command runs those" in result.output
+    assert len(list((tmp_path / "points").iterdir())) == 3 and not (tmp_path / "sensitivity.md").exists()
+    monkeypatch.setattr("fmu_bearing.sweeps.runs.here", whole)
+    kept = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "points").iterdir()}
+    assert run(*words).exit_code == 0
+    assert all((tmp_path / "points" / name).stat().st_mtime_ns == time for name, time in kept.items())

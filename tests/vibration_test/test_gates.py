@@ -64,8 +64,9 @@ def test_twice_the_surfaces_read_twice_as_much(bearing, usual):
     flaws = bearing.imperfections
     keys = ("inner_race_amplitude_um", "outer_race_amplitude_um", "ball_form_nm", "ball_diameter_spread_nm")
     found = read(bearing.replace({f"imperfections.{key}": 2.0 * getattr(flaws, key) for key in keys}))
-    # 2.00 and 2.01; the contacts are not linear, of which the rocking mode in M has most: 1.90
-    assert {name: found[name] / usual[name] for name in "LH"} == pytest.approx({"L": 2.0, "H": 2.0}, rel=0.03)
+    # 2.00 and 2.01; the contacts are not linear, of which the rocking mode in M has most: 1.91
+    ratio = {name: found[name] / usual[name] for name in "LMH"}
+    assert ratio == pytest.approx({"L": 2.0, "M": 1.91, "H": 2.0}, rel=0.03)
 
 
 @pytest.mark.heavy

@@ -34,7 +34,7 @@ COMMANDS = (
     "compare S.toml new.toml --fidelity rings --radiation-model compact --duration 0.1",
     "report S.toml --output S.html", "changes S.toml --no-levels", "choose S.toml",
     "sweep S.toml --axis speed=10000:14000:3 --output sweep", "sensitivity S.toml --quick --output study",
-    "tradeoff S.toml --quick --output study",
+    "tradeoff S.toml --quick --output study", "vibration S.toml --seeds 1 --output test",
 )  # fmt: skip
 
 _HEAD = """Made by `python -m benchmarks.commands`: seconds of the processor (user and system, child processes

@@ -109,14 +109,21 @@ def source_of(source: Path, settings: list[str] | None, fidelity: str | None = N
     ValueError
         As `changed`, for an input that no key holds, and for a file that is no scene, as a recording is.
     """
-    from fmu_bearing.scene.read import read_scene, with_fidelity
+    from fmu_bearing.scene.read import read_scene
 
     if not settings and fidelity is None:
         return source
     if source.suffix in (".npz", ".csv", ".nc", ".fmu"):
         option = "--set" if settings else "--fidelity"
         raise Refusal(f"{option} is refused: {source} is finished, and was run as it is; give its scene")
-    scene, inputs = changed(read_scene(source), settings)
+    return scene_with(read_scene(source), settings, fidelity)
+
+
+def scene_with(scene: "Scene", settings: list[str] | None, fidelity: str | None = None) -> "Scene":
+    """Return a scene with keys, inputs and fidelity of the command line, as `source_of`."""
+    from fmu_bearing.scene.read import with_fidelity
+
+    scene, inputs = changed(scene, settings)
     if inputs:
         scene = scene.replace(_as_keys(scene, inputs))
     return scene if fidelity is None else with_fidelity(scene, model=fidelity)

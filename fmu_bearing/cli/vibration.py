@@ -15,11 +15,11 @@ from fmu_bearing.cli.base import (
     shaft_speed,
     tell,
 )
-from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json
+from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Settings
+from fmu_bearing.cli.settings import scene_with
 from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps
 from fmu_bearing.scene.template import MATERIALS
-
 
 _SHOWN = 4  # lines of a band
 
@@ -58,6 +58,7 @@ def vibration(
         float | None,
         typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min; default: by the outside diameter."),
     ] = None,
+    settings: Settings = None,
     fidelity: Fidelity = None,
     output: Folder = Path("out/vibration"),
     force: Force = False,
@@ -73,7 +74,6 @@ def vibration(
     """
     from fmu_bearing.extras import need
     from fmu_bearing.results.table import show
-    from fmu_bearing.scene.read import with_fidelity
     from fmu_bearing.vibration_test.anderon import UNITS
     from fmu_bearing.vibration_test.files import FILES
     from fmu_bearing.vibration_test.subject import subject
@@ -88,9 +88,8 @@ def vibration(
             raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
         shaft_speed(speed)
         allowed = None if limits is None else _limits(limits)
-        given = subject(source, kind, grade)
         found = test(
-            given if fidelity is None else with_fidelity(given, model=fidelity), seeds, rigid=rigid,
+            scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
             speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
             bar=partial(steps, what="vibration test", unit="runs"),
         )  # fmt: skip

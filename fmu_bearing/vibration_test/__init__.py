@@ -4,6 +4,7 @@
 ``rig``        `rig`: the scene of the test, from the scene of a bearing
 ``reading``    `reading`: what the sensor of the tester reads, from one run
 ``subject``    the bearing under test: by its name in the catalogue, or of a scene
+``band``       what was read in one band
 ``anderon``    the unit of vibration testers
 ``lines``      lines of the spectrum, named, and the energy of each wave
 ``remarks``    what to know of the figures

@@ -23,7 +23,7 @@ from fmu_bearing.acoustics.analysis.origins import (
 )
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.vibration_test.reading import Reading
+from fmu_bearing.vibration_test.reading import Reading, share
 from fmu_bearing.vibration_test.rig import BANDS, BENDING, bands
 
 #: Imperfections by the names that lines have for what makes them; the rig has no unbalance.
@@ -136,9 +136,8 @@ def by_order(scene: Scene, alone: Reading, rates: KinematicFrequencies, source: 
     nearest = np.searchsorted(0.5 * (places[1:] + places[:-1]), alone.frequency)
     orders, index = np.unique([one.wave for one in known], return_inverse=True)
     energies = [
-        np.bincount(index[nearest[inside]], alone.energy[inside], orders.size)
-        for low, high in bands(scene).values()
-        for inside in [(alone.frequency >= low) & (alone.frequency < high)]
+        np.bincount(index[nearest], alone.energy * share(alone.frequency, *ends), orders.size)
+        for ends in bands(scene).values()
     ]
     return OrderEnergies(orders, np.array(energies))
 

@@ -40,9 +40,16 @@ class Reading:
     orbit: float = float("nan")
 
     def rms(self, low: float, high: float) -> float:
-        """Return the rms velocity (um/s) between two frequencies (Hz), the upper one left out."""
-        inside = (self.frequency >= low) & (self.frequency < high)
-        return float(np.sqrt(self.energy[inside].sum()))
+        """Return the rms velocity (um/s) between two frequencies (Hz)."""
+        return float(np.sqrt(self.energy @ share(self.frequency, low, high)))
+
+
+def share(frequency: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
+    """Return how much of each bin lies between two frequencies (Hz): a bin on an edge lies in both bands."""
+    width = frequency[1] - frequency[0]
+    ends = np.minimum(frequency + 0.5 * width, high) - np.maximum(frequency - 0.5 * width, low)
+    found: NDArray[np.float64] = np.clip(ends / width, 0.0, 1.0)
+    return found
 
 
 def reading(scene: Scene) -> Reading:

@@ -1,8 +1,9 @@
 """The rig of the vibration test: arbor, loading piece, speed, load, and the bands that are read.
 
 The inner ring turns on a stiff, heavy arbor. A loading piece of rubber pushes the outer ring along the axis,
-and no seat holds that ring: it bends. Speeds and loads are those of ISO 15242-2 as far as they were at hand:
-all values of this module are assumed.
+and no seat holds that ring: it bends. The bands up to 100 mm are those of ISO 15242-1, the speed there is the
+default of ISO 15242-2:2015, 4.1 (1800 r/min, +1 -2 %; contact angles up to 45 deg). All other values of this
+module are assumed: the text of the standard with its loads was not at hand.
 """
 
 import math
@@ -26,10 +27,10 @@ BENDING = (2, 3, 4)  # orders: 2 to 8 read the same within 2 %, at four times th
 _ROOM_DEGC = 22.0  # assumed: a test runs for seconds
 _HIGHEST_KHZ = 10.0  # end of the high band
 
-#: Axial load (N) of angular contact bearings by outside diameter (mm) up to: ISO 15242-2, assumed.
+#: Axial load (N) of angular contact bearings by outside diameter (mm) up to: assumed to be the standard's.
 _LOADS = ((25.0, 30.0), (50.0, 100.0), (100.0, 225.0), (140.0, 600.0), (170.0, 975.0), (200.0, 1350.0))
 _SMALLEST, _LARGE, _LARGEST = 10.0, 100.0, 200.0  # outside diameters, mm
-_SPEED, _SLOW_SPEED = 1800.0, 900.0  # r/min: up to _LARGE, and above
+_SPEED, _SLOW_SPEED = 1800.0, 900.0  # r/min: up to _LARGE, and above (assumed)
 
 #: Communication step (s): bands end at 10 kHz, samples reach to 12.5 kHz.
 STEP = 40e-6

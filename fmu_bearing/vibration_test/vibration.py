@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.scene import Scene, SceneSource
 from fmu_bearing.vibration_test.anderon import Unit, micrometres
+from fmu_bearing.vibration_test.band import Band
 from fmu_bearing.vibration_test.files import picture, write
 from fmu_bearing.vibration_test.lines import (
     OrderEnergies,
@@ -37,38 +38,6 @@ _MOST_SEEDS = 1000
 _LINES = 12  # of each band
 _FORM = "form of the balls"
 _HIGHEST_LIMIT = 1e4  # um/s
-
-
-@dataclass(frozen=True)
-class Band:
-    """Rms velocity in one band, um/s, by loading piece and seed.
-
-    Attributes
-    ----------
-    name : str
-        ``"L"``, ``"M"`` or ``"H"``.
-    low, high : float
-        Ends, Hz.
-    soft, firm : ndarray, shape (seeds,)
-        With each loading piece.
-    alone : dict of str to float
-        Of each source alone, with the first seed on the soft piece.
-    limit : float or None
-        What it may be.
-    """
-
-    name: str
-    low: float
-    high: float
-    soft: NDArray[np.float64]
-    firm: NDArray[np.float64]
-    alone: dict[str, float]
-    limit: float | None
-
-    @property
-    def mean(self) -> float:
-        """Mean over the seeds on the soft piece."""
-        return float(self.soft.mean())
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,11 +215,23 @@ class Vibration:
 
     def picture(self, unit: Unit = "um/s") -> "Figure":
         """Draw the bands as bars, with their range over the seeds and the limits."""
-        return picture(self, unit)
+        several = f", {len(self.seeds)} seeds" if len(self.seeds) > 1 else ""
+        title = f"{self.scene.name}, vibration test{several}"
+        return picture(title, self.bands, micrometres(self.scene, unit), unit)
 
     def save(self, folder: str | os.PathLike[str], unit: Unit = "um/s") -> list[Path]:
-        """Write ``bands.png``, ``lines.csv`` and ``spectrum.csv`` into a folder, and return the files."""
-        return write(self, folder, unit)
+        """Write ``bands.png``, ``lines.csv`` and ``spectrum.csv`` into a folder, which is made.
+
+        ``spectrum.csv`` has the rms velocity of each bin on both pieces, and of each source alone.
+
+        Returns
+        -------
+        list of Path
+        """
+        spectra = {"frequency, Hz": self.frequency}
+        spectra |= {f"{piece} piece, um/s": self.spectrum(piece) for piece in PIECES}
+        spectra |= {f"{name} alone, um/s": np.sqrt(one.energy) for name, one in self.alone.items()}
+        return write(Path(folder), self.picture(unit), self.lines, spectra)
 
 
 def _digits(value: float | np.floating[Any]) -> str:

@@ -46,6 +46,7 @@ WRITING = {
         ("identify", "{scene}", "{result}", "-f", "x", "-o", "{folder}/i.toml"), ["i/levels.csv"],
     ),
     "realtime": (("realtime", "{scene}", "-o", "{folder}/steps.csv"), ["steps.csv"]),
+    "vibration": (("vibration", "{scene}", "--rigid", "-o", "{folder}"), ["bands.png", "lines.csv"]),
 }  # fmt: skip
 
 

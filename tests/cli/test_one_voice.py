@@ -10,17 +10,18 @@ from fmu_bearing.cli import app
 from tests.pages import DOCS
 
 RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
-SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose"}
+SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose", "vibration"}
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
-    "sensitivity", "sweep", "identify", "realtime", "fits",
+    "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
-    "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new"} - {"sweep", "identify"},
-    "--fidelity": {*RUN, "build", "realtime"} - {"tradeoff", "sensitivity"},
+    "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new", "vibration"}
+    - {"sweep", "identify"},
+    "--fidelity": {*RUN, "build", "realtime", "vibration"} - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
     "--plot": {"simulate", "sound", "compare", "modes", "stiffness", "fits", "tradeoff", "sweep", "identify"},
@@ -52,6 +53,10 @@ OTHERWISE = {
     ("modes", "--speeds"): "Campbell diagram",
     ("stiffness", "--speeds"): "default: the scene's",
     ("build", "--platforms"): "default: this machine's",
+    ("vibration", "--speed"): "default: by the outside diameter",
+    ("vibration", "--seeds"): "the first one the scene's own",
+    ("vibration", "--kind"): "of a bearing by name",
+    ("vibration", "--grade"): "default: the scene's own",
     ("warm-up", "--platforms"): "Also link",
     ("report", "--run-up"): "for the waterfall",
     ("realtime", "--run-up"): "Speeds of the run-up",

@@ -38,6 +38,7 @@ from fmu_bearing.scene.exclusions import (
     require,
 )
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.vibration_test.rig import rig
 from tests.conftest import GATES, ROOT
 from tests.tables import DOCS, missing
 
@@ -102,6 +103,7 @@ DOORS = (
     (read_scene(PORT), pair(), {"load": {"spindle.load.force_x_N": 5.0}}),
     (read_scene(PORT), pair(), {"shaft": {"spindle.shaft.flexible": True}}),
     (BENT, BENT.with_rigid_rings(), {"fidelities": {"fidelity.model": "response"}}),
+    (with_fidelity(SINGLE, model="rings"), SINGLE, {"vibration test": lambda scene, folder: rig(scene)}),
     (sounding("compact"), sounding("bem"), {"plane": {"sound.reflecting_plane_mm": -50.0}}),
     (sounding("table", table_file="a.npz"), sounding("compact"), {
         "channels": lambda scene, folder: list(circles("table", None, Air(), [(0.0, 1.0, 0.0)], 4)),

@@ -16,10 +16,10 @@ from fmu_bearing.vibration_test.inverse.runs import (
     Spectra,
 )
 from fmu_bearing.vibration_test.lines import frequencies, waves
-from fmu_bearing.vibration_test.reading import Reading
+from fmu_bearing.vibration_test.reading import Reading, share
 from fmu_bearing.vibration_test.rig import bands
 
-_LOBE = 2.01  # bins to either side of a line: what a Hann window makes of it
+_LOBE = 2.5  # bins to either side of a line, half its own included: what a Hann window makes of it
 _LEAST = 1e-12  # (um/s)^2
 _GRID = np.linspace(0.0, 4.0, 81)  # exponents between which energies are interpolated
 
@@ -164,7 +164,7 @@ def line_window(found: Spectra, name: str) -> Window:
 def energies(found: Spectra, windows: Sequence[Window]) -> Energies:
     """Return the energies per order of spectra in windows."""
     frequency = found.frequency
-    masks = np.array([(frequency >= one.low) & (frequency < one.high) for one in windows], dtype=float)
+    masks = np.array([share(frequency, one.low, one.high) for one in windows])
     rates = frequencies(found.scene, Reading(frequency, found.inner, 0.0, found.orbit))
     known = waves(found.scene, rates, "inner race")
     places = rates.f_r * np.array([one.order for one in known])
@@ -180,10 +180,8 @@ def energies(found: Spectra, windows: Sequence[Window]) -> Energies:
         outer.append(_binned(masks * energy, passing, passing.max() + 1))
     orders, every = np.concatenate(outer_orders), np.concatenate(outer, axis=1)
     some = (every.sum(axis=0) > 0.0) & (orders > 0)
-    by_band = np.array(
-        [[(frequency >= low) & (frequency < high)] for low, high in bands(found.scene).values()]
-    )
-    bands_of = by_band[[one.band for one in windows], 0].astype(float)  # a line has the ratio of its band
+    whole = np.array([share(frequency, *ends) for ends in bands(found.scene).values()])
+    bands_of = whole[[one.band for one in windows]]  # a line has the ratio of its band
     rigid = found.rigid[BENT_AT, : len(found.bent)]
     unit = AMPLITUDE_UM**2
     return Energies(

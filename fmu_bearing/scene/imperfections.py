@@ -11,6 +11,8 @@ RACES = ("inner", "outer")
 #: Highest order of a race's waviness: on a 7003C a wave is then 0.07 mm long, a contact 0.10 mm wide.
 HIGHEST_ORDER = 1000
 _HARMONICS = 200  # most per race
+#: Exponents p of the power law that surfaces are assumed to have.
+ASSUMED_EXPONENTS = (1.0, 1.8)
 #: What makes vibration and noise, and the keys that take it away.
 _SOURCES = {
     "unbalance": ("unbalance_um",),

@@ -23,7 +23,7 @@ from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_model
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.imperfections import Imperfections
+from fmu_bearing.scene.imperfections import ASSUMED_EXPONENTS, Imperfections
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.surface import Surface, check_taken
 from fmu_bearing.scene.surface_file import read_surface
@@ -32,7 +32,6 @@ from fmu_bearing.scene.surface_file import read_surface
 Bar = Callable[[Sequence[Imperfections]], Iterable[Imperfections]]
 SEEDS = 8
 _SEEDS_FULL = 3  # with fidelity full, which costs a hundred times as much
-_EXPONENTS = (1.0, 1.8)  # assumed range of p, where the scene's lies within
 _AROUND = 0.3  # else: this much to either side
 _FACTOR = 2.0  # on A_1, either way
 #: Draws of a surface that was found; a further one lies between the ends of n with (n - 1) / (n + 1): 95 %.
@@ -302,7 +301,9 @@ def _corners(flaws: Imperfections) -> Iterator[Imperfections]:
     if not flaws.follows_law:
         return
     p = flaws.waviness_exponent or 0.0
-    low, high = _EXPONENTS if _EXPONENTS[0] <= p <= _EXPONENTS[1] else (max(p - _AROUND, 0.0), p + _AROUND)
+    low, high = ASSUMED_EXPONENTS  # where the scene's lies within
+    if not low <= p <= high:
+        low, high = max(p - _AROUND, 0.0), p + _AROUND
     keys = ("inner_race_amplitude_um", "outer_race_amplitude_um", "ball_form_nm")
     for exponent in (low, high):
         for factor in (1.0 / _FACTOR, _FACTOR):

@@ -326,8 +326,8 @@ def examples():
 
 
 PAGES = {
-    "coupling.md": coupling, "error-motion.md": error_motion_page, "examples.md": examples, "gallery.md": gallery, "limits.md": limits,
-    "motor-spindle.md": motor_spindle, "spindle.md": spindle,
+    "coupling.md": coupling, "error-motion.md": error_motion_page, "examples.md": examples,
+    "gallery.md": gallery, "limits.md": limits, "motor-spindle.md": motor_spindle, "spindle.md": spindle,
 }  # fmt: skip
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import SceneError, error_motion, operating_point, read_scene, with_fidelity
+from fmu_bearing import SceneError, error_motion, operating_point, read_scene, simulate, with_fidelity
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
 from fmu_bearing.metrology.error_motion import BOUND
-from fmu_bearing.metrology.nose import PER_REVOLUTION, Nose, followed
+from fmu_bearing.metrology.nose import PER_REVOLUTION, Nose, followed, resampled
 from fmu_bearing.prepare.imperfections import ball_oversizes
 from tests.conftest import EXAMPLES
 from tests.spindle.one import MIDDLE, set_of_one
@@ -122,6 +122,24 @@ def test_against_ground_holds_what_the_outer_ring_does(bare, found):
     # a pedestal of 1e8 N/m gives way by a tenth of what the contacts do
     assert ours["axial"].asynchronous != theirs["axial"].asynchronous
     assert ours["axial"].asynchronous == pytest.approx(theirs["axial"].asynchronous, rel=0.1)
+
+
+def test_a_run_that_was_read_at_other_times_has_the_same_motion(bare):
+    """The last 20 revolutions of a run at 20,000 r/min, read 77 times per revolution as a report does."""
+    fast = bare.replace({"operation.speed_rpm": 20e3})
+    turn = 60.0 / 20e3
+    names = [f"{ring}_ring.displacement.{axis}" for ring in ("inner", "outer") for axis in "xyz"]
+    run = simulate(fast, 32.0 * turn, step=turn / 77.0, outputs=names, progress=False)
+    places = np.column_stack([run[name] for name in names])
+    motion = np.hstack([places[:, :3] - places[:, 3:], np.zeros((len(places), 2))])
+    found = AtSpeed(resampled(fast, run["time"], motion))
+    wanted = AtSpeed(followed(fast, 0.0, FEW, True))
+    for direction in ("fixed y", "fixed z", "rotating", "axial"):
+        a, b = found.signal(direction), wanted.signal(direction)
+        # between readings lies a cubic: waves of order 30 are a quarter of the rate, and small
+        assert np.abs(a - b).max() < 0.05 * np.ptp(b)
+    with pytest.raises(ValueError, match=r"19 whole revolutions were kept.*run for 0\.06 s or longer"):
+        resampled(fast, run["time"][: 19 * 77 + 5], motion[: 19 * 77 + 5])
 
 
 @pytest.mark.parametrize("rpm", [600.0, -600.0])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.layout import P, Q, S, Y
@@ -92,6 +93,35 @@ def followed(
             balls.read()
             bar.at(now / PER_REVOLUTION)
     return Nose(scene, count, motion, balls.rates(1.0 / turn))
+
+
+def resampled(scene: Scene, time: NDArray[np.float64], motion: NDArray[np.float64]) -> Nose:
+    """Return the axis over the last whole revolutions of a run that was read at other times.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the speed of the run, which is constant and not 0.
+    time : ndarray, shape (points,)
+        Rising (s); cubic splines lie between. What moves faster than half their rate folds back.
+    motion : ndarray, shape (points, 5)
+        As of `Nose`, whose rates are left out.
+
+    Raises
+    ------
+    ValueError
+        For a run of fewer revolutions than an asynchronous value needs.
+    """
+    turn = 60.0 / abs(scene.operation.speed_rpm)
+    count = min(int((time[-1] - time[0]) / turn), MOST)
+    if count < FEWEST:
+        raise ValueError(
+            f"{count} whole revolutions were kept, and error motion needs {FEWEST}: run for "
+            f"{FEWEST * turn:.3g} s or longer"
+        )
+    points = count * PER_REVOLUTION
+    wanted = time[-1] - turn / PER_REVOLUTION * np.arange(points - 1, -1, -1)
+    return Nose(scene, count, CubicSpline(time, motion)(wanted), ())
 
 
 def whole_turns(ratios: list[float]) -> int:

@@ -74,9 +74,10 @@ def longest_step(table: NDArray[np.float64], method: str) -> float:
     """Longest internal step (s) that resolves every audible mode of a table; infinite where there is none.
 
     Modes above hearing bend with their stiffness at any step. Their own ringing is damped and lowered by the
-    method, unless the step's error estimate, of which they are part, asks for shorter steps.
+    method, unless the step's error estimate, of which they are part, asks for shorter steps. The explicit
+    method resolves them all: its long steps would be unstable.
     """
     rows = table.reshape(-1, P.MODE_SIZE)
     frequencies = np.sqrt(rows[:, P.MODE_STIFFNESS] / rows[:, P.MODE_MASS]) / (2.0 * math.pi)
-    heard = frequencies[frequencies <= BAND[1]]
+    heard = frequencies if method == "rk4" else frequencies[frequencies <= BAND[1]]
     return 1.0 / (_STEPS[method] * float(heard.max())) if heard.size else math.inf

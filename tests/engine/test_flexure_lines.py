@@ -121,6 +121,7 @@ def test_steps_resolve_what_is_heard():
     assert longest_step(np.ravel(rows), "esdirk4") == pytest.approx(0.25 / 18450.0)
     assert longest_step(np.ravel(rows[:1]), "rk4") == pytest.approx(1.0 / (14.0 * 6640.0))
     assert longest_step(np.ravel(rows[2:]), "esdirk4") == np.inf
+    assert longest_step(np.ravel(rows), "rk4") == pytest.approx(1.0 / (14.0 * 34460.0))
 
 
 def test_contacts_stiffen_the_outer_ring(scene):

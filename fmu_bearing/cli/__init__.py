@@ -28,6 +28,7 @@
 from fmu_bearing.cli import (  # noqa: F401
     build,
     compare,
+    error_motion,
     fits,
     identify,
     info,

@@ -5,7 +5,7 @@ The same object serves the library and the FMU, so that both give the same bits.
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,12 +168,37 @@ class Instance:
 
     def get(self, name: str) -> float:
         """Value of any variable, SI units."""
+        array, index = self._place(name)
+        return float(array[index])
+
+    def reader(self, names: Sequence[str]) -> Callable[[], NDArray[np.float64]]:
+        """Return a function that reads variables (SI units, in this order) at each call, until `reset`.
+
+        For loops that read many at every step: their places are looked up once.
+        """
+        groups: dict[int, tuple[NDArray[np.float64], list[int], list[int]]] = {}
+        for k, (array, index) in enumerate(self._place(name) for name in names):
+            _, columns, places = groups.setdefault(id(array), (array, [], []))
+            columns.append(k)
+            places.append(index)
+        parts = [(array, np.array(to), np.array(at)) for array, to, at in groups.values()]
+
+        def read() -> NDArray[np.float64]:
+            row = np.empty(len(names))
+            for array, columns, places in parts:
+                row[columns] = array[places]
+            return row
+
+        return read
+
+    def _place(self, name: str) -> tuple[NDArray[np.float64], int]:
+        """Return the array and the place in it that hold a variable; ``ValueError`` where it has no value."""
         variable = self.variable(name)
         if variable.array == "":
             if variable.value is None:
                 raise ValueError(f"{name} has no value: the table of variables gives it none")
-            return variable.value
-        return float({"u": self.u, "z": self.z, "p": self.p}[variable.array][variable.index])
+            return np.array([variable.value]), 0
+        return {"u": self.u, "z": self.z, "p": self.p}[variable.array], variable.index
 
     def initialise(self, time: float = 0.0) -> None:
         """Put the bearing into its steady state at the inputs; ``EngineError`` if there is none."""

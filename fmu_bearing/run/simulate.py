@@ -218,7 +218,8 @@ class _Library:
             bearing.set(name, value)
         feed.apply(bearing, 0.0)
         bearing.initialise()
-        rows = [self._row(0.0, names)]
+        read = bearing.reader(names)
+        times, rows = [0.0], [read()]
         time, count, ended, note = 0.0, 0, COMPLETE, ""
         while time < stop_time and not math.isclose(time, stop_time):
             following = min(feed.next_jump(time), (count + 1) * step)
@@ -232,15 +233,14 @@ class _Library:
                 break
             time = following
             count += math.isclose(time, (count + 1) * step)
-            rows.append(self._row(time, names))
+            times.append(time)
+            rows.append(read())
             tell(time)
             if stop():
                 ended, note = INTERRUPTED, f"interrupted at t = {time:.6g} s of {stop_time:g} s"
                 break
-        return structured(dict(zip(("time", *names), np.array(rows).T, strict=True))), ended, note
-
-    def _row(self, time: float, names: Sequence[str]) -> list[float]:
-        return [time, *(self.bearing.get(name) for name in names)]
+        columns = np.array(rows).reshape(len(rows), len(names)).T
+        return structured({"time": np.array(times), **dict(zip(names, columns, strict=True))}), ended, note
 
 
 class _Feed:

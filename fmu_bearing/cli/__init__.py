@@ -12,12 +12,12 @@
 ``sound``         levels, spectra, directivity, WAV
 ``studies``       choose, tradeoff, sensitivity, changes
 ``stiffness``     K and C over speed, preload and frequency, and of a set's shaft
+``error_motion``  error motion of the nose over speeds
 ``fits``          what tolerances of shaft and housing do
 ``sweep``         a scene over a grid of its values
 ``identify``      numbers of a scene from measured levels
 ``realtime``      what steps cost beside the clock, by fidelity
 ``modes``         natural frequencies, and over speed what excites them
-``error_motion``  error motion of the nose
 ``vibration``     the vibration test of a bearing by itself
 ``validate``      checks of an FMU
 ``report``        a page about a run

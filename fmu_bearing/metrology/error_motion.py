@@ -59,6 +59,17 @@ class ErrorMotion:
         What motion counts from: ``outer ring`` or ``ground``.
     doubt : str
         Why values of fidelities rings and response are in doubt; "" where they are not.
+
+    Examples
+    --------
+    >>> from fmu_bearing import error_motion, with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+    >>> found = error_motion(scene, 20e3, at=-0.01, revolutions=20)
+    >>> columns, rows = found.per_source()
+    >>> [row[2] for row in rows]
+    ['inner race', 'outer race', 'ball sizes, cage', 'ball form']
+    >>> found.against, found.speeds[0].revolutions
+    ('outer ring', 20)
     """
 
     scene: Scene

@@ -59,6 +59,7 @@ def error_motion(
 
     Terms follow ISO 230-7, from memory. --plot writes the polar plot, as polar.png in the folder, to a file.
     """
+    from fmu_bearing.extras import available
     from fmu_bearing.files import check_folder
     from fmu_bearing.metrology.at_speed import DIRECTIONS
     from fmu_bearing.metrology.error_motion import FILES, error_motion as computed
@@ -84,7 +85,8 @@ def error_motion(
             chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
             track=partial(steps, what="error motion", unit="speeds"),
         )  # fmt: skip
-        files = found.save(output, direction)
+        drawn = available("matplotlib", "a picture", "no polar.png", tell)
+        files = found.save(output, direction, picture=drawn)
         if plot is not None:
             save(found.polar(direction), plot)
             files.append(plot)

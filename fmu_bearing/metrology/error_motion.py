@@ -125,7 +125,7 @@ class ErrorMotion:
         Raises
         ------
         ValueError
-            For an unknown direction, and more than six speeds.
+            For an unknown direction.
         MissingExtra
             Without Matplotlib (extra ``plots``).
         """

@@ -11,26 +11,24 @@ from fmu_bearing.results.picture_parts import COLOURS, empty
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MOST = 6  # speeds side by side
+_BESIDE = 3  # plots in a row
 _BASE = 2.0  # radius of the base circle over the largest deviation: the contour stays clear of the middle
 _TICKS = 2  # to either side of the base circle
 
 
 def polar_plot(speeds: Sequence[AtSpeed], direction: str) -> "Figure":
-    """Return polar plots at up to six speeds, deviations on a base circle of free radius.
+    """Return a polar plot per speed, deviations on a base circle of free radius.
 
     Raises
     ------
-    ValueError
-        For more speeds.
     MissingExtra
         Without Matplotlib (extra ``plots``).
     """
-    if len(speeds) > _MOST:
-        raise ValueError(f"a polar plot shows {_MOST} speeds at most, not {len(speeds)}: name the speeds")
-    figure = empty((4.6 * len(speeds), 4.9))
+    beside = min(len(speeds), _BESIDE)
+    rows = -(-len(speeds) // beside)
+    figure = empty((4.6 * beside, 4.9 * rows))
     for place, one in enumerate(speeds, start=1):
-        _draw(figure.add_subplot(1, len(speeds), place, projection="polar"), one, direction)
+        _draw(figure.add_subplot(rows, beside, place, projection="polar"), one, direction)
     return figure
 
 

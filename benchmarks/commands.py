@@ -27,6 +27,7 @@ COMMANDS = (
     "scene new new.toml --bearing 7003C --speed 20000", "scene check S.toml", "scene show S.toml",
     "info S.toml", "fits F.toml", "modes S.toml", "stiffness S.toml --output K.csv",
     "simulate S.toml --stop-time 0.1 --output run.csv", "plot run.csv",
+    "error-motion S.toml --fidelity rings --revolutions 20 --output error",
     "realtime S.toml --step 1e-3 --duration 0.05", "build S.toml --output S.fmu", "validate S.fmu",
     f"sound S.toml {_BRIEF} --no-spread --output sound",
     "sound sound/recording.npz --at 1700 --no-directivity --no-wav --no-spread --output at",

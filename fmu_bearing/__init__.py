@@ -29,6 +29,7 @@ Data flow in one direction::
 ``run``             a scene or an FMU run over inputs; fidelity ``auto``
 ``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
+``metrology``       error motion of the axis of rotation at the nose, from runs
 ``recording``       runs that keep the sound channels; measurements, pictures, tables, WAV files
 ``vibration_test``  the vibration test of a bearing by itself: velocity of the outer ring in bands
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
@@ -61,6 +62,7 @@ if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
+    from fmu_bearing.metrology.error_motion import ErrorMotion, error_motion
     from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
     from fmu_bearing.modal.modes.natural_modes import Modes
     from fmu_bearing.modal.modes.points import modes
@@ -90,6 +92,7 @@ _PLACES = {
     "Bearing": "run.bearing",
     "Campbell": "modal.campbell.over_speed",
     "Dimensions": "scene.template",
+    "ErrorMotion": "metrology.error_motion",
     "Modes": "modal.modes.natural_modes",
     "Recording": "recording.recording",
     "Run": "results.result",
@@ -103,6 +106,7 @@ _PLACES = {
     "changes": "accuracy.changes",
     "compare": "recording.studies.compare",
     "conformity_from_stiffness": "scene.conformity",
+    "error_motion": "metrology.error_motion",
     "fits": "design.fits",
     "identify": "identification",
     "measure": "recording.measurements",
@@ -129,6 +133,7 @@ __all__ = [
     "Bearing",
     "Campbell",
     "Dimensions",
+    "ErrorMotion",
     "Modes",
     "Recording",
     "Run",
@@ -142,6 +147,7 @@ __all__ = [
     "changes",
     "compare",
     "conformity_from_stiffness",
+    "error_motion",
     "fits",
     "identify",
     "measure",

@@ -13,6 +13,8 @@ import warnings
 import numpy as np
 
 from fmu_bearing import (
+    error_motion,
+    modes,
     new_scene,
     operating_point,
     read_scene,
@@ -28,7 +30,12 @@ from fmu_bearing.engine.layout import SD, P
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.model import land_clearance, pack, prepare
+from fmu_bearing.prepare.surfaces import HIGHEST_BALL_ORDER
 from fmu_bearing.scene import imperfections, nsk, read_scene_text
+from fmu_bearing.vibration_test.lines import frequencies
+from fmu_bearing.vibration_test.reading import reading
+from fmu_bearing.vibration_test.rig import rig as vibration_rig
+from fmu_bearing.vibration_test.subject import subject as vibration_subject
 from tests.conftest import EXAMPLES, ROOT
 from tests.spindle.test_flexible import first_frequency, spindle as study
 from tests.tables import missing, rounded
@@ -299,6 +306,23 @@ def _rings_at(point):
     return f"{1e-3 * from_folder(ROOT / 'examples' / 'gallery', 'gallery').resonance(point):.1f}"
 
 
+def error_motion_page():
+    """Values and sources of the 7003C alone in fidelity rings."""
+    scene = with_fidelity(example("7003C-bare"), model="rings")
+    one = error_motion(scene, 2000.0, revolutions=50).speeds[0]
+    for found in one.values[:4]:
+        figures = (found.asynchronous, found.synchronous, found.synchronous_by_line)
+        cells = [f"{1e6 * value:.{digits}f}" for value, digits in zip(figures, (3, 4, 4), strict=True)]
+        yield f"| {found.direction} | {' | '.join(cells)} |"
+    for part in one.per_source:
+        yield f"| {part.source} | {1e6 * part.radial:.3f} | {1e6 * part.axial:.3f} |"
+    yield f"The lines hold {100.0 * one.explained:.0f} % of the energy"
+    race = one.nose.rates[0].f_o / one.nose.rates[0].f_r
+    yield f"On the 7003C of this page it is {race:.2f} f_r"
+    left = abs(np.sin(16 * np.pi * race) / (16 * np.sin(np.pi * race)))
+    yield f"Over 16 revolutions an average takes {100.0 * left:.0f} % of such a line"
+
+
 def examples():
     """Settings of the example scripts that the page repeats."""
     tolerance = from_folder(ROOT / "examples" / "tolerance_study", "tolerance")
@@ -307,9 +331,27 @@ def examples():
     yield f"where they come to {where} kHz, at which the rotor rings on the balls"
 
 
+def vibration():
+    """Modes of the rig, where the waves of balls end, and a line on an edge."""
+    tested = {name: vibration_rig(vibration_subject(name), rigid=True) for name in ("7003C", "7009C")}
+    found = {name: modes(scene).modes for name, scene in tested.items()}
+    first = {
+        (name, kind): min(one.frequency for one in found[name] if one.name.startswith(f"outer {kind}"))
+        for name in found for kind in ("tilt", "radial")
+    }  # fmt: skip
+    yield f"on the 7003C at {1e-3 * first['7003C', 'tilt']:.2f} kHz"
+    high, higher = (1e-3 * first[name, "radial"] for name in ("7009C", "7003C"))
+    yield f"on the 7009C at {high:.1f} kHz (7003C: {higher:.1f})"
+    turned = reading(with_fidelity(tested["7003C"], model="rings"))
+    rates = frequencies(tested["7003C"], turned)
+    yield f"2 f_o of the 7003C is at {2.0 * rates.f_o:.1f} Hz"
+    yield f"order {HIGHEST_BALL_ORDER}, on the 7003C {1e-3 * HIGHEST_BALL_ORDER * rates.f_b:.1f} kHz"
+
+
 PAGES = {
-    "coupling.md": coupling, "examples.md": examples, "gallery.md": gallery, "limits.md": limits,
-    "motor-spindle.md": motor_spindle, "spindle.md": spindle,
+    "coupling.md": coupling, "error-motion.md": error_motion_page, "examples.md": examples,
+    "gallery.md": gallery, "limits.md": limits, "motor-spindle.md": motor_spindle, "spindle.md": spindle,
+    "vibration.md": vibration,
 }  # fmt: skip
 
 

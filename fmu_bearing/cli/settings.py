@@ -1,4 +1,4 @@
-"""What ``--set`` and ``--fidelity`` make of a scene: keys, and inputs of the model by name."""
+"""What ``--set`` and ``--fidelity`` make of a scene: keys, and inputs of the model by name; axes."""
 
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
@@ -9,6 +9,8 @@ from fmu_bearing.cli.base import Refusal, shaft_speed
 if TYPE_CHECKING:
     from fmu_bearing.scene import Scene
 
+#: How an axis of numbers is written.
+AXIS = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
 #: Key of the scene behind an input, where it is not the input's own name in ``operation``.
 _KEYS = {
     "preload": "mounting.preload_N",
@@ -91,6 +93,21 @@ def number(setting: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise Refusal(f"--set {setting}: write a number, in SI units, as preload=300") from None
+
+
+def numbers(name: str, text: str | None) -> list[float] | None:
+    """Return the numbers of an axis, as of ``--speeds``, from text; `Refusal` for what is none."""
+    from fmu_bearing.sweeps.axes import SweepError, parse_values
+
+    if text is None:
+        return None
+    try:
+        found = parse_values(name, text)
+    except SweepError:
+        found = [text]
+    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in found):
+        raise Refusal(f"--{name} {text} is refused: write {AXIS}")
+    return [float(value) for value in found]
 
 
 def at_speed(rpm: float | None, settings: list[str] | None) -> list[str] | None:

@@ -18,7 +18,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
-from fmu_bearing.cli.settings import changed
+from fmu_bearing.cli.settings import AXIS as _SYNTAX, changed, numbers
 from fmu_bearing.progress import steps
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.stiffness.stiffness_table import Spacing
 
 _ENDINGS = {"csv": ".csv", "netcdf": ".nc", "ross": ".toml"}
-_SYNTAX = "LOW:HIGH:COUNT, LOW:HIGH:COUNTlog or VALUE,VALUE,..."
 _COLUMNS = ("r/min", "N", "K axial", "K radial", "K tilt", "C axial", "C radial", "C tilt")
 _PERCENT = 100.0
 
@@ -77,7 +76,7 @@ def stiffness(
         if mirrored and form != "ross":
             raise Refusal("--mirrored is for --format ross: tables are in the bearing's own axes")
         asked = {
-            name: _values(name, text)
+            name: numbers(name, text)
             for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
         }
         for speed in asked["speeds"] or ():
@@ -114,21 +113,6 @@ def stiffness(
     for line in found.cautions():
         tell(f"caution: {line}")
     tell(f"written: {', '.join(map(str, files))}")
-
-
-def _values(name: str, text: str | None) -> list[float] | None:
-    """Return the numbers of an axis from text."""
-    from fmu_bearing.sweeps.axes import SweepError, parse_values
-
-    if text is None:
-        return None
-    try:
-        found = parse_values(name, text)
-    except SweepError:
-        found = [text]
-    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in found):
-        raise Refusal(f"--{name} {text} is refused: write {_SYNTAX}")
-    return [float(value) for value in found]
 
 
 def _spacing(text: str) -> "Spacing":

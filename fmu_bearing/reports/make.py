@@ -21,7 +21,14 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.modes.modes_section import section as what_vibrates
 from fmu_bearing.reports.page.blocks import Absent, Section
 from fmu_bearing.reports.page.render import render
-from fmu_bearing.reports.sections import ball_contacts, conditions, friction, ring_motion, summary
+from fmu_bearing.reports.sections import (
+    ball_contacts,
+    conditions,
+    error_motion,
+    friction,
+    ring_motion,
+    summary,
+)
 from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.verdict_table import judged, overall_of
 from fmu_bearing.reports.sections.what_to_change import section as what_to_change
@@ -356,6 +363,7 @@ def _sections(
         ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, microphones)),
         ("velocities", "Velocities", lambda: ring_motion.velocities(subject)),
         ("orbits", "Orbits", lambda: ring_motion.orbits(subject)),
+        ("error-motion", "Error motion", lambda: error_motion.error_motion(subject)),
         ("contacts", "Contacts", lambda: ball_contacts.contacts(subject)),
         ("friction", "Friction and heat", lambda: friction.friction(subject)),
         ("assumptions", "Assumptions and choices", lambda: conditions.assumptions(subject)),

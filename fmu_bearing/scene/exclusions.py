@@ -16,9 +16,11 @@ from fmu_bearing.scene.spindle import Load
 
 #: What can be asked of a scene, or given in its file, and is not to be had of every scene.
 Subject = Literal[
+    "against",
     "changes",
     "channels",
     "comparison",
+    "error motion",
     "fidelities",
     "housing",
     "identification",
@@ -214,6 +216,12 @@ EXCLUSIONS = (
     ),
     Exclusion(
         _SET,
+        {"against": "error motion against an outer ring"},
+        "it has several, and its nose moves against the ground",
+        "leave `against` out, or give `ground`",
+    ),
+    Exclusion(
+        _SET,
         {"unbalance": "an unbalance in `[imperfections]`"},
         "it is the eccentricity of one rotor, and a set has heavy spots on its shaft",
         "leave the key out and give `[[spindle.shaft.unbalance]]` with `position_mm` and `amount_g_mm` (mass "
@@ -275,6 +283,7 @@ EXCLUSIONS = (
         _PORT,
         {
             "recording": "a recording of sound channels",
+            "error motion": "error motion of the nose",
             "measurement": "a measurement of sound",
             "comparison": "a comparison by new runs",
             "changes": "a study of changes",

@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.names import chosen_names, known
+from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
+from fmu_bearing.metrology.nose import followed
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import exclusion
 from fmu_bearing.sweeps.axes import SweepError
 
 #: Default figures.
@@ -42,6 +45,15 @@ STATISTICS = {
     "last": "at the end of the window",
     "1x": "rms of the part at shaft speed, vertical and horizontal together",
 }
+#: Of a run of its own, read by parts of a revolution: values of `AtSpeed` in each direction.
+_ERROR_MOTION, _PREFIX = "error motion", "error_motion."
+_VALUES = {
+    "asynchronous": "Asynchronous error motion",
+    "synchronous": "Synchronous error motion, averaged,",
+    "synchronous_by_line": "Synchronous error motion by line",
+}
+#: How each figure is taken, in words.
+HOW = STATISTICS | {_ERROR_MOTION: "over 20 to 120 whole revolutions of a run of its own"}
 _MOTION, _PLACE = ".velocity", ".displacement"
 _AXES = ("x", "y", "z")
 _TURN = "1x"
@@ -103,6 +115,7 @@ def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Fig
     """
     table = _table(scene)
     found: dict[str, Figure] = {}
+    of_axis = {} if exclusion(scene, "error motion") else _error_motions()
     for pattern in DEFAULT if patterns is None else patterns:
         name, _, statistic = pattern.partition(":")
         if statistic:
@@ -110,9 +123,13 @@ def figures_of(scene: Scene, patterns: Sequence[str] | None = None) -> tuple[Fig
         if patterns is None:
             names = _matching(name, table)
         else:
-            names = chosen_names([name], table, [])
+            # a run of its own is not for a pattern of all variables
+            apart = of_axis if name.startswith(_PREFIX) else ()
+            names = chosen_names([name], [*table, *apart], [])
         for one in names:
-            figure = _figure(one, statistic, table)
+            if one in of_axis and statistic:
+                raise SweepError(f"{one}:{statistic} is refused: it is a value over revolutions already")
+            figure = of_axis.get(one) or _figure(one, statistic, table)
             found[figure.name] = figure
     return tuple(found.values())
 
@@ -132,6 +149,9 @@ def read(
     place = {column: k for k, column in enumerate(columns_of(figures))}
     every, found = parts_of(figures), []
     for figure in figures:
+        if figure.statistic == _ERROR_MOTION:
+            found.append(math.nan)  # of another run, see `error_motions`
+            continue
         moved = bool(figure.places)
         signals = rows[:, [place[column] for column in (figure.places or figure.columns)]]
         if not np.isfinite(signals).all():
@@ -141,6 +161,38 @@ def read(
         else:
             found.append(_value(figure, signals[every::every]))
     return tuple(found)
+
+
+def error_motions(figures: Sequence[Figure], scene: Scene) -> dict[str, float]:
+    """Return the figures of error motion by name (m, rad), from a run of their own; {} where none is wanted.
+
+    At the middle of a single bearing against its outer ring, at the nose of a set against the ground. NaN
+    where the shaft does not turn.
+    """
+    wanted = [one.name for one in figures if one.statistic == _ERROR_MOTION]
+    if not wanted:
+        return {}
+    if scene.operation.speed_rpm == 0.0:
+        return dict.fromkeys(wanted, math.nan)
+    values = AtSpeed(followed(scene, 0.0, None, scene.spindle is None)).values
+    found = {_named(kind, one.direction): getattr(one, kind) for one in values for kind in _VALUES}
+    return {name: found[name] for name in wanted}
+
+
+def _named(kind: str, direction: str) -> str:
+    return f"{_PREFIX}{kind}.{direction.replace(' ', '_')}"
+
+
+def _error_motions() -> dict[str, Figure]:
+    """Return all figures of error motion by name."""
+    return {
+        _named(kind, direction): Figure(
+            _named(kind, direction), _ERROR_MOTION, (), "rad" if "tilt" in direction else "m",
+            f"{words} {direction}",
+        )
+        for kind, words in _VALUES.items()
+        for direction in DIRECTIONS
+    }  # fmt: skip
 
 
 def _value(figure: Figure, signals: NDArray[np.float64]) -> float:

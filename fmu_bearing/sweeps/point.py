@@ -18,10 +18,10 @@ from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
 from fmu_bearing.scene import Scene
-from fmu_bearing.sweeps.figures import columns_of, figures_of, parts_of, read
+from fmu_bearing.sweeps.figures import columns_of, error_motions, figures_of, parts_of, read
 
 #: Packages whose code computes the figures, beside the engine.
-_ROOMS = ("acoustics", "elastic", "formulas", "interface", "prepare", "scene", "sweeps")
+_ROOMS = ("acoustics", "elastic", "formulas", "interface", "metrology", "prepare", "scene", "sweeps")
 
 #: Sound block of each bearing; a single empty one without sound.
 Blocks = tuple[NDArray[np.float64], ...]
@@ -125,6 +125,7 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
         bearing.step(h)
         row[:] = bearing.z[columns]
     found = dict(zip((one.name for one in there), read(there, rows, h, bearing.u[U.SPEED]), strict=True))
+    found |= error_motions(there, scene)
     return tuple(found.get(name, math.nan) for name in task.figures)
 
 

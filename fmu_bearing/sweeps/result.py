@@ -12,7 +12,7 @@ import numpy as np
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
 from fmu_bearing.results.table import write_csv
-from fmu_bearing.sweeps.figures import STATISTICS
+from fmu_bearing.sweeps.figures import HOW
 from fmu_bearing.sweeps.plan import Plan
 from fmu_bearing.sweeps.point import Outcome, code_digest
 
@@ -36,7 +36,7 @@ def dataset(plan: Plan, outcomes: dict[str, Outcome]) -> "xarray.Dataset":
 
     variables: dict[str, Any] = {}
     for place, figure in enumerate(plan.figures):
-        about = {"units": figure.unit, "long_name": figure.words, "statistic": STATISTICS[figure.statistic]}
+        about = {"units": figure.unit, "long_name": figure.words, "statistic": HOW[figure.statistic]}
         values = [(blank if row is None else row.figures)[place] for row in rows]
         variables[figure.name] = (dims, grid(values), about)
     if SEED not in dims:

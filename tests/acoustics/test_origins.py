@@ -61,3 +61,17 @@ def test_the_simplest_line_near_an_order_explains_it():
 def test_a_shaft_at_rest_has_no_orders():
     with pytest.raises(ValueError, match="f_r = 0 Hz"):
         bearing_origins(kinematic_frequencies(0.0, 12, 4.5e-3, 26e-3, 0.26), 20.0)
+
+
+def test_a_line_knows_the_order_of_its_waves():
+    found = named(bearing_origins(RATES, 60.0, sidebands=4, ball_sidebands=4))
+    for name, wave, beside in (
+        ("f_i - f_r", 11, -1), ("2 f_i + 4 f_r", 28, 4), ("2 f_o", 24, 0), ("2 f_o - f_r", 24, -1),
+        ("5 f_b + 3 f_c", 5, 3), ("2 f_c", 0, 0),
+    ):  # fmt: skip
+        assert (found[name].wave, found[name].beside) == (wave, beside), name
+    # of the inner race: n waves turn with the shaft, and balls pass with f_c
+    for one in (one for one in found.values() if one.source == INNER):
+        passes = one.wave - one.beside  # whole balls
+        assert one.order * RATES.f_r == pytest.approx(one.wave * RATES.f_r - passes * RATES.f_c, rel=1e-12)
+    assert "2 f_b + 2 f_c" not in named(bearing_origins(RATES, 60.0)), "a rigid ring takes no lobes"

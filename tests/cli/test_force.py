@@ -31,6 +31,10 @@ WRITING = {
     ),
     "fits": (("fits", "{scene}", "-o", "{folder}/f.csv"), ["f.csv"]),
     "fits, picture": (("fits", "{scene}", "--plot", "{folder}/f.png"), ["f.png"]),
+    "error-motion": (("error-motion", "{scene}", "-o", "{folder}"), ["lines.csv", "polar.png"]),
+    "error-motion, picture": (
+        ("error-motion", "{scene}", "-o", "{folder}", "--plot", "{folder}/p.png"), ["p.png"],
+    ),
     "modes": (("modes", "{scene}", "-o", "{folder}"), ["modes.html"]),
     "modes, picture": (("modes", "{scene}", "--plot", "{folder}/c.png"), ["c.png"]),
     "tradeoff": (("tradeoff", "{scene}", "-o", "{folder}"), ["tradeoff.csv"]),

@@ -10,21 +10,43 @@ from fmu_bearing.cli import app
 from tests.pages import DOCS
 
 RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
-SCENES = {*RUN, "build", "info", "modes", "stiffness", "fits", "realtime", "choose", "vibration"}
+SCENES = {
+    *RUN,
+    "build",
+    "info",
+    "modes",
+    "stiffness",
+    "fits",
+    "realtime",
+    "choose",
+    "error-motion",
+    "vibration",
+}
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
-    "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
+    "sensitivity", "sweep", "identify", "realtime", "fits", "error-motion", "vibration",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
     "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new", "vibration"}
     - {"sweep", "identify"},
-    "--fidelity": {*RUN, "build", "realtime", "vibration"} - {"tradeoff", "sensitivity"},
+    "--fidelity": {*RUN, "build", "realtime", "error-motion", "vibration"} - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
-    "--plot": {"simulate", "sound", "compare", "modes", "stiffness", "fits", "tradeoff", "sweep", "identify"},
+    "--plot": {
+        "simulate",
+        "sound",
+        "compare",
+        "modes",
+        "stiffness",
+        "fits",
+        "tradeoff",
+        "sweep",
+        "identify",
+        "error-motion",
+    },  # fmt: skip
     "--output": WRITE - {"scene new"},
     "--force": WRITE,
     "--quick": {"tradeoff", "sensitivity"},
@@ -48,6 +70,9 @@ OTHERWISE = {
     ("sweep", "--variables"): "statistics",
     ("plot", "--scene"): "a result in .nc knows it",
     ("sound", "--scene"): "With a result",
+    ("sound", "--at"): "What makes the noise",
+    ("error-motion", "--at"): "Place of the point",
+    ("error-motion", "--speeds"): "default: the scene's",
     ("sound", "--microphone"): "Only these",
     ("compare", "--microphone"): "the loudest of A",
     ("modes", "--speeds"): "Campbell diagram",

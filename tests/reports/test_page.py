@@ -140,6 +140,7 @@ def test_pressures_of_an_fmu_alone(tmp_path):
         "directivity",
         "velocities",
         "orbits",
+        "error-motion",
         "contacts",
         "friction",
         "assumptions",

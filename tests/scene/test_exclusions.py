@@ -11,6 +11,7 @@ from fmu_bearing import (
     campbell,
     changes,
     compare,
+    error_motion,
     identify,
     modes,
     operating_point,
@@ -81,6 +82,9 @@ DOORS = (
         "identification": lambda scene, folder: identify(scene, [], ["mounting.preload_N"]),
     }),
     (pair(), SINGLE, {"run report": lambda scene, folder: make(scene, folder / "a.html", changes=True)}),
+    (pair(), SINGLE, {
+        "against": lambda scene, folder: error_motion(scene, against="outer ring"),
+    }),
     (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
     (sounding("compact", pair()), sounding("compact", pair(**SPRINGS)), {"housing": HOUSING}),
     (sounding("compact", pair(**SPRINGS)), sounding("compact", pair()), {"housing": HOUSING}),
@@ -94,6 +98,7 @@ DOORS = (
     (read_scene(PORT), pair(), {"sound": {"sound": {"microphone": [MICROPHONE]}}}),
     (read_scene(PORT), pair(), {
         "recording": lambda scene, folder: record(scene, 1e-3),
+        "error motion": lambda scene, folder: error_motion(scene),
         "measurement": measured,
         "comparison": lambda scene, folder: compare(scene, scene),
         "changes": lambda scene, folder: changes(scene),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fmu_bearing import error_motion
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import S, U, Y
 from fmu_bearing.prepare.sound import sound_block
@@ -10,7 +11,9 @@ from fmu_bearing.run import metrics as comparing
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import sweep
-from fmu_bearing.sweeps.figures import _once_per_turn
+from fmu_bearing.sweeps.axes import SweepError
+from fmu_bearing.sweeps.figures import _once_per_turn, figures_of
+from fmu_bearing.sweeps.point import run_point, task_of
 from tests.sweeps.points import small
 
 
@@ -124,3 +127,25 @@ def test_a_figure_that_only_some_points_have(scene):
     ).squeeze()  # fmt: skip
     assert np.isfinite(data["friction_torque"]).all()
     assert np.isfinite(data["ball[12].velocity"][0]) and np.isnan(data["ball[12].velocity"][1])
+
+
+def test_error_motion_is_a_figure_of_a_run_of_its_own(rings):
+    """At the middle of the bearing, as `error_motion` has it; a speed of 0 has none."""
+    wanted = ["friction_torque", "error_motion.asynchronous.rotating", "error_motion.asynchronous.tilt_*"]
+    scene = rings.replace({"sound": None, "operation.speed_rpm": 20e3})
+    there = figures_of(scene, wanted)
+    assert [one.name for one in there] == [
+        "friction_torque", "error_motion.asynchronous.rotating", "error_motion.asynchronous.tilt_about_y",
+        "error_motion.asynchronous.tilt_about_z", "error_motion.asynchronous.tilt_rotating",
+    ]  # fmt: skip
+    assert [one.unit for one in there[:3]] == ["N.m", "m", "rad"]
+    done = run_point(task_of(scene, 0.0, 1e-3, tuple(one.name for one in there), None))
+    assert done.reason == "", done.reason
+    values = {one.direction: one.asynchronous for one in error_motion(scene).speeds[0].values}
+    # the same run: the same bits
+    assert done.figures[1:] == tuple(
+        values[name] for name in ("rotating", "tilt about y", "tilt about z", "tilt rotating")
+    )
+    with pytest.raises(SweepError, match="is a value over revolutions already"):
+        figures_of(scene, ["error_motion.synchronous.axial:max"])
+    assert not any(one.name.startswith("error_motion") for one in figures_of(scene, ["*"]))

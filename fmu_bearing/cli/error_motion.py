@@ -1,0 +1,107 @@
+"""``fmu-bearing error-motion``: synchronous and asynchronous error motion of the nose over speeds."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fmu_bearing.cli.base import (
+    Refusal,
+    app,
+    check_new,
+    check_new_in,
+    print_json,
+    refusals,
+    shaft_speed,
+    tell,
+)
+from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Plot, SceneFile, Settings
+from fmu_bearing.cli.settings import AXIS, changed, numbers
+from fmu_bearing.progress import steps
+
+_PERCENT = 100.0
+
+
+@app.command()
+def error_motion(
+    scene: SceneFile,
+    speeds: Annotated[
+        str | None,
+        typer.Option(metavar="VALUES", help=f"r/min: {AXIS}; default: the scene's."),
+    ] = None,
+    at: Annotated[
+        float,
+        typer.Option(
+            "--at",
+            metavar="MM",
+            help="Place of the point: from the middle of a bearing; of a set from the nose, negative: ahead.",
+        ),
+    ] = 0.0,
+    revolutions: Annotated[
+        int | None,
+        typer.Option(help="20 or more; default: 20 to 120, in which the cages turn most wholly."),
+    ] = None,
+    against: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="outer ring (default of a single bearing) or ground (of a set)."),
+    ] = None,
+    direction: Annotated[str, typer.Option(metavar="NAME", help="Of the polar plot.")] = "rotating",
+    settings: Settings = None,
+    fidelity: Fidelity = None,
+    plot: Plot = None,
+    output: Folder = Path("out/error-motion"),
+    force: Force = False,
+    catalogue: Catalogues = None,
+    as_json: Json = False,
+) -> None:
+    """Compute error motion of the axis of rotation: synchronous, asynchronous, its lines and sources.
+
+    Terms follow ISO 230-7, from memory. --plot writes the polar plot, as polar.png in the folder, to a file.
+    """
+    from fmu_bearing.files import check_folder
+    from fmu_bearing.metrology.at_speed import DIRECTIONS
+    from fmu_bearing.metrology.error_motion import FILES, error_motion as computed
+    from fmu_bearing.results.picture_parts import check_picture, save
+    from fmu_bearing.results.table import show
+    from fmu_bearing.scene.read import read_scene, with_fidelity
+
+    with refusals():
+        if direction not in DIRECTIONS:
+            raise Refusal(f"--direction {direction} is refused: it is {', '.join(DIRECTIONS)}")
+        rpm = numbers("speeds", speeds)
+        for speed in rpm or ():
+            shaft_speed(speed, "--speeds")
+        given = read_scene(scene)
+        check_folder(output)
+        if plot is not None:
+            check_picture(plot)
+        check_new_in(force, output, *FILES)
+        check_new(force, plot)
+        chosen, inputs = changed(given, settings)
+        chosen = chosen if fidelity is None else with_fidelity(chosen, model=fidelity)
+        found = computed(
+            chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
+            track=partial(steps, what="error motion", unit="speeds"),
+        )  # fmt: skip
+        files = found.save(output, direction)
+        if plot is not None:
+            save(found.polar(direction), plot)
+            files.append(plot)
+    if as_json:
+        print_json(found.summary() | {"files": files})
+        return
+    place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
+    show(f"error motion, {place}", *found.table())
+    show("largest lines", *found.lines())
+    if len(found.speeds[0].nose.rates) > 1:
+        show("asynchronous, lines of one bearing alone", *found.per_bearing())
+    show("asynchronous, lines of one source alone", *found.per_source())
+    for one in found.speeds:
+        typer.echo(
+            f"{one.rpm:g} r/min: the lines hold {_PERCENT * one.explained:.0f} % of the energy of the "
+            "asynchronous radial motion"
+        )
+    for line in found.remarks():
+        tell(f"remark: {line}")
+    tell(f"written: {', '.join(map(str, files))}")

@@ -1,0 +1,69 @@
+"""Polar plots of error motion about the circle of least squares: revolutions pale, mean contour bold."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
+from fmu_bearing.results.picture_parts import COLOURS, empty
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_MOST = 6  # speeds side by side
+_BASE = 2.0  # radius of the base circle over the largest deviation: the contour stays clear of the middle
+_TICKS = 2  # to either side of the base circle
+
+
+def polar_plot(speeds: Sequence[AtSpeed], direction: str) -> "Figure":
+    """Return polar plots at up to six speeds, deviations on a base circle of free radius.
+
+    Raises
+    ------
+    ValueError
+        For more speeds.
+    MissingExtra
+        Without Matplotlib (extra ``plots``).
+    """
+    if len(speeds) > _MOST:
+        raise ValueError(f"a polar plot shows {_MOST} speeds at most, not {len(speeds)}: name the speeds")
+    figure = empty((4.6 * len(speeds), 4.9))
+    for place, one in enumerate(speeds, start=1):
+        _draw(figure.add_subplot(1, len(speeds), place, projection="polar"), one, direction)
+    return figure
+
+
+def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
+    unit, factor = DIRECTIONS[direction]
+    rows, mean = one.polar(direction)
+    largest = factor * max(float(np.abs(rows).max()), 1e-15)
+    step = _round_below(largest / _TICKS)
+    base = _BASE * largest
+    angle = np.sign(one.rpm) * 2.0 * np.pi * np.arange(1, rows.shape[1] + 1) / rows.shape[1]
+    ax.plot(np.tile(angle, len(rows)), base + factor * rows.ravel(), color="0.6", linewidth=0.4, alpha=0.5)
+    ax.plot(_closed(angle), base + factor * _closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
+    around = np.linspace(0.0, 2.0 * np.pi, 181)
+    ax.plot(around, np.full_like(around, base), color="0.2", linewidth=0.8, linestyle="--")
+    ax.set_theta_zero_location("N")
+    ax.set_ylim(0.0, base + 1.1 * largest)
+    ticks = step * np.arange(-_TICKS, _TICKS + 1)
+    ax.set_yticks(base + ticks, [f"{tick:+g}" if tick else "0" for tick in ticks], fontsize=7)
+    ax.grid(True, color="0.9")
+    values = next(each for each in one.values if each.direction == direction)
+    ax.set_title(
+        f"{direction}, {one.rpm:,.0f} r/min, {one.revolutions} revolutions\n"
+        f"asynchronous {factor * values.asynchronous:.3g}, synchronous {factor * values.synchronous:.2g} "
+        f"(averaged), {factor * values.synchronous_by_line:.2g} (by line) {unit}",
+        fontsize=8,
+    )  # fmt: skip
+
+
+def _closed(values: Any) -> Any:
+    return np.append(values, values[:1])
+
+
+def _round_below(value: float) -> float:
+    """Return 1, 2 or 5 times a power of ten, at most ``value``."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(max(one for one in (1.0, 2.0, 5.0) if one * power <= value) * power)

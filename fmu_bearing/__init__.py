@@ -79,11 +79,13 @@ if TYPE_CHECKING:
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.conformity import conformity_from_stiffness
     from fmu_bearing.scene.read import with_fidelity
+    from fmu_bearing.scene.surface import Surface
     from fmu_bearing.scene.template import Dimensions
     from fmu_bearing.steady.statics import Statics, statics
     from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
     from fmu_bearing.sweeps.global_sensitivity import global_sensitivity
+    from fmu_bearing.vibration_test.inverse import surface
     from fmu_bearing.vibration_test.vibration import vibration
 
 __version__ = "0.1.0"
@@ -101,6 +103,7 @@ _PLACES = {
     "SceneError": "scene",
     "Statics": "steady.statics",
     "Stiffness": "steady.stiffness.scene_stiffness",
+    "Surface": "scene.surface",
     "audio": "recording.measurements",
     "build_fmu": "run.build",
     "campbell": "modal.campbell.over_speed",
@@ -124,6 +127,7 @@ _PLACES = {
     "spread": "recording.studies.spread",
     "statics": "steady.statics",
     "stiffness": "steady.stiffness.scene_stiffness",
+    "surface": "vibration_test.inverse",
     "sweep": "sweeps",
     "tables": "recording.measurements",
     "verdicts": "design.verdicts",
@@ -143,6 +147,7 @@ __all__ = [
     "SceneError",
     "Statics",
     "Stiffness",
+    "Surface",
     "audio",
     "build_fmu",
     "campbell",
@@ -166,6 +171,7 @@ __all__ = [
     "spread",
     "statics",
     "stiffness",
+    "surface",
     "sweep",
     "tables",
     "verdicts",

@@ -13,7 +13,7 @@ import fmu_bearing
 from tests.conftest import ROOT
 
 #: Examples that take seconds, of what has quick tests of its own.
-LONG = {"changes", "compare", "identify", "report", "spread", "vibration"}
+LONG = {"changes", "compare", "identify", "report", "spread", "surface", "vibration"}
 
 
 @pytest.mark.parametrize(

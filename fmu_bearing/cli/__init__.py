@@ -19,6 +19,7 @@
 ``realtime``      what steps cost beside the clock, by fidelity
 ``modes``         natural frequencies, and over speed what excites them
 ``vibration``     the vibration test of a bearing by itself
+``inverse``       its --measured: a surface from values of a supplier
 ``error_motion``  error motion of the nose over speeds
 ``validate``      checks of an FMU
 ``report``        a page about a run

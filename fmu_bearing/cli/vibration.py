@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from fmu_bearing.cli import inverse
 from fmu_bearing.cli.base import (
     Refusal,
     app,
@@ -21,6 +22,7 @@ from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps
 from fmu_bearing.scene.template import MATERIALS
 
+SEEDS = 8  # draws of the surfaces
 _SHOWN = 4  # lines of a band
 
 
@@ -41,7 +43,7 @@ def vibration(
         str | None,
         typer.Option(help="Tolerance class of the surfaces; default: the scene's own, of a bearing P4."),
     ] = None,
-    seeds: Annotated[int, typer.Option(help="Draws of the surfaces, the first one the scene's own.")] = 8,
+    seeds: Annotated[int, typer.Option(help="Draws of the surfaces, the first one the scene's own.")] = SEEDS,
     limits: Annotated[
         str | None, typer.Option(metavar="L,M,H", help="What the bands may have, in the unit of --unit.")
     ] = None,
@@ -58,6 +60,11 @@ def vibration(
         float | None,
         typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min; default: by the outside diameter."),
     ] = None,
+    measured: inverse.Values = None,
+    line: inverse.Lines = None,
+    std: inverse.Deviation = None,
+    at_most: inverse.AtMost = False,
+    exact_law: inverse.ExactLaw = False,
     settings: Settings = None,
     fidelity: Fidelity = None,
     output: Folder = Path("out/vibration"),
@@ -71,6 +78,8 @@ def vibration(
     three places. Shown are both pieces with their range over the seeds, and each source of vibration alone.
     Written are bands.png, lines.csv (the strongest lines, named, with what makes them) and spectrum.csv.
     Speed, loads, arbor and loading pieces are assumed.
+
+    With --measured the way is the other one: from values of a supplier's test to the surfaces.
     """
     from fmu_bearing.extras import need
     from fmu_bearing.results.table import show
@@ -79,14 +88,21 @@ def vibration(
     from fmu_bearing.vibration_test.subject import subject
     from fmu_bearing.vibration_test.vibration import vibration as test
 
+    asked = inverse.Asked(measured, line or (), std, at_most, exact_law)
     with refusals():
-        check_folder(output)
-        check_new_in(force, output, *FILES)
-        need("matplotlib", "a picture")
         known = {str(one): one for one in UNITS}
         if unit not in known:
             raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
         shaft_speed(speed)
+        asked.refuse_alone()
+        if measured is not None:
+            inverse.unused({"--limits": limits, "--rigid": rigid, "--seeds": seeds != SEEDS})
+            bearing = scene_with(subject(source, kind, grade), settings, fidelity)
+            inverse.find(bearing, asked, output, force, known[unit], speed, load, as_json)
+            return
+        check_folder(output)
+        check_new_in(force, output, *FILES)
+        need("matplotlib", "a picture")
         allowed = None if limits is None else _limits(limits)
         found = test(
             scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
@@ -101,8 +117,8 @@ def vibration(
     heading = f"{found.scene.name}: vibration test, {at:g} r/min, {found.scene.mounted.preload_N:g} N"
     show(heading, *found.table(known[unit]))
     show(f"strongest lines, {_SHOWN} of each band", *found.lines_table(_SHOWN))
-    for line in found.remarks:
-        typer.echo(line)
+    for remark in found.remarks:
+        typer.echo(remark)
     tell(f"written: {', '.join(map(str, files))}")
 
 

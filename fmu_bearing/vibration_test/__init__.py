@@ -9,6 +9,8 @@
 ``lines``      lines of the spectrum, named, and the energy of each wave
 ``remarks``    what to know of the figures
 ``files``      the picture of the bands, tables of lines and spectra
+``inverse``    `surface`: from measured values to the law of the surfaces
+``inverse``    `surface`: from measured values to the law of the surfaces
 ``vibration``  `vibration`: the test over seeds, on both pieces, each source alone
 =============  ==========================================================================
 """

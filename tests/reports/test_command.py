@@ -24,7 +24,10 @@ def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp
     )  # fmt: skip
     assert made.exit_code == 0, made.output
     reported = json.loads(made.stdout)
-    assert reported["figures"]["speed_rpm"] == pytest.approx(12_000) and reported["missing"] == {}
+    assert reported["figures"]["speed_rpm"] == pytest.approx(12_000)
+    # 0.05 s are 10 revolutions
+    assert set(reported["missing"]) == {"error-motion"}
+    assert "error motion needs 20: run for 0.1 s or longer" in reported["missing"]["error-motion"]
     assert reported["bytes"] == page.stat().st_size
     read = Page(page)
     assert read.headings[0] == (1, "Try <1>")

@@ -324,7 +324,8 @@ def test_scatter_leaves_the_mean_energy_and_belongs_to_the_order():
     assert energies.var() == pytest.approx(1.0, abs=4.0 * (8.0 / energies.size) ** 0.5)
     # neighbours in race, seed and order know nothing of each other
     for one, other in (
-        (energies[0], energies[1]), (energies[:, 1:], energies[:, :-1]), (energies[..., 1:], energies[..., :-1])
+        (energies[0], energies[1]), (energies[:, 1:], energies[:, :-1]),
+        (energies[..., 1:], energies[..., :-1]),
     ):  # fmt: skip
         assert abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 4.0 * one.size**-0.5
     assert np.array_equal(order_energies(3, 1, 12), energies[1, 3, 11])

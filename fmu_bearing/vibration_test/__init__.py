@@ -10,7 +10,6 @@
 ``remarks``    what to know of the figures
 ``files``      the picture of the bands, tables of lines and spectra
 ``inverse``    `surface`: from measured values to the law of the surfaces
-``inverse``    `surface`: from measured values to the law of the surfaces
 ``vibration``  `vibration`: the test over seeds, on both pieces, each source alone
 =============  ==========================================================================
 """

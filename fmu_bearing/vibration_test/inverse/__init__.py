@@ -101,12 +101,10 @@ def surface(
     check(bands, dict(lines or {}), deviation)
     found = spectra(given, piece, speed_rpm, load_N, bar)
     asked = measured(found, bands, dict(lines or {}), deviation, at_most)
-    return from_spectra(found, given, asked, exact_law)
+    return from_spectra(found, given, asked, exact_law, DRAWS)
 
 
-def from_spectra(
-    found: Spectra, bearing: Scene, given: Measured, exact_law: bool = False, draws: int = DRAWS
-) -> Surface:
+def from_spectra(found: Spectra, bearing: Scene, given: Measured, exact_law: bool, draws: int) -> Surface:
     """Find the surfaces of a bearing from measured values and the spectra of its sources.
 
     Raises

@@ -2,6 +2,7 @@
 
 import csv
 import signal
+import subprocess
 import sys
 import threading
 
@@ -40,6 +41,28 @@ def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):
         assert done.exit_code == 0 and "11 points to 0.01 s, 5 variables" in done.stdout, done.output
         found[name] = result.read_bytes()
     assert found["scene"] == found["fmu"]
+
+
+def test_simulate_loads_only_what_a_first_run_needs(rings_file, tmp_path):
+    """A first run is mostly loading: SciPy's signal and statistics would take half a second more.
+
+    The sound block and the points inside bodies are made whatever the cache holds.
+    """
+    code = f"""
+import sys
+from fmu_bearing.acoustics.radiation.bem.meridian import cylinder
+from fmu_bearing.acoustics.radiation.bem.solver import inner_points
+from fmu_bearing.cli import app
+from fmu_bearing.prepare.sound import Block, sound_parameters
+from fmu_bearing.scene import read_scene
+
+app({["simulate", str(rings_file), "-t", "0.001", "-o", str(tmp_path / "run.csv")]}, standalone_mode=False)
+assert len(sound_parameters(read_scene({str(rings_file)!r}), Block()))
+assert len(inner_points([cylinder("housing", 1, 0.1, 0.0, 0.1)], 300.0))
+strangers = {{"scipy.signal", "scipy.stats", "matplotlib", "plotly", "pandas", "xarray", "distributed"}}
+assert not strangers & set(sys.modules), strangers & set(sys.modules)
+"""
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=600)
 
 
 def test_simulate_reports_machines_and_writes_netcdf(run, rings_file, tmp_path):

@@ -2,6 +2,7 @@
 
 =============  ==============================================================================
 ``fir``        the decimator, and filters fitted to transfer functions
+``designed``   filters of fixed rates as numbers
 ``weighting``  A-weighting, third octaves, levels
 ``blocks``     direct form or convolution by blocks, whichever costs less
 ``shares``     what the work on a block costs, and which samples do it

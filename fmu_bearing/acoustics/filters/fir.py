@@ -1,19 +1,18 @@
 """Finite impulse responses for the engine: the decimator, and fits to transfer functions."""
 
 import functools
+from collections.abc import Sequence
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 from scipy.linalg import solve, toeplitz
 
+from fmu_bearing.acoustics.filters import designed
 from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, between, fit_frequencies
 from fmu_bearing.engine.layout import SD
 
 # Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
 _WEAK = 10 ** (-30 / 20)
-_LIMIT_TAPS = 93  # odd: the filter has a middle
-_LIMIT_WEIGHT = 3.0  # of the stop band against the pass band
 # Weights of a frequency against one in the band: where the limit falls, an error of -40 dB changes no level.
 _EDGE_WEIGHT, _STOP_WEIGHT = 0.1, 0.3
 _STOPPED = 64  # frequencies in the stop band
@@ -29,18 +28,15 @@ _GOOD = 10 ** (-55 / 20)  # error at which a filter is long enough
 _LITTLE = 10 ** (0.5 / 20)  # where none is: what a longer one must better, 0.5 dB
 
 
-def _half_band(taps: int, edge: float) -> NDArray[np.float64]:
-    """Half-band filter of ``taps`` (4 k - 1) taps, flat up to ``edge`` (in sample rates).
+def _half_band(half: Sequence[float]) -> NDArray[np.float64]:
+    """Half-band filter of 4 k - 1 taps from the first k of twice its outer ones (`designed`).
 
-    Equiripple: twice the outer taps are an equiripple filter of half the rate with one band (Vaidyanathan and
-    Nguyen 1987).
+    Twice the outer taps are an equiripple filter of half the rate with one band (Vaidyanathan and Nguyen
+    1987).
     """
-    outer = scipy.signal.remez(
-        (taps + 1) // 2, [0.0, 2.0 * edge, 0.5 - 1e-9, 0.5], [1.0, 0.0], weight=[1.0, 1e-9], fs=1.0
-    )
-    found = np.zeros(taps)
-    found[::2] = 0.5 * outer
-    found[taps // 2] = 0.5
+    found = np.zeros(4 * len(half) - 1)
+    found[::2] = 0.5 * np.array([*half, *reversed(half)])
+    found[len(found) // 2] = 0.5
     return found
 
 
@@ -53,8 +49,8 @@ def decimator_stages() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     kHz that are audible this serves the balls' sound, which shifts by up to 2 kHz when it is projected onto
     circumferential harmonics behind the decimator.
     """
-    first = _half_band(SD.FIRST_TAPS, STOP / SD.RAW_RATE)
-    second = _half_band(SD.SECOND_TAPS, STOP * SD.HALF / SD.RAW_RATE)
+    first = _half_band(designed.FIRST_STAGE)
+    second = _half_band(designed.SECOND_STAGE)
     for taps in (first, second):
         taps.flags.writeable = False
     return first, second
@@ -82,12 +78,6 @@ def decimator_response(frequency: NDArray[np.float64]) -> NDArray[np.complex128]
     return np.exp(-2j * np.pi * np.asarray(frequency)[..., None] * n / SD.RAW_RATE) @ decimator()
 
 
-@functools.cache
-def _limit_taps() -> NDArray[np.float64]:
-    edges = [0.0, BAND[1], STOP, SD.RATE / 2]
-    return scipy.signal.remez(_LIMIT_TAPS, edges, [1.0, 0.0], weight=[1.0, _LIMIT_WEIGHT], fs=SD.RATE)
-
-
 def band_limit(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
     """Upper limit of the microphones at ``frequency`` in Hz, real: no phase.
 
@@ -95,8 +85,10 @@ def band_limit(frequency: NDArray[np.float64]) -> NDArray[np.float64]:
     that the filters fitted to it (`fit`) need few taps. The engine's filters and the spectra of recordings
     (`analysis.field`) share it: both hear the same.
     """
-    n = np.arange(_LIMIT_TAPS) - _LIMIT_TAPS // 2
-    return np.cos(2.0 * np.pi * np.asarray(frequency)[..., None] * n / SD.RATE) @ _limit_taps()
+    *half, middle = designed.BAND_LIMIT
+    n = np.arange(-len(half), len(half) + 1)
+    taps = np.array([*half, middle, *reversed(half)])
+    return np.cos(2.0 * np.pi * np.asarray(frequency)[..., None] * n / SD.RATE) @ taps
 
 
 def delay_of(flight: float) -> int:

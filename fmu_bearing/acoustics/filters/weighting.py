@@ -12,6 +12,8 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
+from fmu_bearing.acoustics.filters.designed import A_WEIGHTING
+
 FAST, SLOW = 0.125, 1.0  # s, IEC 61672-1
 REFERENCE_PRESSURE = 2e-5  # Pa
 FLOOR = 1e-20  # Pa^2 added to every mean square, so that levels stay finite (-106 dB)
@@ -37,14 +39,26 @@ def a_weighting_sections(sample_rate: float) -> NDArray[np.float64]:
 
     At 51.2 kHz the magnitude keeps within 0.06 dB of IEC 61672-1 from 20 Hz to 20 kHz.
     """
-    return _fitted(float(sample_rate)).copy()
+    return _sections(float(sample_rate)).copy()
 
 
 @functools.cache
-def _fitted(sample_rate: float) -> NDArray[np.float64]:
-    """Fit the sections, once per rate: that takes a tenth of a second."""
-    f1, f2, f3, f4 = (np.exp(-2.0 * np.pi * f / sample_rate) for f in _POLES)
+def _sections(sample_rate: float) -> NDArray[np.float64]:
+    """Sections of the four low poles, then the free one: fitted once per rate, in a tenth of a second."""
+    f1, f2, f3, _ = _mapped(sample_rate)
     fixed = np.array([[1.0, -2.0, 1.0, *np.poly([f1, f1])], [1.0, -2.0, 1.0, *np.poly([f2, f3])]])
+    known = A_WEIGHTING.get(sample_rate)
+    return np.concatenate([fixed, free_section(fixed, sample_rate) if known is None else [known]])
+
+
+def _mapped(sample_rate: float) -> list[float]:
+    """Poles in z."""
+    return [np.exp(-2.0 * np.pi * f / sample_rate) for f in _POLES]
+
+
+def free_section(fixed: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64]:
+    """Fit the section, shape (1, 6), that makes ``fixed`` ones follow the formula."""
+    f4 = _mapped(sample_rate)[-1]
     frequency = np.append(np.geomspace(20.0, min(20_000.0, 0.45 * sample_rate), 400), 1000.0)
     here = scipy.signal.sosfreqz(fixed, frequency, fs=sample_rate)[1]
     wanted = a_weighting_db(frequency)
@@ -60,7 +74,7 @@ def _fitted(sample_rate: float) -> NDArray[np.float64]:
     start = np.array([gain, 0.1 * gain, 0.01 * gain, f4, 0.9 * f4])
     x = least_squares(error, start, x_scale=np.maximum(np.abs(start), 1e-2), xtol=1e-14, ftol=1e-14).x
     x[:3] *= 10 ** (-error(x)[-1] / 20.0)  # exactly 0 dB at 1 kHz, where calibrators sound
-    return np.concatenate([fixed, last(x)])
+    return last(x)
 
 
 def band_centre(nominal: float) -> float:

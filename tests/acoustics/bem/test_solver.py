@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from scipy.special import lpmv, spherical_jn, spherical_yn
+from scipy.stats import qmc
 
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem.meridian import Body, cylinder, ring
-from fmu_bearing.acoustics.radiation.bem.solver import Scatterer, orbit_dipoles, wall_admittance
+from fmu_bearing.acoustics.radiation.bem.solver import Scatterer, halton, orbit_dipoles, wall_admittance
 from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
 
 DENSITY, SPEED = 1.225, 340.0
@@ -125,6 +126,13 @@ def test_without_inner_points_a_resonance_of_the_inside_spoils_the_solution(monk
     without = hidden_source([body], (0.01, 0.02), frequency, 1, size=1.0)
     assert with_points < 2e-3
     assert without > 5.0 * with_points
+
+
+def test_points_of_the_sequence():
+    """To the last bit: sums of the same terms in the same order. 2000 and on: as a second draw has them."""
+    sequence = qmc.Halton(2, scramble=False)
+    for first, count in ((0, 2000), (2000, 240)):
+        assert np.array_equal(halton(first, count), sequence.random(count))
 
 
 def radiated_powers(bodies, order, frequency, profile):

@@ -101,8 +101,7 @@ def _check_apart(one: Body, other: Body) -> None:
         t = (np.arange(_SAMPLES) + 0.5)[:, None] / _SAMPLES
         sides = [a + t * (b - a) for a, b in itertools.pairwise(first.contour)]
         points = np.concatenate(sides)
-        inside = any(second.contains(*point) for point in points)
-        if inside or float(second.distance(points).min()) < _TOUCH:
+        if second.contains(points).any() or float(second.distance(points).min()) < _TOUCH:
             raise ValueError(
                 f"the {first.name} touches or intersects the {second.name}: change their diameters, widths "
                 "or the housing's place"

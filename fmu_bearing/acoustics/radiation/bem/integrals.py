@@ -6,6 +6,8 @@ trapezoidal rule round the circle and Gauss points along the element. The closed
 singularity; it is integrated once per mesh, with intervals that shrink towards the field point.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,10 +21,13 @@ _FAR_POINTS, _NEAR_POINTS = 4, 8  # of the closed part, per element or interval 
 _PLAIN_POINTS = 2  # of the smooth remainder, per element: 3e-4 of it at six elements per wavelength
 
 
+@lru_cache
 def _gauss(count: int) -> NDArray[np.float64]:
-    """Gauss points and weights on [0, 1], shape (2, count)."""
+    """Gauss points and weights on [0, 1], shape (2, count); read only."""
     nodes, weights = np.polynomial.legendre.leggauss(count)
-    return np.array([0.5 * (1.0 + nodes), 0.5 * weights])
+    rule = np.array([0.5 * (1.0 + nodes), 0.5 * weights])
+    rule.flags.writeable = False
+    return rule
 
 
 def _basis(at: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -41,15 +41,16 @@ class Body:
         """Corners of the section between contour and axis, shape (n, 2)."""
         return self.contour[:-1] if self.closed else self.contour
 
-    def contains(self, x: float, r: float) -> bool:
-        """Whether a point of the meridian plane lies inside the body."""
+    def contains(self, points: Points) -> NDArray[np.bool_]:
+        """Whether points of the meridian plane, shape (n, 2), lie inside the body; shape (n,)."""
         corners = self.polygon()
         x1, r1 = corners[:, 0], corners[:, 1]
         x2, r2 = np.roll(x1, -1), np.roll(r1, -1)
+        x, r = points[:, :1], points[:, 1:]
         crossing = (r1 > r) != (r2 > r)
         with np.errstate(divide="ignore", invalid="ignore"):
             at = x1 + (r - r1) * (x2 - x1) / (r2 - r1)
-        return bool(np.count_nonzero(crossing & (x < at)) % 2)
+        return np.count_nonzero(crossing & (x < at), axis=1) % 2 == 1
 
     def distance(self, points: Points) -> NDArray[np.float64]:
         """Distances (m) of points, shape (n, 2), from the contour."""

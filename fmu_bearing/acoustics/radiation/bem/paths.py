@@ -129,8 +129,8 @@ def _check_outside(task: Task, circle: MicrophoneCircle) -> None:
         inside: Body = body
         if task.baffled:
             continue
-        distance = float(inside.distance(np.array([[circle.axial, circle.radius]]))[0])
-        within = inside.contains(circle.axial, circle.radius)
+        here = np.array([[circle.axial, circle.radius]])
+        distance, within = float(inside.distance(here)[0]), inside.contains(here)[0]
         if within or distance < SKIN:
             corners = 1e3 * inside.polygon()
             raise ValueError(

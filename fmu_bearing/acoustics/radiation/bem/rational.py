@@ -73,21 +73,24 @@ class Group:
         self._largest = np.linalg.norm(values, axis=-1).max(axis=0)
         self._silent = silent
         self._frequencies, self._values = frequencies, values
-        self._scaled = self._sizes(frequencies, values)[..., None]
+        sizes = self._sizes(frequencies, values)
+        self._scaled = sizes[..., None]
         places = [int(np.searchsorted(frequencies, f)) for f in self._order] or [0, len(frequencies) - 1]
-        self._fits = [self._fit(places[:-1]), self._fit(places)]
+        self._fits = [self._fit(places)]
         while len(places) < len(frequencies) - _HELD:
-            wrong = self._wrong(frequencies, self.predicted(frequencies), values)
-            wrong[places] = wrong[np.isin(frequencies, list(self._barred))] = 0.0
+            wrong = _wrong(self.predicted(frequencies), values, sizes)
+            wrong[places] = wrong[[f in self._barred for f in frequencies]] = 0.0
             if wrong.max() < _RESIDUAL * TOLERANCE:
                 break
             places.append(int(wrong.argmax()))
-            self._fits = [self._fits[1], self._fit(places)]
+            self._fits = [self._fits[-1], self._fit(places)]
+        if len(self._fits) == 1:
+            self._fits.insert(0, self._fit(places[:-1]))
         self._order = frequencies[places].tolist()
 
     def _fit(self, places: list[int]) -> tuple[list[int], Complex]:
         """Places and weights of supports; the frequencies that are none are met in least squares."""
-        rest = np.setdiff1d(np.arange(len(self._frequencies)), places)
+        rest = np.delete(np.arange(len(self._frequencies)), places)
         slopes = self._values[rest][:, None] - self._values[places]
         slopes /= (self._frequencies[rest][:, None] - self._frequencies[places])[..., None, None, None]
         slopes /= self._scaled[rest][:, None]
@@ -102,23 +105,20 @@ class Group:
         floor = falling * np.maximum(_FLOOR * self._largest, self._silent) + 1e-300
         return np.maximum(np.linalg.norm(values, axis=-1), floor)
 
-    def _wrong(self, at: Real, predicted: Complex, values: Complex) -> Real:
-        """Largest error of any drive and part at each frequency (Hz), over its size there."""
-        return np.max(np.linalg.norm(predicted - values, axis=-1) / self._sizes(at, values), axis=(1, 2))
-
     def predicted(self, wanted: Real, before: bool = False) -> Complex:
         """Return values of a fit at frequencies (Hz)."""
-        places, weights = self._fits[0 if before else 1]
+        places, weights = self._fits[0 if before else -1]
         factors = barycentric(wanted, self._frequencies[places], weights)
         return np.tensordot(factors, self._values[places], axes=1)
 
     def uncertainty(self, wanted: Real) -> Real:
         """Difference of both fits at frequencies (Hz), over the size of what is fitted."""
-        return self._wrong(wanted, self.predicted(wanted, before=True), self.predicted(wanted))
+        values = self.predicted(wanted)
+        return _wrong(self.predicted(wanted, before=True), values, self._sizes(wanted, values))
 
     def missed(self, at: Real, values: Complex) -> Real:
         """Error of the prediction at frequencies (Hz) whose values are known by now, over their size."""
-        return self._wrong(at, self.predicted(at), values)
+        return _wrong(self.predicted(at), values, self._sizes(at, values))
 
     def sharp(self, low: float, high: float) -> list[float]:
         """Frequencies (Hz) between two of poles that are sharper than any resonance of air.
@@ -140,6 +140,11 @@ class Group:
             self._order = [f for f in self._order if f not in self._barred]
             kept = [place for k, place in enumerate(places) if k not in beside]
             self._fits = [self._fits[0], self._fit(kept)]
+
+
+def _wrong(predicted: Complex, values: Complex, sizes: Real) -> Real:
+    """Largest error of any drive and part at each frequency, over its size (frequencies, drives, parts)."""
+    return np.max(np.linalg.norm(predicted - values, axis=-1) / sizes, axis=(1, 2))
 
 
 #: Solves at frequencies (Hz) and returns the values of each group (`Group`).

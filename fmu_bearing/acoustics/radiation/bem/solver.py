@@ -15,7 +15,6 @@ a thin layer on them. They matter in narrow gaps only, whose resonances would ot
 from collections.abc import Sequence
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.radiation.bem.integrals import Potentials
@@ -171,17 +170,30 @@ def _spread(
 ) -> NDArray[np.float64]:
     """Evenly spread points (Halton's) inside a body, away from its skin."""
     depth = _DEPTH * float(min(high - low))
-    draw = scipy.stats.qmc.Halton(2, scramble=False)
     kept: list[NDArray[np.float64]] = []
-    for _ in range(20):
-        candidates = low + draw.random(count * 4) * (high - low)
-        for point in candidates[body.distance(candidates) > depth]:
-            if body.contains(*point):
-                kept.append(point)
-            if len(kept) == count:
-                return np.array(kept)
+    for k in range(20):
+        candidates = low + halton(4 * count * k, 4 * count) * (high - low)
+        there = candidates[(body.distance(candidates) > depth) & body.contains(candidates)]
+        kept += list(there[: count - len(kept)])
+        if len(kept) == count:
+            return np.array(kept)
         depth *= 0.7
     return np.array(kept).reshape(-1, 2)
+
+
+def halton(first: int, count: int) -> NDArray[np.float64]:
+    """Points of the sequence in the unit square from number ``first`` on, shape (count, 2).
+
+    Digits of the number in base 2 and in base 3, mirrored at the point (Halton 1960). SciPy has it among its
+    statistics, which take longer to load than these points to use.
+    """
+    found = np.zeros((count, 2))
+    for axis, base in enumerate((2, 3)):
+        left, place = np.arange(first, first + count), 1.0 / base
+        while left.any():
+            found[:, axis] += left % base * place
+            left, place = left // base, place / base
+    return found
 
 
 def orbit_dipoles(

@@ -11,9 +11,10 @@ import pytest
 
 import fmu_bearing
 from tests.conftest import ROOT
+from tests.vibration_test import known
 
 #: Examples that take seconds, of what has quick tests of its own.
-LONG = {"changes", "compare", "identify", "report", "spread", "surface", "vibration"}
+LONG = {"changes", "compare", "identify", "report", "spread", "vibration"}
 
 
 @pytest.mark.parametrize(
@@ -22,6 +23,8 @@ LONG = {"changes", "compare", "identify", "report", "spread", "surface", "vibrat
 def test_every_public_name_has_an_example_that_runs(name, monkeypatch, tmp_path, request):
     if name == "report":
         request.getfixturevalue("brief")
+    if name == "surface":
+        known.play(monkeypatch)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     thing = getattr(fmu_bearing, name)

@@ -55,6 +55,17 @@ class Surface:
         Seed from which orders scatter about the law; None: the law holds exactly.
     remarks : tuple of str
         How far the measurement decides, and what to measure next.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from fmu_bearing import Surface, read_scene
+    >>> three, law = np.full(3, 0.3), np.array([1.3, 1.4, 1.5])
+    >>> found = Surface("7003C", "L = 41 um/s", three, law, 200.0 * three, np.arange(3))
+    >>> round(found.order(12).median, 1)  # nm
+    9.3
+    >>> found.scene(read_scene("examples/scenes/7003C-bare.toml")).imperfections.waviness_exponent
+    1.4
     """
 
     bearing: str

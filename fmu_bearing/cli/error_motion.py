@@ -59,6 +59,7 @@ def error_motion(
 
     Terms follow ISO 230-7, from memory. --plot writes the polar plot, as polar.png in the folder, to a file.
     """
+    from fmu_bearing.extras import need
     from fmu_bearing.files import check_folder
     from fmu_bearing.metrology.at_speed import DIRECTIONS
     from fmu_bearing.metrology.error_motion import FILES, error_motion as computed
@@ -74,6 +75,7 @@ def error_motion(
             shaft_speed(speed, "--speeds")
         given = read_scene(scene)
         check_folder(output)
+        need("matplotlib", "a picture")
         if plot is not None:
             check_picture(plot)
         check_new_in(force, output, *FILES)
@@ -93,10 +95,10 @@ def error_motion(
         return
     place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
     show(f"error motion, {place}", *found.table())
-    show("largest lines", *found.lines())
+    show("largest lines, amplitudes", *found.lines())
     if len(found.speeds[0].nose.rates) > 1:
-        show("asynchronous, lines of one bearing alone", *found.per_bearing())
-    show("asynchronous, lines of one source alone", *found.per_source())
+        show("asynchronous width, lines of one bearing alone", *found.per_bearing())
+    show("asynchronous width, lines of one source alone", *found.per_source())
     for one in found.speeds:
         typer.echo(
             f"{one.rpm:g} r/min: the lines hold {_PERCENT * one.explained:.0f} % of the energy of the "

@@ -11,26 +11,23 @@ from fmu_bearing.results.picture_parts import COLOURS, empty
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MOST = 6  # speeds side by side
+_MOST = 6  # speeds side by side: of more, six evenly among them
 _BASE = 2.0  # radius of the base circle over the largest deviation: the contour stays clear of the middle
 _TICKS = 2  # to either side of the base circle
 
 
 def polar_plot(speeds: Sequence[AtSpeed], direction: str) -> "Figure":
-    """Return polar plots at up to six speeds, deviations on a base circle of free radius.
+    """Return polar plots at six speeds at most, deviations on a base circle of free radius.
 
     Raises
     ------
-    ValueError
-        For more speeds.
     MissingExtra
         Without Matplotlib (extra ``plots``).
     """
-    if len(speeds) > _MOST:
-        raise ValueError(f"a polar plot shows {_MOST} speeds at most, not {len(speeds)}: name the speeds")
-    figure = empty((4.6 * len(speeds), 4.9))
-    for place, one in enumerate(speeds, start=1):
-        _draw(figure.add_subplot(1, len(speeds), place, projection="polar"), one, direction)
+    places = np.unique(np.linspace(0, len(speeds) - 1, min(len(speeds), _MOST)).round().astype(int))
+    figure = empty((4.6 * len(places), 4.9))
+    for column, place in enumerate(places, start=1):
+        _draw(figure.add_subplot(1, len(places), column, projection="polar"), speeds[place], direction)
     return figure
 
 
@@ -52,9 +49,9 @@ def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
     ax.grid(True, color="0.9")
     values = next(each for each in one.values if each.direction == direction)
     ax.set_title(
-        f"{direction}, {one.rpm:,.0f} r/min, {one.revolutions} revolutions\n"
-        f"asynchronous {factor * values.asynchronous:.3g}, synchronous {factor * values.synchronous:.2g} "
-        f"(averaged), {factor * values.synchronous_by_line:.2g} (by line) {unit}",
+        f"{direction}, {one.rpm:,.0f} r/min, {one.revolutions} revolutions pale, their mean bold\n"
+        f"asynchronous {factor * values.asynchronous:#.3g}, synchronous {factor * values.synchronous:#.2g} "
+        f"(averaged), {factor * values.synchronous_by_line:#.2g} (by line) {unit}",
         fontsize=8,
     )  # fmt: skip
 

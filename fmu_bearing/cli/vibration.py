@@ -1,5 +1,6 @@
 """``fmu-bearing vibration``: the vibration test of a bearing by itself."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -87,6 +88,7 @@ def vibration(
         if unit not in known:
             raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
         shaft_speed(speed)
+        _check_rig(settings)
         allowed = None if limits is None else _limits(limits)
         found = test(
             scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
@@ -104,6 +106,17 @@ def vibration(
     for line in found.remarks:
         typer.echo(line)
     tell(f"written: {', '.join(map(str, files))}")
+
+
+def _check_rig(settings: Sequence[str] | None) -> None:
+    """Refuse keys of the scene that the rig replaces: a change of them would change nothing."""
+    for one in settings or ():
+        key = one.partition("=")[0].strip()
+        if key.startswith(("mounting.", "operation.")):
+            raise Refusal(
+                f"--set {one} is refused: mounting, speed and temperatures are the rig's here; give --speed "
+                "and --load for its speed and axial load"
+            )
 
 
 def _limits(text: str) -> list[float]:

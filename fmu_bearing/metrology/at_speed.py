@@ -29,6 +29,7 @@ HIGHEST, HIGHEST_WHOLE = 160.0, 40
 _APART = 30.0
 _NAMED = 4  # lines that a remark names
 _SMALL = 0.02  # of the largest line: smaller ones are not named
+_NOTHING = 1e-13  # m: what a scene without imperfections has from rounding
 
 
 @dataclass(frozen=True)
@@ -173,7 +174,9 @@ class AtSpeed:
         near = [
             one.origin
             for one in self.lines
-            if one.origin.bearing and one.origin.off_whole < limit and one.radial > _SMALL * largest > 0.0
+            if one.origin.bearing
+            and one.origin.off_whole < limit
+            and one.radial > max(_SMALL * largest, _NOTHING)
         ]
         if near:
             words = ", ".join(f"{self._named(one)} ({one.off_whole:.4f})" for one in near[:_NAMED])
@@ -214,7 +217,7 @@ class AtSpeed:
             return
         nearest = min(others, key=lambda one: abs(one.order - largest.order))
         apart = abs(nearest.order - largest.order)
-        if apart * self.revolutions < 1.0:
+        if apart * self.revolutions < 1.0 and self.lines[0].radial > _NOTHING:
             yield (
                 f"{self.rpm:g} r/min: {self.revolutions} revolutions do not part {self._named(largest)} from "
                 f"that of bearing {nearest.bearing}, {apart:.1g} orders beside it: such lines are shared "

@@ -37,6 +37,7 @@ def test_the_command_prints_and_writes(quick, run, tmp_path):
         (("--fidelity", "rings"), "cannot have a vibration test: its sensor touches the outer ring"),
         (("--speed", "2e5"), "--speed 200000 r/min is refused"),
         (("--set", "imperfections.seeed=3"), "imperfections.seeed"),
+        (("--set", "operation.speed_rpm=900"), "speed and temperatures are the rig's here; give --speed"),
     ],
 )
 def test_the_command_refuses_in_one_line_before_the_first_run(quick, run, words, refusal, tmp_path):

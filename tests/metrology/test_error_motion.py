@@ -67,6 +67,7 @@ def test_without_surfaces_nothing_moves_in_rings(bare):
         assert values.asynchronous < 1e-6 * NM
         assert values.synchronous < 1e-6 * NM and values.synchronous_by_line < 1e-6 * NM
     assert any("no imperfections" in line for line in still.remarks())
+    assert not any("nearer to a whole order" in line for line in still.remarks())
 
 
 def test_without_surfaces_the_cage_alone_moves_the_nose_in_full(bare):

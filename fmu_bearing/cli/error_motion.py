@@ -95,10 +95,10 @@ def error_motion(
         return
     place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
     show(f"error motion, {place}", *found.table())
-    show("largest lines", *found.lines())
+    show("largest lines, amplitudes", *found.lines())
     if len(found.speeds[0].nose.rates) > 1:
-        show("asynchronous, lines of one bearing alone", *found.per_bearing())
-    show("asynchronous, lines of one source alone", *found.per_source())
+        show("asynchronous width, lines of one bearing alone", *found.per_bearing())
+    show("asynchronous width, lines of one source alone", *found.per_source())
     for one in found.speeds:
         typer.echo(
             f"{one.rpm:g} r/min: the lines hold {_PERCENT * one.explained:.0f} % of the energy of the "

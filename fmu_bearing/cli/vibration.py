@@ -1,5 +1,6 @@
 """``fmu-bearing vibration``: the vibration test of a bearing by itself."""
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -94,6 +95,7 @@ def vibration(
         if unit not in known:
             raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
         shaft_speed(speed)
+        _check_rig(settings)
         asked.refuse_alone()
         if measured is not None:
             inverse.unused({"--limits": limits, "--rigid": rigid, "--seeds": seeds != SEEDS})
@@ -120,6 +122,17 @@ def vibration(
     for remark in found.remarks:
         typer.echo(remark)
     tell(f"written: {', '.join(map(str, files))}")
+
+
+def _check_rig(settings: Sequence[str] | None) -> None:
+    """Refuse keys of the scene that the rig replaces: a change of them would change nothing."""
+    for one in settings or ():
+        key = one.partition("=")[0].strip()
+        if key.startswith(("mounting.", "operation.")):
+            raise Refusal(
+                f"--set {one} is refused: mounting, speed and temperatures are the rig's here; give --speed "
+                "and --load for its speed and axial load"
+            )
 
 
 def _limits(text: str) -> list[float]:

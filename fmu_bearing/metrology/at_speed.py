@@ -29,6 +29,7 @@ HIGHEST, HIGHEST_WHOLE = 160.0, 40
 _APART = 30.0
 _NAMED = 4  # lines that a remark names
 _SMALL = 0.02  # of the largest line: smaller ones are not named
+_NOTHING = 1e-13  # m: what a scene without imperfections has from rounding
 
 
 @dataclass(frozen=True)
@@ -165,7 +166,7 @@ class AtSpeed:
     def remarks(self) -> list[str]:
         """Return which lines an average takes for synchronous, and which the fit does not part."""
         found = [] if self.nose.scene.imperfections else ["the scene has no imperfections: give a grade"]
-        return found + [*self._near_whole(), *self._not_apart()]
+        return found + [*self._near_whole(), *self._not_apart(), *self._shared()]
 
     def _near_whole(self) -> Iterable[str]:
         limit = 1.0 / self.revolutions
@@ -173,7 +174,9 @@ class AtSpeed:
         near = [
             one.origin
             for one in self.lines
-            if one.origin.bearing and one.origin.off_whole < limit and one.radial > _SMALL * largest > 0.0
+            if one.origin.bearing
+            and one.origin.off_whole < limit
+            and one.radial > max(_SMALL * largest, _NOTHING)
         ]
         if near:
             words = ", ".join(f"{self._named(one)} ({one.off_whole:.4f})" for one in near[:_NAMED])
@@ -199,6 +202,27 @@ class AtSpeed:
             f"{self._named(nearest)}, {apart:.4f} orders beside it: the synchronous value by line, "
             f"and what each bearing makes alone, are uncertain{needed}"
         )
+
+    def _shared(self) -> Iterable[str]:
+        """Say where the fit cannot tell the largest line of a bearing from the same of another bearing."""
+        largest = next((one.origin for one in self.lines if one.origin.bearing), None)
+        if largest is None:
+            return
+        others = [
+            one
+            for one in self._fit.lines
+            if one.name == largest.name and one.bearing not in (0, largest.bearing)
+        ]
+        if not others:
+            return
+        nearest = min(others, key=lambda one: abs(one.order - largest.order))
+        apart = abs(nearest.order - largest.order)
+        if apart * self.revolutions < 1.0 and self.lines[0].radial > _NOTHING:
+            yield (
+                f"{self.rpm:g} r/min: {self.revolutions} revolutions do not part {self._named(largest)} from "
+                f"that of bearing {nearest.bearing}, {apart:.1g} orders beside it: such lines are shared "
+                "equally, and what each bearing makes alone is uncertain"
+            )
 
     def _named(self, one: Origin) -> str:
         return one.name if len(self.nose.rates) == 1 else f"{one.name} of bearing {one.bearing}"

@@ -81,8 +81,8 @@ class ErrorMotion:
     def table(self) -> Table:
         """Columns and rows of a table: each direction at each speed; a dash where there is no such value."""
         columns = [
-            "r/min", "turns", "direction", "unit", "asynchronous", "synchronous, averaged", "by line",
-            "fundamental", "residual, by line",
+            "r/min", "turns", "direction", "unit", "asynchronous", "synchronous, averaged",
+            "synchronous, by line", "fundamental, by line", "residual, by line",
         ]  # fmt: skip
         rows = []
         for one in self.speeds:
@@ -101,7 +101,7 @@ class ErrorMotion:
         columns = ["r/min", "line", "order", "radial, nm", "axial, nm", "tilt, urad", "source", "bearing"]
         rows = [
             [
-                f"{one.rpm:g}", line.origin.name, f"{line.origin.order:.4f}", digits(_NM * line.radial),
+                f"{one.rpm:g}", line.origin.name, _order(line.origin.order), digits(_NM * line.radial),
                 digits(_NM * line.axial), digits(_UM * line.tilt), line.origin.source,
                 f"{line.origin.bearing}" if line.origin.bearing else "",
             ]
@@ -121,6 +121,8 @@ class ErrorMotion:
 
     def polar(self, direction: str = "rotating") -> "Figure":
         """Return polar plots of a direction at each speed: revolutions pale, the mean contour bold.
+
+        Of more than six speeds, six evenly among them are drawn.
 
         Raises
         ------
@@ -324,6 +326,11 @@ def _revolutions(revolutions: int | None) -> int | None:
             f"{FEWEST} to {MOST} in which the cage turns wholly"
         )
     return int(value)
+
+
+def _order(order: float) -> str:
+    """Return an order in no more characters than a column of a terminal of 80 keeps whole."""
+    return f"{order:.4f}" if order < 100.0 else f"{order:.3f}"
 
 
 def _document(one: AtSpeed) -> dict[str, Any]:

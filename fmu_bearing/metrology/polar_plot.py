@@ -11,24 +11,26 @@ from fmu_bearing.results.picture_parts import COLOURS, empty
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_MOST = 6  # speeds that are drawn: of more, six evenly among them
 _BESIDE = 3  # plots in a row
 _BASE = 2.0  # radius of the base circle over the largest deviation: the contour stays clear of the middle
 _TICKS = 2  # to either side of the base circle
 
 
 def polar_plot(speeds: Sequence[AtSpeed], direction: str) -> "Figure":
-    """Return a polar plot per speed, deviations on a base circle of free radius.
+    """Return polar plots at six speeds at most, deviations on a base circle of free radius.
 
     Raises
     ------
     MissingExtra
         Without Matplotlib (extra ``plots``).
     """
-    beside = min(len(speeds), _BESIDE)
-    rows = -(-len(speeds) // beside)
+    chosen = np.unique(np.linspace(0, len(speeds) - 1, min(len(speeds), _MOST)).round().astype(int))
+    beside = min(len(chosen), _BESIDE)
+    rows = -(-len(chosen) // beside)
     figure = empty((4.6 * beside, 4.9 * rows))
-    for place, one in enumerate(speeds, start=1):
-        _draw(figure.add_subplot(rows, beside, place, projection="polar"), one, direction)
+    for place, k in enumerate(chosen, start=1):
+        _draw(figure.add_subplot(rows, beside, place, projection="polar"), speeds[k], direction)
     return figure
 
 
@@ -50,9 +52,9 @@ def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
     ax.grid(True, color="0.9")
     values = next(each for each in one.values if each.direction == direction)
     ax.set_title(
-        f"{direction}, {one.rpm:,.0f} r/min, {one.revolutions} revolutions\n"
-        f"asynchronous {factor * values.asynchronous:.3g}, synchronous {factor * values.synchronous:.2g} "
-        f"(averaged), {factor * values.synchronous_by_line:.2g} (by line) {unit}",
+        f"{direction}, {one.rpm:,.0f} r/min, {one.revolutions} revolutions pale, their mean bold\n"
+        f"asynchronous {factor * values.asynchronous:#.3g}, synchronous {factor * values.synchronous:#.2g} "
+        f"(averaged), {factor * values.synchronous_by_line:#.2g} (by line) {unit}",
         fontsize=8,
     )  # fmt: skip
 

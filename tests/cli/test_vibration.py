@@ -16,7 +16,10 @@ def test_the_command_prints_and_writes(quick, run, tmp_path):
     shown = run(*words)
     assert shown.exit_code == 0, shown.output
     assert "7003C: vibration test, 1800 r/min, 100 N" in shown.stdout
-    assert "soft piece, range" in shown.stdout and "M: 84 um/s passes its limit" in shown.stdout
+    assert (
+        "soft piece, range" in shown.stdout
+        and "M: 84 um/s on the soft piece (10.9 Anderon) is above its" in shown.stdout
+    )
     assert len(list((tmp_path / "a").iterdir())) == 3
     data = run(*words[:-2], "-o", tmp_path / "b", "--json", "--load", 90, "--grade", "P5").data
     assert data["load_N"] == 90.0 and data["bands"]["M"]["soft_um_s"] == pytest.approx([80.0, 88.0])
@@ -34,6 +37,7 @@ def test_the_command_prints_and_writes(quick, run, tmp_path):
         (("--fidelity", "rings"), "cannot have a vibration test: its sensor touches the outer ring"),
         (("--speed", "2e5"), "--speed 200000 r/min is refused"),
         (("--set", "imperfections.seeed=3"), "imperfections.seeed"),
+        (("--set", "operation.speed_rpm=900"), "speed and temperatures are the rig's here; give --speed"),
     ],
 )
 def test_the_command_refuses_in_one_line_before_the_first_run(quick, run, words, refusal, tmp_path):

@@ -1,5 +1,7 @@
 """Error motion of runs: closed forms, what has to vanish, single bearing and set, refusals."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -65,6 +67,7 @@ def test_without_surfaces_nothing_moves_in_rings(bare):
         assert values.asynchronous < 1e-6 * NM
         assert values.synchronous < 1e-6 * NM and values.synchronous_by_line < 1e-6 * NM
     assert any("no imperfections" in line for line in still.remarks())
+    assert not any("nearer to a whole order" in line for line in still.remarks())
 
 
 def test_without_surfaces_the_cage_alone_moves_the_nose_in_full(bare):
@@ -175,6 +178,23 @@ def test_a_vector_that_turns_with_the_shaft_is_constant_in_the_rotating_directio
             assert values.synchronous < 1e-9 and values.synchronous_by_line < 1e-4
 
 
+@pytest.mark.parametrize(("other", "shared"), [(0.42001, True), (0.47, False)])
+def test_a_remark_says_where_lines_of_bearings_are_shared(bare, other, shared):
+    """The inner race of one of two bearings moves the nose; with cages of nearly one rate each has a half."""
+    rates = [
+        KinematicFrequencies(1.0, cage, 2.8 + cage, 12.0 * (1.0 - cage), 12.0 * cage)
+        for cage in (0.42, other)
+    ]
+    angle = 2.0 * np.pi * np.arange(1, FEW * PER_REVOLUTION + 1) / PER_REVOLUTION
+    motion = np.zeros((len(angle), 5))
+    order = rates[0].f_i - 1.0
+    motion[:, 1:3] = 10.0 * NM * np.column_stack([np.cos(order * angle), np.sin(order * angle)])
+    one = AtSpeed(Nose(bare, FEW, motion, tuple(rates)))
+    # the pull of the fit to small amplitudes leaves a half to each: 5 % off, because the lines drift a little
+    assert one.lines[0].radial == pytest.approx((5.0 if shared else 10.0) * NM, rel=0.1 if shared else 0.01)
+    assert any("such lines are shared equally" in line for line in one.remarks()) == shared
+
+
 def test_a_set_of_one_moves_as_the_bearing_does(scene):
     """Of a set on its own pedestal, at the plane of its balls, against the ground."""
     flaws = scene("7003C-bare").imperfections.model_copy(update={"unbalance_um": 0.0})
@@ -218,6 +238,16 @@ def test_refusals_of_sets():
         error_motion(quad, against="outer ring")
     with pytest.raises(ValueError, match="from the nose of the shaft"):
         error_motion(quad, at=4.0)
+
+
+def test_of_many_speeds_six_are_drawn_evenly_among_them(found):
+    one = found.speeds[0]
+    speeds = [replace(one, nose=replace(one.nose, scene=one.nose.scene.replace(
+        {"operation.speed_rpm": 1000.0 * (k + 1)}))) for k in range(11)]  # fmt: skip
+    axes = replace(found, speeds=tuple(speeds)).polar().axes
+    assert [ax.get_title().split(" r/min")[0] for ax in axes] == [
+        f"rotating, {rpm},000" for rpm in (1, 3, 5, 7, 9, 11)
+    ]
 
 
 def test_unknown_direction(found):

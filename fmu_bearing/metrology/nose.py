@@ -19,6 +19,7 @@ PER_REVOLUTION = 256
 LEFT_OUT = 12  # revolutions at the beginning, in which the start-up dies away
 #: Of revolutions that are taken where none are given; a width over fewer than 20 is no asynchronous value.
 FEWEST, MOST = 20, 120
+_ROUNDING = 1e-6  # revolutions
 _AXES = "xyz"
 
 
@@ -103,7 +104,8 @@ def resampled(
     scene : Scene
         With the speed of the run, which is constant and not 0.
     time : ndarray, shape (points,)
-        Rising (s); cubic splines lie between. What moves faster than half their rate folds back.
+        Rising (s), from the start of the run, where the shaft's angle is 0: revolutions begin there, as those
+        of `followed` do. Cubic splines lie between; what moves faster than half their rate folds back.
     motion : ndarray, shape (points, 5)
         As of `Nose`.
     rates : ndarray, shape (points, bearings, 2), optional
@@ -116,7 +118,8 @@ def resampled(
         For a run of fewer revolutions than an asynchronous value needs.
     """
     turn = 60.0 / abs(scene.operation.speed_rpm)
-    count = min(int((time[-1] - time[0]) / turn), MOST)
+    ended = int(time[-1] / turn + _ROUNDING)
+    count = min(int(ended - time[0] / turn + _ROUNDING), MOST)
     if count < FEWEST:
         raise ValueError(
             f"{count} whole revolutions were kept, and error motion needs {FEWEST}: run for "
@@ -125,8 +128,9 @@ def resampled(
     if rates is not None:
         count = whole_turns(_cage_ratios(scene, rates), count)
     points = count * PER_REVOLUTION
-    wanted = time[-1] - turn / PER_REVOLUTION * np.arange(points - 1, -1, -1)
-    found = () if rates is None else frequencies(rates[time >= wanted[0]], scene)
+    wanted = ended * turn - turn / PER_REVOLUTION * np.arange(points - 1, -1, -1)
+    within = (time >= wanted[0]) & (time <= wanted[-1])
+    found = () if rates is None else frequencies(rates[within], scene)
     return Nose(scene, count, CubicSpline(time, motion)(wanted), found)
 
 

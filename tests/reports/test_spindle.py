@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import error_motion, operating_point, statics, with_fidelity
+from fmu_bearing import operating_point, statics, with_fidelity
 from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.torque_range import CAPTION
@@ -130,8 +130,8 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
 @pytest.mark.heavy  # statics and two runs
 def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
     """The section has the figures that the functions of `error_motion` find on a run of the same points."""
-    monkeypatch.setattr(set_sound, "DURATION", 0.088)  # 22 revolutions
-    monkeypatch.setattr(set_sound, "SETTLE", 0.012)
+    monkeypatch.setattr(set_sound, "DURATION", 0.0875)
+    monkeypatch.setattr(set_sound, "SETTLE", 0.0155)  # 21 whole revolutions to the 25th
     microphone = {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0}
     given = with_fidelity(Scene.from_dict(tables(rpm=15e3) | {
         "sound": {"radiation_model": "compact", "microphone": [microphone]},
@@ -143,8 +143,8 @@ def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
     names = [f"shaft.nose.{name}" for name in ("displacement.x", "displacement.y", "displacement.z")]
     names += ["shaft.nose.tilt.y", "shaft.nose.tilt.z"]
     watch = AxisWatch()
-    run = simulate(given, 0.1, step=Recording.PRESSURE_STEP, outputs=names, progress=False, watch=watch)
-    kept = run.time >= 0.012 - 1e-9
+    run = simulate(given, 0.103, step=Recording.PRESSURE_STEP, outputs=names, progress=False, watch=watch)
+    kept = run.time >= 0.0155
     motion = np.column_stack([run[name] for name in names])
     one = AtSpeed(resampled(given, run.time[kept], motion[kept], watch.rates[kept]))
     caption = f"Error motion of the nose of the shaft against the ground over {one.revolutions} revolutions"
@@ -152,14 +152,11 @@ def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
     assert head[:4] == ["direction", "unit", "asynchronous", "synchronous, averaged"]
     for row, values in zip(rows, one.values, strict=True):
         assert row[0] == values.direction
-        # 4 digits are printed; the page's run begins and ends a few readings apart from this one
+        # 4 digits are printed; splines of the page begin and end 1.7 ms before these, as pressures do
         wanted = (values.asynchronous, values.synchronous, values.synchronous_by_line)
         for cell, value in zip(row[2:5], wanted, strict=True):
-            assert float(cell) == pytest.approx(1e6 * value, rel=0.02, abs=2e-4)
+            assert float(cell) == pytest.approx(1e6 * value, rel=1e-3, abs=1e-4)
     assert float(rows[2][2]) > 0.01  # um: surfaces of a grade move the nose
-    # the command's own run begins at another angle of the balls; a width changes little by that
-    command = error_motion(given, revolutions=one.revolutions).speeds[0].values[2]
-    assert float(rows[2][2]) == pytest.approx(1e6 * command.asynchronous, rel=0.3)
     lines = page.tables["Largest lines of the error motion, amplitudes"]
     assert lines[1][0] == one.lines[0].origin.name
     assert len(page.tables["Asynchronous error motion that the lines of each bearing make alone"]) == 3

@@ -130,7 +130,7 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
 @pytest.mark.heavy  # statics and two runs
 def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
     """The section has the figures that the functions of `error_motion` find on a run of the same points."""
-    monkeypatch.setattr(set_sound, "DURATION", 0.0875)
+    monkeypatch.setattr(set_sound, "DURATION", 0.087625)
     monkeypatch.setattr(set_sound, "SETTLE", 0.0155)  # 21 whole revolutions to the 25th
     microphone = {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0}
     given = with_fidelity(Scene.from_dict(tables(rpm=15e3) | {

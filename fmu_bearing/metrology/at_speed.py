@@ -46,7 +46,8 @@ class Values:
         Range of the mean over the revolutions, from the centre of least squares: *averaged*. Axial: with the
         fundamental.
     synchronous_by_line : float
-        The same of the whole orders that were fitted beside the lines of the bearings: *by line*.
+        The same of the whole orders that were fitted beside the lines of the bearings: *by line*. NaN, as all
+        such values, where the rates of the balls are not known.
     fundamental, residual, residual_by_line : float
         Axial: range of order 1, and what is left without it; NaN in other directions.
     """
@@ -229,7 +230,8 @@ class AtSpeed:
 
     def _values(self, direction: str) -> Values:
         rows = self.signal(direction)
-        mean, fitted = rows.mean(axis=0), self.mean_contour(direction, by_line=True)
+        mean = rows.mean(axis=0)
+        fitted = self.mean_contour(direction, by_line=True) if self.nose.rates else np.full_like(mean, np.nan)
         if direction != "axial":
             return Values(direction, asynchronous(rows), synchronous(mean, 2), synchronous(fitted, 2))
         return Values(

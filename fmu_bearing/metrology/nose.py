@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
-from fmu_bearing.engine.layout import P, Q, S, Y
 from fmu_bearing.instance import Instance
-from fmu_bearing.prepare.lengths import parts_of
+from fmu_bearing.metrology.axis_watch import AxisWatch, frequencies, outer_tilt
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import work
 from fmu_bearing.scene import Scene
@@ -20,9 +19,8 @@ PER_REVOLUTION = 256
 LEFT_OUT = 12  # revolutions at the beginning, in which the start-up dies away
 #: Of revolutions that are taken where none are given; a width over fewer than 20 is no asynchronous value.
 FEWEST, MOST = 20, 120
+_ROUNDING = 1e-6  # revolutions
 _AXES = "xyz"
-_OUTER = S.Y + Y.Q0 + Q.OUTER
-_AT_TILT = _OUTER + Q.BY  # rad, about y and z
 
 
 @dataclass(frozen=True)
@@ -37,7 +35,7 @@ class Nose:
     motion : ndarray, shape (revolutions * PER_REVOLUTION, 5)
         Displacement (m) along x, y and z at the point, and tilt (rad) about y and z.
     rates : tuple of KinematicFrequencies
-        Of each bearing, as its balls ran (Hz).
+        Of each bearing, as its balls ran (Hz); none where that was not read.
     """
 
     scene: Scene
@@ -76,26 +74,29 @@ def followed(
     instance.initialise()
     turn = 60.0 / abs(scene.operation.speed_rpm)
     read = _axis(scene, instance, at, outer_ring)
-    balls = _Balls(instance)
+    balls = AxisWatch()
     what = f"{scene.name}, {scene.operation.speed_rpm:g} r/min"
     with work(what, float(LEFT_OUT + (revolutions or MOST)), "revolutions") as bar:
         for done in range(LEFT_OUT * PER_REVOLUTION):
             instance.step((done + 1) * turn / PER_REVOLUTION - instance.time)
-            balls.read()
+            balls(instance)
             bar.at(done / PER_REVOLUTION)
-        count = revolutions or whole_turns([cage for cage, _ in balls.ratios()])
-        balls = _Balls(instance)
+        count = revolutions or whole_turns(_cage_ratios(scene, balls.rates))
+        balls = AxisWatch()
         motion = np.empty((count * PER_REVOLUTION, 5))
         for done in range(len(motion)):
             now = LEFT_OUT * PER_REVOLUTION + done + 1
             instance.step(now * turn / PER_REVOLUTION - instance.time)
             motion[done] = read()
-            balls.read()
+            balls(instance)
             bar.at(now / PER_REVOLUTION)
-    return Nose(scene, count, motion, balls.rates(1.0 / turn))
+    return Nose(scene, count, motion, frequencies(balls.rates, scene))
 
 
-def resampled(scene: Scene, time: NDArray[np.float64], motion: NDArray[np.float64]) -> Nose:
+def resampled(
+    scene: Scene, time: NDArray[np.float64], motion: NDArray[np.float64],
+    rates: NDArray[np.float64] | None = None,
+) -> Nose:  # fmt: skip
     """Return the axis over the last whole revolutions of a run that was read at other times.
 
     Parameters
@@ -103,9 +104,13 @@ def resampled(scene: Scene, time: NDArray[np.float64], motion: NDArray[np.float6
     scene : Scene
         With the speed of the run, which is constant and not 0.
     time : ndarray, shape (points,)
-        Rising (s); cubic splines lie between. What moves faster than half their rate folds back.
+        Rising (s), from the start of the run, where the shaft's angle is 0: revolutions begin there, as those
+        of `followed` do. Cubic splines lie between; what moves faster than half their rate folds back.
     motion : ndarray, shape (points, 5)
-        As of `Nose`, whose rates are left out.
+        As of `Nose`.
+    rates : ndarray, shape (points, bearings, 2), optional
+        As `AxisWatch.rates`: of as many revolutions as there are those are taken in which the cages turn most
+        wholly. Without, all are, and the rates of `Nose` are left out.
 
     Raises
     ------
@@ -113,27 +118,38 @@ def resampled(scene: Scene, time: NDArray[np.float64], motion: NDArray[np.float6
         For a run of fewer revolutions than an asynchronous value needs.
     """
     turn = 60.0 / abs(scene.operation.speed_rpm)
-    count = min(int((time[-1] - time[0]) / turn), MOST)
+    ended = int(time[-1] / turn + _ROUNDING)
+    count = min(int(ended - time[0] / turn + _ROUNDING), MOST)
     if count < FEWEST:
         raise ValueError(
             f"{count} whole revolutions were kept, and error motion needs {FEWEST}: run for "
             f"{FEWEST * turn:.3g} s or longer"
         )
+    if rates is not None:
+        count = whole_turns(_cage_ratios(scene, rates), count)
     points = count * PER_REVOLUTION
-    wanted = time[-1] - turn / PER_REVOLUTION * np.arange(points - 1, -1, -1)
-    return Nose(scene, count, CubicSpline(time, motion)(wanted), ())
+    wanted = ended * turn - turn / PER_REVOLUTION * np.arange(points - 1, -1, -1)
+    within = (time >= wanted[0]) & (time <= wanted[-1])
+    found = () if rates is None else frequencies(rates[within], scene)
+    return Nose(scene, count, CubicSpline(time, motion)(wanted), found)
 
 
-def whole_turns(ratios: list[float]) -> int:
-    """Return the revolutions, 20 to 120, in which cages of these speeds over the shaft's turn most wholly.
+def whole_turns(ratios: list[float], most: int = MOST) -> int:
+    """Return the revolutions, 20 to ``most``, in which cages of these speeds over the shaft's turn wholly.
 
-    An average over them holds least of what the races make. Of several bearings the worst counts.
+    As nearly as any number does: an average over them holds least of what the races make. Of several bearings
+    the worst counts.
     """
-    counts = np.arange(FEWEST, MOST + 1)
+    counts = np.arange(FEWEST, most + 1)
     turns = counts[:, None] * np.array(ratios)
     off = np.abs(turns - np.rint(turns)).max(axis=1)
     # an average divides what is left by the revolutions
     return int(counts[np.argmin(off / counts)])
+
+
+def _cage_ratios(scene: Scene, rates: NDArray[np.float64]) -> list[float]:
+    """Return the speed of each cage over the shaft's."""
+    return [one.f_c / one.f_r for one in frequencies(rates, scene)]
 
 
 def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Callable[[], NDArray[np.float64]]:
@@ -147,48 +163,10 @@ def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Call
         found = np.array([instance.get(name) for name in names])
         if outer:
             found[:3] -= [instance.get(name) for name in outer]
-            found[3:] -= instance.s[_AT_TILT : _AT_TILT + 2]
+            found[3:] -= outer_tilt(instance)
         # a tilt about z carries a point ahead of the middle towards y, one about y away from z
         found[1] += at * found[4]
         found[2] -= at * found[3]
         return found
 
     return read
-
-
-class _Balls:
-    """Mean orbit and spin of the balls of each bearing, over the points that were read."""
-
-    def __init__(self, instance: Instance) -> None:
-        self._instance = instance
-        self._parts = [(instance.p[at_p], at_s) for at_p, at_s in parts_of(instance.p)]
-        self._sums = np.zeros((len(self._parts), 2))
-        self._count = 0
-
-    def read(self) -> None:
-        """Read the present rates."""
-        for sums, (p, part) in zip(self._sums, self._parts, strict=True):
-            rows = self._instance.s[part]
-            count = int(p[P.BALLS])
-            orbit, about_x, about_r, about_t = (
-                rows[S.Y + row : S.Y + row + count] for row in (Y.OM, Y.WX, Y.WR, Y.WT)
-            )
-            # spins are absolute: a wave of a ball passes a race by the spin in the axes that orbit
-            spin = np.sqrt((about_x - orbit) ** 2 + about_r**2 + about_t**2)
-            sums += np.abs(orbit.mean()), spin.mean()
-        self._count += 1
-
-    def ratios(self) -> list[tuple[float, float]]:
-        """Return orbit and spin over the shaft's speed of each bearing."""
-        speed = abs(float(self._instance.s[S.SPEED]))
-        return [(float(cage) / speed, float(spin) / speed) for cage, spin in self._sums / self._count]
-
-    def rates(self, shaft: float) -> tuple[KinematicFrequencies, ...]:
-        """Return the frequencies (Hz) of each bearing at ``shaft`` turns per second."""
-        return tuple(
-            KinematicFrequencies(
-                shaft, cage * shaft, spin * shaft, int(p[P.BALLS]) * (1.0 - cage) * shaft,
-                int(p[P.BALLS]) * cage * shaft,
-            )
-            for (cage, spin), (p, _) in zip(self.ratios(), self._parts, strict=True)
-        )  # fmt: skip

@@ -6,7 +6,7 @@
 ``sections``  summary, verdicts, choices, motion, loads, friction
 ``sound``     levels, spectra, waterfall, directivity, sounds to play
 ``modes``     Campbell diagram, tables of modes, moving shapes; a page of their own
-``set_page``  the page about a set of bearings on one shaft, from statics
+``set_page``  the page about a set of bearings on one shaft: statics, a short run
 ``make``      `report`: from a run or a recording to the page
 ============  ===========================================================================
 """

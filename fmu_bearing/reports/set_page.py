@@ -1,4 +1,4 @@
-"""The page about a set of bearings on one shaft: its statics, without a run."""
+"""The page about a set of bearings on one shaft: its statics, and a short run."""
 
 import math
 from collections.abc import Callable
@@ -13,10 +13,12 @@ from fmu_bearing.design.verdicts import cautions, side_by_side, verdicts
 from fmu_bearing.engine.layout import SP
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
+from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Card, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
+from fmu_bearing.reports.sections.error_motion import error_motion
 from fmu_bearing.reports.sections.friction import range_table
 from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.summary import Tile, tile
@@ -88,20 +90,24 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             sections.append(Section(key, heading, [], str(problem)))
     loudest: list[Tile] = []
     try:
-        sounding, microphones = sound_of_set(scene, found, tell)
-        sections += sounding
+        sounding, microphones, run = sound_of_set(scene, found, tell)
+        sections += [*sounding, _error_motion(run, tell)]
         level = float(microphones.levels["A"]["total"][microphones.loudest])
         label = f"loudest, at {microphones.names[microphones.loudest]}"
         loudest.append(tile("laeq_dB", label, level, "dB(A)", ".1f"))
     except (Absent, ValueError) as problem:
         sections.append(Section("levels", "Levels and sources", [], str(problem)))
+        why = (
+            f"it is of the run for the sound, and there is none: {problem}; or give the command error-motion"
+        )
+        sections.append(Section("error-motion", "Error motion", [], why))
     tiles, cards = _tiles(point) + loudest, [_card(point, k) for k in range(len(point.bearings))]
     whole = overall_of(judged, several=True)
     subtitle = (
         f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
         f"{scene.operation.speed_rpm:,.0f} r/min"
     )
-    source = "statics of the set, perfect bearings; sound by a short run"
+    source = "statics of the set, perfect bearings; sound and error motion by a short run"
     text = render(
         title or scene.name, subtitle, source, sections, tiles, [], warnings, kind="Spindle report",
         overall=whole, cards=[_shown(number, card, judged) for number, card in enumerate(cards, start=1)],
@@ -111,6 +117,14 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     for number, card in enumerate(cards, start=1):
         figures |= {f"bearing[{number}].{one['key']}": one["value"] for one in card}
     return SetPage(text, missing, figures, warnings, whole.judgement)
+
+
+def _error_motion(run: Subject, tell: Tell) -> Section:
+    tell("error motion")
+    try:
+        return error_motion(run)
+    except Absent as problem:
+        return Section("error-motion", "Error motion", [], str(problem))
 
 
 def _tiles(point: OperatingPoint) -> list[Tile]:

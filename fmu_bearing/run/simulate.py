@@ -41,6 +41,7 @@ def simulate(
     start_values: Mapping[str, float] | None = None,
     outputs: Sequence[str] | None = None,
     progress: bool | None = None,
+    watch: Callable[[Instance], None] | None = None,
 ) -> Run:
     """Run a bearing from its steady state and keep its variables at the communication points.
 
@@ -71,6 +72,8 @@ def simulate(
         Variables to keep, with ``*`` for any text (``"mic[*].leq"``); default: all outputs.
     progress : bool, optional
         Show a progress bar; default: on a terminal.
+    watch : callable, optional
+        Is called with the bearing at each point that is kept; not of an FMU, whose state is its own.
 
     Returns
     -------
@@ -95,10 +98,12 @@ def simulate(
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".fmu":
         from fmu_bearing.run.simulate_fmu import open_fmu
 
+        if watch is not None:
+            raise ValueError("watch: an FMU does not show its state; give the scene it was built from")
         player: Player = open_fmu(pathlib.Path(source))
         _warn_of_loose(player, start_values)
     else:
-        player = _Library(_model(source))
+        player = _Library(_model(source), watch)
     table = input_table(inputs, player.inputs, stop_time, step)
     names = chosen_names(outputs, player.readable, player.outputs)
     for name in by_name(start_values):
@@ -199,8 +204,8 @@ def duration(seconds: float) -> str:
 class _Library:
     """A model run by the package itself."""
 
-    def __init__(self, model: Model) -> None:
-        self.bearing = Instance(model)
+    def __init__(self, model: Model, watch: Callable[[Instance], None] | None = None) -> None:
+        self.bearing, self.watch = Instance(model), watch
         variables: Mapping[str, Variable] = self.bearing.by_name
         self.name, self.scene = model.scene.name, model.scene
         self.readable = {name: v.unit for name, v in variables.items()}
@@ -218,7 +223,13 @@ class _Library:
             bearing.set(name, value)
         feed.apply(bearing, 0.0)
         bearing.initialise()
-        read = bearing.reader(names)
+        take = bearing.reader(names)
+
+        def read():
+            if self.watch is not None:
+                self.watch(bearing)
+            return take()
+
         times, rows = [0.0], [read()]
         time, count, ended, note = 0.0, 0, COMPLETE, ""
         while time < stop_time and not math.isclose(time, stop_time):

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import operating_point, statics
+from fmu_bearing import operating_point, statics, with_fidelity
 from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.torque_range import CAPTION
 from fmu_bearing.design.verdict import overall
 from fmu_bearing.design.verdicts import verdicts
+from fmu_bearing.metrology.at_speed import AtSpeed
+from fmu_bearing.metrology.axis_watch import AxisWatch
+from fmu_bearing.metrology.nose import resampled
 from fmu_bearing.progress import silent
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports import make
@@ -27,8 +30,19 @@ PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 
 def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     made = make(PAIR, tmp_path / "pair.html")
-    assert list(made.sections) == ["verdicts", "arrangement", "balls", "heat", "axial", "warmth", "levels"]
-    assert [key for key, why in made.sections.items() if why] == ["levels"]  # it has no microphones
+    assert list(made.sections) == [
+        "verdicts",
+        "arrangement",
+        "balls",
+        "heat",
+        "axial",
+        "warmth",
+        "levels",
+        "error-motion",
+    ]
+    # it has no microphones, and so no run
+    assert [key for key, why in made.sections.items() if why] == ["levels", "error-motion"]
+    assert "no microphones" in made.sections["error-motion"] and "command" in made.sections["error-motion"]
     assert made.recording is None
     text = made.path.read_text(encoding="utf-8")
     assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
@@ -93,6 +107,9 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
     made = make(given, tmp_path / "set.html")
     page = Page(made.path)
     assert [key for key, why in made.sections.items() if not why][-3:] == ["levels", "spectra", "audio"]
+    # 0.06 s are 15 revolutions
+    assert "error motion needs 20" in made.sections["error-motion"]
+    assert "the command error-motion does" in made.sections["error-motion"]
     run = simulate(given, 0.08, step=Recording.PRESSURE_STEP, outputs=["mic[*].pressure", "mic[*].spl_*"])
     head, *rows = page.tables["Equivalent levels re 20 uPa"]
     first = int(np.searchsorted(run.time, 0.02 - 1e-9))
@@ -108,6 +125,44 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
     # outer rings in a housing at rest make no sound
     assert {row[head.index("outer ring")] for row in rows} == {"-"}
     assert len(page.sounds) == 2 and made.size < 2.5e6
+
+
+@pytest.mark.heavy  # statics and two runs
+def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
+    """The section has the figures that the functions of `error_motion` find on a run of the same points."""
+    monkeypatch.setattr(set_sound, "DURATION", 0.087625)
+    monkeypatch.setattr(set_sound, "SETTLE", 0.0155)  # 21 whole revolutions to the 25th
+    microphone = {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0}
+    given = with_fidelity(Scene.from_dict(tables(rpm=15e3) | {
+        "sound": {"radiation_model": "compact", "microphone": [microphone]},
+        "imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.0},
+    }), model="rings")  # fmt: skip
+    made = make(given, tmp_path / "set.html")
+    page = Page(made.path)
+    assert made.sections["error-motion"] == "" and made.size < 2.6e6
+    names = [f"shaft.nose.{name}" for name in ("displacement.x", "displacement.y", "displacement.z")]
+    names += ["shaft.nose.tilt.y", "shaft.nose.tilt.z"]
+    watch = AxisWatch()
+    run = simulate(given, 0.103, step=Recording.PRESSURE_STEP, outputs=names, progress=False, watch=watch)
+    kept = run.time >= 0.0155
+    motion = np.column_stack([run[name] for name in names])
+    one = AtSpeed(resampled(given, run.time[kept], motion[kept], watch.rates[kept]))
+    caption = f"Error motion of the nose of the shaft against the ground over {one.revolutions} revolutions"
+    head, *rows = page.tables[caption]
+    assert head[:4] == ["direction", "unit", "asynchronous", "synchronous, averaged"]
+    for row, values in zip(rows, one.values, strict=True):
+        assert row[0] == values.direction
+        # 4 digits are printed; splines of the page begin and end 1.7 ms before these, as pressures do
+        wanted = (values.asynchronous, values.synchronous, values.synchronous_by_line)
+        for cell, value in zip(row[2:5], wanted, strict=True):
+            assert float(cell) == pytest.approx(1e6 * value, rel=1e-3, abs=1e-4)
+    assert float(rows[2][2]) > 0.01  # um: surfaces of a grade move the nose
+    lines = page.tables["Largest lines of the error motion, amplitudes"]
+    assert lines[1][0] == one.lines[0].origin.name
+    assert len(page.tables["Asynchronous error motion that the lines of each bearing make alone"]) == 3
+    assert {t["meta"]["direction"] for t in page.traces("error-motion")} == {
+        "fixed y", "fixed z", "rotating", "axial"
+    }  # fmt: skip
 
 
 def test_nine_bearings_have_nine_curves():

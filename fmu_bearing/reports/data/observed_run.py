@@ -1,9 +1,11 @@
-"""The run for a report: sound channels, all variables at 25.6 kHz, load and angle of every ball."""
+"""The run for a report: sound channels, all variables at 25.6 kHz, the balls' loads, angles, rates."""
 
 import warnings
 
 from fmu_bearing.engine.layout import SD, Z
+from fmu_bearing.instance import Instance
 from fmu_bearing.interface.outputs import internals, outputs
+from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.balls import Watch
 from fmu_bearing.scene import Scene
@@ -43,7 +45,8 @@ def observed(
     Returns
     -------
     recording : Recording
-        Contacts of the balls are among its outputs under the names of `balls.name_of`.
+        Contacts of the balls are among its outputs under the names of `balls.name_of`, and what error
+        motion needs under those of `AxisWatch`.
     warnings : list of str
         Warnings of the run.
 
@@ -52,12 +55,17 @@ def observed(
     ValueError
         As ``record``.
     """
-    watch = Watch()
+    watch, axis = Watch(), AxisWatch()
+
+    def both(bearing: Instance) -> None:
+        watch(bearing)
+        axis(bearing)
+
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         recording = record(
             scene, duration, speed=speed, settle=settle, step=STEP, radiation_model=radiation_model,
-            outputs=variables_of(scene), progress=progress, watch=watch, warn=False,
+            outputs=variables_of(scene), progress=progress, watch=both, warn=False,
         )  # fmt: skip
-    recording.outputs.update(watch.outputs())
+    recording.outputs.update(watch.outputs() | axis.outputs(scene))
     return recording, list(dict.fromkeys(str(each.message) for each in caught))

@@ -7,7 +7,7 @@
 ``conditions``        operating point, kinematic frequencies, choices
 ``what_to_change``    choices ranked by level, life and torque
 ``ring_motion``       velocities, orbits
-``error_motion``      error motion of the axis of rotation, averaged
+``error_motion``      error motion of the axis of rotation: values, lines, sources
 ``ball_contacts``     loads and angles around the circle
 ``seats``             what the fits of the rings do
 ``friction``          torque, shares, heats

@@ -1,61 +1,136 @@
-"""Error motion of the axis of rotation, from the run of the report: averaged values, a polar plot."""
+"""Error motion of the axis of rotation, from the run of the report: values, lines, sources, a polar plot."""
+
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
-from fmu_bearing.metrology.error_motion import BOUND
+from fmu_bearing.metrology.axis_watch import OUTER_TILTS, rates_of
+from fmu_bearing.metrology.error_motion import BOUND, ErrorMotion
 from fmu_bearing.metrology.nose import resampled
-from fmu_bearing.metrology.polar_values import asynchronous, synchronous
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Absent, Chart, Choice, Option, Section, Table, small
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 
-#: The outer ring's tilt is not among the variables, so that tilts are left to the command.
 _SHOWN = ("fixed y", "fixed z", "rotating", "axial")
 _DRAWN = 20  # revolutions of a plot
 _EVERY = 2  # points of a revolution are drawn
 _STEADY = 1e-3  # of the speed: more is a run-up
 _BASE = 2.0  # radius of the base circle over the largest deviation
+_FITTED = 4  # bearings: the lines of more take the fit minutes, and memory
+_AXES = "xyz"
+_OF_RUN = 2  # columns of `ErrorMotion.table` that say which run it was
 
 
 def error_motion(subject: Subject) -> Section:
-    """Error motion of the inner ring against the outer one, in the middle of the bearing."""
-    one = _read(subject)
-    rows = []
-    for direction in _SHOWN:
-        unit, factor = DIRECTIONS[direction]
-        signal = one.signal(direction)
-        lowest = 1 if direction == "axial" else 2
-        values = (asynchronous(signal), synchronous(signal.mean(axis=0), lowest))
-        rows.append([direction, *(f"{factor * value:.3f}" for value in values)])
+    """Error motion: of a bearing's inner ring against the outer one, of a set's nose against the ground.
+
+    Values are those of `fmu_bearing.error_motion`, as far as the run kept what they need.
+
+    Raises
+    ------
+    Absent
+        Where the shaft does not turn evenly, or for too few revolutions.
+    """
+    found = _read(subject)
+    (one,) = found.speeds
+    if found.against == "ground":
+        what = "of the nose of the shaft against the ground"
+    else:
+        what = "of the inner ring against the outer ring"
+    columns, rows = found.table()
+    fitted = bool(one.nose.rates)
+    chosen = [k for k, name in enumerate(columns) if k >= _OF_RUN and (fitted or "by line" not in name)]
+    tilts = subject.scene.spindle is not None or subject.has(*OUTER_TILTS)
     table = Table(
-        f"Error motion of the inner ring against the outer ring over {one.revolutions} revolutions, um",
-        ["direction", "asynchronous", "synchronous, averaged"],
-        rows,
+        f"Error motion {what} over {one.revolutions} revolutions",
+        [columns[k] for k in chosen],
+        [[row[k] for k in chosen] for row in rows if tilts or row[_OF_RUN] in _SHOWN],
         note="Terms of ISO 230-7, from memory. Asynchronous: the largest width of the polar plot at any "
-        "angle. An average over few revolutions holds a part of the lines near whole orders; the command "
-        f"error-motion takes them out, and names lines and sources. {BOUND[0].upper()}{BOUND[1:]}.",
+        f"angle. {_synchronous(fitted)} {BOUND[0].upper()}{BOUND[1:]}.",
     )
-    return Section("error-motion", "Error motion", [table, _polar(one)])
+    blocks: list[Block] = [table, _polar(one)]
+    if fitted:
+        remarks = [line for line in found.remarks() if line != BOUND]
+        blocks[1:1] = [Words(f"{line[0].upper()}{line[1:]}.", "note") for line in remarks]
+        blocks += _sources(found)
+    return Section("error-motion", "Error motion", blocks)
 
 
-def _read(subject: Subject) -> AtSpeed:
-    """Return the motion of the run at parts of a revolution; `Absent` where it does not allow that."""
-    inner, outer = (
-        np.column_stack([subject.output(f"{ring}_ring.displacement.{axis}") for axis in "xyz"])
-        for ring in ("inner", "outer")
+def _synchronous(fitted: bool) -> str:
+    """Say what the synchronous values hold."""
+    if fitted:
+        return (
+            "Averaged: as an instrument does; an average over few revolutions holds a part of the lines near "
+            "whole orders. By line: whole orders, fitted beside the lines of the bearings."
+        )
+    return (
+        "An average over few revolutions holds a part of the lines near whole orders; the command "
+        "error-motion takes them out, and names lines and sources."
     )
+
+
+def _sources(found: ErrorMotion) -> list[Block]:
+    """Return the largest lines, and what each bearing and each of its sources makes alone."""
+    columns, rows = found.lines()
+    blocks: list[Block] = [
+        Table(
+            "Largest lines of the error motion, amplitudes", columns[1:], [r[1:] for r in rows], folded=True
+        )
+    ]
+    parts = [("source", found.per_source())]
+    if found.scene.spindle is not None:
+        parts.insert(0, ("bearing", found.per_bearing()))
+    for name, (heads, cells) in parts:
+        caption = f"Asynchronous error motion that the lines of each {name} make alone"
+        blocks.append(Table(caption, heads[1:], [row[1:] for row in cells], folded=True))
+    return blocks
+
+
+def _read(subject: Subject) -> ErrorMotion:
+    """Return the error motion of the run; `Absent` where it does not allow that."""
+    scene = subject.scene
+    several = scene.spindle is not None
+    if several:
+        motion = _columns(subject, "shaft.nose")
+        motion = np.hstack([motion, _tilts(subject, ("shaft.nose.tilt.y", "shaft.nose.tilt.z"))])
+    else:
+        motion = np.hstack(
+            [_columns(subject, "inner_ring") - _columns(subject, "outer_ring"), _between(subject)]
+        )
     if not np.isfinite(subject.turn):
         raise Absent("the shaft does not turn")
     if np.ptp(subject.recording.speed) > _STEADY * abs(subject.speed):
         raise Absent("the speed changes, so that no revolution repeats another")
-    motion = np.hstack([inner - outer, np.zeros((len(inner), 2))])
+    scene = scene.replace({"operation.speed_rpm": subject.speed / RPM})
+    rates = None
+    if len(scene.bearings()) <= _FITTED:
+        rates = rates_of(subject.recording.outputs, scene)
     try:
-        scene = subject.scene.replace({"operation.speed_rpm": subject.speed / RPM})
-        return AtSpeed(resampled(scene, subject.time, motion))
+        nose = resampled(scene, subject.time, motion, None if rates is None else rates[subject.within])
     except ValueError as reason:
-        raise Absent(str(reason)) from None
+        way = "" if not several else "; the run of a set's report cannot, and the command error-motion does"
+        raise Absent(f"{reason}{way}") from None
+    return ErrorMotion(scene, (AtSpeed(nose),), 0.0, "ground" if several else "outer ring")
+
+
+def _columns(subject: Subject, body: str) -> NDArray[np.float64]:
+    """Return the displacement (m) of a body, shape (points, 3)."""
+    return np.column_stack([subject.output(f"{body}.displacement.{axis}") for axis in _AXES])
+
+
+def _tilts(subject: Subject, names: Sequence[str]) -> NDArray[np.float64]:
+    """Return tilts (rad) about y and z, shape (points, 2)."""
+    return np.column_stack([subject.output(name) for name in names])
+
+
+def _between(subject: Subject) -> NDArray[np.float64]:
+    """Return the tilt of the inner ring against the outer one; zeros where it was not kept."""
+    if not subject.has(*OUTER_TILTS):
+        return np.zeros((len(subject.time), 2))
+    return _tilts(subject, ("inner_ring.tilt.y", "inner_ring.tilt.z")) - _tilts(subject, OUTER_TILTS)
 
 
 def _polar(one: AtSpeed) -> Chart:

@@ -1,10 +1,14 @@
-"""Sound of a set of bearings: a short run at the scene's loads, its pressures and the levels of its parts."""
+"""Sound of a set of bearings: a short run at the scene's loads, its pressures and the levels of its parts.
+
+The run also keeps what error motion needs.
+"""
 
 import re
 
 import numpy as np
 
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.progress import Tell
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.reports.data.microphones import Microphones, at_microphones
@@ -20,11 +24,12 @@ from fmu_bearing.steady.statics import Statics
 
 DURATION, SETTLE = 0.3, 0.05  # s that are measured, and left out before
 _ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
+_AXIS = ("shaft.nose.displacement.*", "shaft.nose.tilt.*")
 _PART = re.compile(r"mic\[1\]\.(spl_(bearing\[\d+\]|inner_ring|outer_ring|cage|balls))")
 
 
-def sound_of_set(scene: Scene, found: Statics, tell: Tell) -> tuple[list[Section], Microphones]:
-    """Run a set, and return the sections about its sound, and the levels.
+def sound_of_set(scene: Scene, found: Statics, tell: Tell) -> tuple[list[Section], Microphones, Subject]:
+    """Run a set, and return the sections about its sound, the levels, and the run with the axis of rotation.
 
     Lines are explained by the mean contact angles of all bearings, ``found``.
 
@@ -38,9 +43,11 @@ def sound_of_set(scene: Scene, found: Statics, tell: Tell) -> tuple[list[Section
     if np.isclose(scene.operation.speed_rpm, 0.0):
         raise Absent("the shaft does not turn")
     tell(f"running {scene.name} for {SETTLE + DURATION:g} s, for its sound")
-    outputs = ["mic[*].pressure", "mic[*].spl_*"]
-    run = simulate(scene, SETTLE + DURATION, step=Recording.PRESSURE_STEP, outputs=outputs, progress=False)
-    subject = Subject(_recording(run, scene, found), "recorded")
+    outputs, watch = ["mic[*].pressure", "mic[*].spl_*", *_AXIS], AxisWatch()
+    run = simulate(
+        scene, SETTLE + DURATION, step=Recording.PRESSURE_STEP, outputs=outputs, progress=False, watch=watch
+    )
+    subject = Subject(_recording(run, scene, found, watch), "recorded")
     microphones = at_microphones(subject)
     blocks = [*levels_and_spectra.levels(subject, microphones).blocks[:1], _parts(run, scene)]
     words = (
@@ -53,19 +60,23 @@ def sound_of_set(scene: Scene, found: Statics, tell: Tell) -> tuple[list[Section
         levels_and_spectra.spectra(subject, microphones),
         playback.audio(microphones),
     ]
-    return sections, microphones
+    return sections, microphones, subject
 
 
-def _recording(run: Run, scene: Scene, found: Statics) -> Recording:
-    """Return the pressures of a run as a recording."""
-    names = [name for name in run.names if name.endswith(".pressure")]
-    table = np.empty(len(run), [(name, float) for name in ("time", "shaft_speed", *names, *_ANGLES)])
+def _recording(run: Run, scene: Scene, found: Statics, watch: AxisWatch) -> Recording:
+    """Return the pressures of a run as a recording, with the motion of the nose."""
+    names = [name for name in run.names if name.endswith(".pressure") or name.startswith("shaft.nose.")]
+    watched = watch.outputs(scene)
+    heads = ("time", "shaft_speed", *names, *watched, *_ANGLES)
+    table = np.empty(len(run), [(name, float) for name in heads])
     table["time"] = run.time
     table["shaft_speed"] = scene.operation.speed_rpm * RPM
     for race, name in enumerate(_ANGLES):
         table[name] = np.mean([one.contact_angles[race] for one in found.bearings])
     for name in names:
         table[name] = run[name]
+    for name, values in watched.items():
+        table[name] = values
     return Recording.from_fmu(table, scene, SETTLE)
 
 

@@ -57,7 +57,8 @@ def error_motion(
 ) -> None:
     """Compute error motion of the axis of rotation: synchronous, asynchronous, its lines and sources.
 
-    Terms follow ISO 230-7, whose text was not at hand. --plot writes the polar plot, as polar.png in the folder, to a file.
+    Terms follow ISO 230-7, whose text was not at hand. --plot writes the polar plot, as polar.png in the
+    folder, to a file.
     """
     from fmu_bearing.extras import available
     from fmu_bearing.files import check_folder

@@ -48,8 +48,8 @@ def error_motion(subject: Subject) -> Section:
         f"Error motion {what} over {one.revolutions} revolutions",
         [columns[k] for k in chosen],
         [[row[k] for k in chosen] for row in rows if tilts or row[_OF_RUN] in _SHOWN],
-        note="Terms of ISO 230-7, whose text was not at hand. Asynchronous: the largest width of the polar plot at any "
-        f"angle. {_synchronous(fitted)} {BOUND[0].upper()}{BOUND[1:]}.",
+        note="Terms of ISO 230-7, whose text was not at hand. Asynchronous: the largest width of the polar "
+        f"plot at any angle. {_synchronous(fitted)} {BOUND[0].upper()}{BOUND[1:]}.",
     )
     blocks: list[Block] = [table, _polar(one)]
     if fitted:

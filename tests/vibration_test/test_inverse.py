@@ -255,7 +255,8 @@ def test_the_table_is_what_runs_give():
     assert 0.3**2 * table.races(np.array([1.7]), 1.0, none)[0, :3] == pytest.approx(in_bands(steep), rel=0.03)
     residue, scene = list(made.outer())[1]
     own = table.outer_orders % 12 == residue
-    assert 0.3**2 * table.outer[:3, own].sum(axis=1) == pytest.approx(in_bands(scene), rel=1e-3)
+    # the table is of steps that resolve every mode of the ring, runs resolve those up to 20 kHz: 0.24 %
+    assert 0.3**2 * table.outer[:3, own].sum(axis=1) == pytest.approx(in_bands(scene), rel=4e-3)
     for place in (0, 2):
         rigid = next(iter(made.balls(BALL_EXPONENTS[place], 1, rigid=True)))
         # small energies of H at the steepest exponent keep four digits, too

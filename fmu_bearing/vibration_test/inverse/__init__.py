@@ -47,7 +47,7 @@ def surface(
 ) -> Surface:
     """Find the surfaces of a bearing from the vibration test of its supplier.
 
-    The first time it runs the tests of each source by itself, about 210 runs (200 s of a processor for the
+    The first time it runs the tests of each source by itself, about 210 runs (160 s of a processor for the
     7003C), and keeps their spectra. Then it takes seconds.
 
     Parameters

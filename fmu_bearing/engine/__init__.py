@@ -8,7 +8,8 @@
 ``status``             status codes of the entries
 ``choices``            what a scene may choose, with its numbers in ``p``: one table each
 ``lanes``              four balls at a time
-``dense``              small dense matrices: product, elimination, inverse, eigenvectors, complex equations
+``dense``              small dense matrices: product, elimination, inverse, complex equations
+``eigen``              eigenvalues and eigenvectors of small complex matrices
 ``mechanics``          forces and equations of motion of balls, cage and rings
 ``newton``             the Newton system in accelerations: Jacobian, factors, solution
 ``statics``            quasi-static equilibrium, the first guess of the operating point

@@ -1,12 +1,9 @@
-"""Small dense matrices: product, elimination, inverse, eigenvectors and complex equations."""
-
-import math
+"""Small dense matrices: product, elimination, inverse and complex equations."""
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, L
 
-_SWEEPS = 12  # of Jacobi's method: more than any matrix here needs
 _LARGEST = 1e300  # a pivot beyond it is no number to divide by
 
 
@@ -130,40 +127,6 @@ def invert(a, at, n, out, to):
                 subtract(a, at + i * n, factor, at + k * n, n)
                 subtract(out, to + i * n, factor, to + k * n, n)
     return True
-
-
-@kernel
-def eigenvectors(a, at, v, to, n):
-    """Jacobi's method on the symmetric matrix ``a[at:]``: values on its diagonal, vectors as columns."""
-    for i in range(n * n):
-        v[to + i] = 0.0
-    for i in range(n):
-        v[to + i * n + i] = 1.0
-    for _ in range(_SWEEPS):
-        for p in range(n - 1):
-            for q in range(p + 1, n):
-                apq = a[at + p * n + q]
-                size = abs(a[at + p * n + p]) + abs(a[at + q * n + q])
-                if not (abs(apq) > 1e-15 * size):
-                    continue
-                theta = (a[at + q * n + q] - a[at + p * n + p]) / (2.0 * apq)
-                t = (1.0 if theta >= 0.0 else -1.0) / (abs(theta) + math.sqrt(theta * theta + 1.0))
-                c = 1.0 / math.sqrt(t * t + 1.0)
-                s = t * c
-                for k in range(n):
-                    x = a[at + k * n + p]
-                    y = a[at + k * n + q]
-                    a[at + k * n + p] = c * x - s * y
-                    a[at + k * n + q] = s * x + c * y
-                for k in range(n):
-                    x = a[at + p * n + k]
-                    y = a[at + q * n + k]
-                    a[at + p * n + k] = c * x - s * y
-                    a[at + q * n + k] = s * x + c * y
-                    x = v[to + k * n + p]
-                    y = v[to + k * n + q]
-                    v[to + k * n + p] = c * x - s * y
-                    v[to + k * n + q] = s * x + c * y
 
 
 @kernel

@@ -46,7 +46,7 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
     )
     p[P.STARVATION_HELD] = scene.lubricant.replenishment_held
     p[P.DRAG_FACTOR] = (
-        0.5 * values.oil_air_density * values.drag_coefficient * math.pi * b.ball_diameter**2 / 4
+        0.5 * scene.lubricant.density_round_balls * values.drag_coefficient * math.pi * b.ball_diameter**2 / 4
     )
 
 

@@ -11,7 +11,7 @@ from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
+from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.table import input_values
@@ -283,7 +283,6 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
         outer.transverse,
         outer.polar,
     )
-    p[P.OWN_SHARE : P.OWN_SHARE + Q.RINGS] = 1.0
     p[P.RIGID] = scene.mounted.preload_mode == "rigid"
     p[P.MISALIGNMENT_Y] = mounting.misalignment_y
     p[P.MISALIGNMENT_Z] = mounting.misalignment_z

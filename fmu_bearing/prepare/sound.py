@@ -88,7 +88,7 @@ def sound_block(scene: Scene, wanted: Block | None = None) -> NDArray[np.float64
     try:
         kept: NDArray[np.float64] = np.load(path, allow_pickle=False)
         return kept
-    except (OSError, ValueError, EOFError):  # not there, or damaged: made again
+    except Exception:  # not there, or damaged, for which NumPy raises what it comes upon: made again
         block = sound_parameters(scene, wanted)
     buffer = io.BytesIO()
     np.save(buffer, block, allow_pickle=False)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model, shaft_sections
+from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
 from fmu_bearing.engine.choices import RESPONSE, RINGS
 from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.interface.set_inputs import set_inputs
@@ -18,9 +18,6 @@ from fmu_bearing.scene.spindle import SetBearing, Spindle
 
 __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]
 
-_HELD = 1e-6  # inertia of a ring that is held over that of what holds it, where modes are looked for
-# rad/s, chosen: above the rings' modes. A mode of the free shaft counts 1 / (1 + (its frequency / 5 kHz)^2)
-_SLOW = 2.0 * math.pi * 5e3
 _SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
 _TURN, _OUTER = Q.TURN, Q.OUTER
 
@@ -73,8 +70,6 @@ def pack_set(
     for p, one in zip(bearings, spindle.bearing, strict=True):
         if one.seat != "pedestal":
             _hold(p)
-    for p, one in zip(bearings, spindle.bearing, strict=True):
-        p[P.OWN_SHARE : P.OWN_SHARE + SP.DRIVEN] = _own_shares(scene, p, one)
     follows = bearings[0][P.FIDELITY] in (RINGS, RESPONSE)
     rows = _rows(spindle, shaft, bearings, follows)
     block = _block(scene, shaft, bearings, rows)
@@ -89,46 +84,6 @@ def _hold(p: NDArray[np.float64]) -> None:
         P.PEDESTAL_DAMPING_YZ, P.AXIAL_RATIO, P.ROTATIONAL_RATIO,
     ):  # fmt: skip
         p[place] = 0.0
-
-
-def _beside(mass: float, transverse: float, middle: float, places: list[float]) -> tuple[float, float]:
-    """Share of each bearing in a body (kg) and in what turns it beyond those shares (kg m2).
-
-    ``transverse``: about an axis through its ``middle`` (m).
-    """
-    share = mass / len(places)
-    far = sum((one - sum(places) / len(places)) ** 2 for one in places)
-    left = transverse + mass * (middle - sum(places) / len(places)) ** 2 - share * far
-    return share, max(left, 0.0) / len(places)
-
-
-def _own_shares(scene: Scene, p: NDArray[np.float64], one: SetBearing) -> NDArray[np.float64]:
-    """Inertia of each row of the rings over that with what it carries of shaft and housing."""
-    spindle = set_of(scene)
-    if spindle.shaft.external:  # fidelity full alone, which does not read it
-        return np.ones(SP.DRIVEN)
-    places = [1e-3 * each.position_mm for each in spindle.bearing]
-    sections = shaft_sections(scene, spindle)
-    mass = sum(each.mass for each in sections)
-    middle = sum(each.mass * (each.start + 0.5 * each.length) for each in sections) / mass
-    about = sum(
-        each.transverse + each.mass * (each.start + 0.5 * each.length - middle) ** 2 for each in sections
-    )
-    beside, turning = _beside(mass, about, middle, places)
-    inner, across = p[P.INNER_MASS], p[P.INNER_TRANSVERSE]
-    found = np.full(SP.DRIVEN, _HELD)
-    found[:_OUTER] = [inner / (inner + beside)] * 3 + [across / (across + turning)] * 2
-    outer, across = p[P.OUTER_MASS], p[P.OUTER_TRANSVERSE]
-    if one.seat == "pedestal":
-        found[_OUTER:] = 1.0
-    elif spindle.housing.moves:
-        body, middle = housing_of(scene)
-        beside, turning = _beside(body.mass, body.transverse, middle, places)
-        polar = p[P.OUTER_POLAR] / (p[P.OUTER_POLAR] + body.polar / len(places))
-        found[_OUTER:] = [outer / (outer + beside)] * 3 + [polar] + [across / (across + turning)] * 2
-    if one.seat == "sliding":
-        found[_OUTER] = 1.0
-    return found
 
 
 def _driven(one: SetBearing, rings: bool) -> int:
@@ -254,10 +209,6 @@ def _block(
     total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
     tables[SP.AT_SCALE] = np.diag(total)[:, None] / total[0, 0]
     tables[SP.AT_INVERSE] = np.asarray(np.linalg.inv(total), dtype=np.float64)
-    stiff = np.zeros((n, n))
-    stiff[: shaft.count, : shaft.count] = shaft.stiffness
-    slow = np.linalg.inv(np.eye(n) + tables[SP.AT_INVERSE] @ stiff / _SLOW**2)
-    tables[SP.AT_SLOW] = np.asarray(slow, dtype=np.float64)
     lanes = SP.padded_size(n)
     columns = {place: _columns(table, lanes) for place, table in tables.items()}
     motions = [

@@ -153,14 +153,14 @@ def ball_profile(flaws: Imperfections, highest: int, wave_length: float) -> NDAr
 def form_rows(amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Numbers of the engine per zonal order from 0 on, ``P.FORM_ROW`` each, for ``amplitudes`` (m) from 1 on.
 
-    Legendre series of the height and its two derivatives by the cosine, times the polynomials' leading
+    Legendre series of the height and its derivative by the cosine, times the polynomials' leading
     coefficients (2n)! / (2^n n!^2), and what the recurrence takes of the order before.
     """
     height = np.concatenate([[0.0], amplitudes])
     n = np.arange(height.size)
     leading = np.concatenate([[1.0], np.cumprod((2.0 * n[1:] - 1.0) / n[1:])])
     rows = np.zeros((height.size, P.FORM_ROW))
-    for place, order in ((P.FORM_HEIGHT, 0), (P.FORM_RISE, 1), (P.FORM_CURVE, 2)):
+    for place, order in ((P.FORM_HEIGHT, 0), (P.FORM_RISE, 1)):
         series = legendre.legder(height, order)
         rows[: series.size, place] = series * leading[: series.size]
     rows[:, P.FORM_BACK] = n**2 / (4.0 * n**2 - 1.0)

@@ -5,8 +5,10 @@ from scipy.optimize import root
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import SP, C, H, L, P, S, U
+from fmu_bearing.modal.equations.quick import operator_matrix
 from tests.oracles.cartesian_forces import turned_axes
 
+COMES_IN = 2e-3  # s, as in condensed/patterns
 FIDELITIES = {"rings": 1.0, "response": 2.0}
 
 
@@ -36,30 +38,59 @@ def vibration(rows):
     return np.sqrt((v[:, :3] ** 2).sum(1).mean()), np.sqrt((v[:, 3:] ** 2).sum(1).mean())
 
 
-def matrices(run):
-    """Masses, and derivatives of the rings' accelerations by places and rates, of the state block."""
-    lv = block(run)
-    return [lv[at : at + L.MATRIX].reshape(L.N, 12)[:, : L.N].T.copy() for at in (L.MASS, L.JX, L.JV)]
+def answer(run, omega, accelerations):
+    """Complex places of the coordinates at ``omega`` (rad/s) to what accelerates them, by a dense solve."""
+    matrix, n = operator_matrix(run), len(accelerations)
+    drive = np.zeros(len(matrix), complex)
+    drive[n : 2 * n] = accelerations
+    return np.linalg.solve(1j * omega * np.eye(len(matrix)) - matrix, drive)[:n]
 
 
-def with_patterns(run):
-    """Linear equations M x'' = K x + C x' of rings and transverse balls of fidelity `response`."""
-    lv, count = block(run), L.N + L.PATTERNS
-    follow, lead, guide, pull, drag = (
-        lv[at : at + L.PATTERNS * L.COLUMN].reshape(L.PATTERNS, L.COLUMN)[:, : L.N]
-        for at in (L.SIDE_FOLLOW, L.SIDE_LEAD, L.SIDE_GUIDE, L.SIDE_PULL, L.SIDE_DRAG)
-    )
-    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    mass, stiff, damp = np.eye(count), np.zeros((count, count)), np.zeros((count, count))
-    own, places, rates = matrices(run)
-    rings, balls = np.s_[: L.N], np.s_[L.N :]
-    one = np.eye(L.PATTERNS)
-    mass[rings, rings] = own
-    stiff[rings, rings], stiff[rings, balls] = places - pull.T @ follow, pull.T
-    damp[rings, rings], damp[rings, balls] = rates - pull.T @ lead - drag.T @ guide, drag.T
-    stiff[balls, rings], stiff[balls, balls] = square * follow, -square * one
-    damp[balls, rings], damp[balls, balls] = square * lead + rate * guide, -rate * one
-    return mass, stiff, damp
+class Family:
+    """One family of the operator in the state block ``lv``, with complex arrays over its modes."""
+
+    def __init__(self, lv, family):
+        f = L.FAMILY + family * L.FAMILY_SIZE
+        count = int(lv[L.OPERATOR + family])
+
+        def rows(at, many):
+            table = lv[f + at : f + at + many * L.COMPLEX].reshape(many, 2, L.MODES)[:, :, :count]
+            return table[:, 0] + 1j * table[:, 1]
+
+        def pairs(at, shape):
+            table = lv[f + at : f + at + 2 * int(np.prod(shape))].reshape(*shape, 2)
+            return table[..., 0] + 1j * table[..., 1]
+
+        self.planes = PLANES[family]
+        n = len(self.planes[0])
+        self.value = rows(L.VALUE, 1)[0]
+        self.by_place, self.by_rate = rows(L.IN_PLACE, 4)[:n], rows(L.IN_RATE, 4)[:n]
+        self.by_away, self.out = rows(L.IN_AWAY, 2), rows(L.OUT, 4)[:n]
+        follow = pairs(L.FOLLOW, (2, 2, 4))[..., :n]
+        self.follow, self.lead = follow
+        self.push = pairs(L.PUSH, (4, 2))[:n]
+        at = family * L.COMPLEX
+        self.now = slice(at, at + count), slice(at + L.MODES, at + L.MODES + count)
+
+    def of(self, x):
+        """The family's complex coordinates of the rings' eleven numbers."""
+        parts = [np.array([sign * x[k] for k, sign in plane]) for plane in self.planes]
+        return parts[0] + (1j * parts[1] if len(parts) > 1 else 0.0)
+
+    def back(self, found):
+        """The rings' eleven numbers of complex ones."""
+        x = np.zeros(L.N)
+        for plane, part in zip(self.planes, (found.real, found.imag), strict=False):
+            for (k, sign), value in zip(plane, part, strict=True):
+                x[k] = sign * value
+        return x
+
+
+# coordinates of a family with their signs: in the first plane, then in the second, where tilts turn back
+PLANES = (
+    [[(0, 1.0), (5, 1.0), (8, 1.0)]],
+    [[(2, 1.0), (3, 1.0), (7, 1.0), (9, 1.0)], [(1, 1.0), (4, -1.0), (6, 1.0), (10, -1.0)]],
+)
 
 
 class Slow:
@@ -73,28 +104,21 @@ class Slow:
         self.balls = int(self.p[P.BALLS])
         self.speed = run.u[U.SPEED]
         self.tau = self.p[P.CONTACT_DAMPING]
-        self.soft = self.lv[L.SIDE : L.SIDE + 2]
-        self.square, self.rate = self.lv[L.SIDE_SQUARE], self.lv[L.SIDE_RATE]
-        self.side = {
-            name: self.lv[at : at + L.PATTERNS * L.COLUMN].reshape(L.PATTERNS, L.COLUMN)[:, : L.N]
-            for name, at in (("guide", L.SIDE_GUIDE), ("pull", L.SIDE_PULL), ("drag", L.SIDE_DRAG))
-        }
+        self.families = [Family(self.lv, family) for family in range(2)]
         self.places = [np.array([self.lv[L.X + j], self.lv[L.R + j]]) for j in range(self.balls)]
 
     def matrix(self, where):
         """An 11 x 11 matrix of the state block."""
         return self.lv[where : where + L.MATRIX].reshape(L.N, 12)[:, : L.N].T
 
-    def height(self, race, angle, derivative=0):
-        """Race height under an angle, or its second derivative, from the table's cubic."""
+    def height(self, race, angle):
+        """Race height under an angle from the table's cubic."""
         count = int(self.p[P.WAVE_INTERVALS])
         table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * count].reshape(2, -1, 2)[race]
         place = angle * count / (2 * np.pi)
         i, t = int(np.floor(place)), place - np.floor(place)
         (h0, g0), (h1, g1) = table[i % count], table[(i + 1) % count]
         a, b = g0 + g1 - 2 * (h1 - h0), 3 * (h1 - h0) - 2 * g0 - g1
-        if derivative:
-            return (2 * b + 6 * a * t) * (count / (2 * np.pi)) ** 2
         return h0 + t * (g0 + t * (b + t * a))
 
     def seat(self, race, ball, u, tilt):
@@ -122,7 +146,7 @@ class Slow:
         pair = self.lv[L.PAIR_INNER + race] * self.speed**2
         e, m = sine * axis + cosine * h, cosine * axis - sine * h
         force = hertz * approach**1.5 * e + pair * m
-        return force, np.cross(q, force), e, m, 1.5 * hertz * approach**0.5, hertz * approach**1.5 / distance
+        return force, np.cross(q, force)
 
     def both(self, place, theta, heights, q, ahead):
         """Contacts of a ball at ``place`` (x, r) with both rings at ``q``; ``ahead``: advanced by tau."""
@@ -132,71 +156,73 @@ class Slow:
         outer = [(at[5:8], at[9:11]) for at in (q, ahead)]
         return self.contact(0, ball, heights[0], *inner), self.contact(1, ball, heights[1], *outer)
 
-    def residual(self, place, theta, heights, bends, q, ahead):
-        """Net force (x, r) on a ball, with the inertia of what the waves make it do."""
+    def residual(self, place, theta, heights, q, ahead):
+        """Net force (x, r) on a ball."""
         p = self.p
         plane = np.array([[1.0, 0.0, 0.0], [0.0, -np.sin(theta), np.cos(theta)]])
         orbit = self.lv[L.RATIO] * self.speed
         net = np.array([0.0, (p[P.PITCH_RADIUS] + place[1]) * orbit**2 * p[P.BALL_MASS]])
         net[1] -= GRAVITY * p[P.BALL_MASS] * np.cos(theta)
-        stiffness, pushed = np.zeros((2, 2)), np.zeros(2)
-        for contact, bend in zip(self.both(place, theta, heights, q, ahead), bends, strict=True):
-            force, _, e, m, kn, kt = contact
-            e, m = plane @ e, plane @ m
+        for force, _ in self.both(place, theta, heights, q, ahead):
             net -= plane @ force
-            stiffness += kn * np.outer(e, e) + kt * np.outer(m, m)
-            pushed += kn * bend * e
-        made = np.linalg.solve(stiffness, pushed)
-        return net + p[P.BALL_MASS] * (made - self.soft * (self.soft @ made))
+        return net
 
-    def patterns(self, theta):
-        """Even, cosine and minus sine pattern of a ball, normed so that sums over the balls project."""
-        return np.array([1.0, 2.0 * np.cos(theta), -2.0 * np.sin(theta)]) / self.balls
+    def counted(self, e, pushes):
+        """What counts of a ball's place beside the linear one: less where it is far or lightly loaded."""
+        xx, xr, rr = self.lv[L.REACH : L.REACH + 3]
+        far = e @ np.array([[xx, xr], [xr, rr]]) @ e
+        loaded = np.prod([np.linalg.norm(force) for force, _ in pushes]) / self.lv[L.LOADED]
+        return e * loaded**4 / (loaded**4 + 1e-4) / (1.0 + far**2)
 
-    def accelerations(self, t, q, v, side=None):
-        """Accelerations of the 11 coordinates at time ``t`` from the start, then of the transverse patterns.
+    def accelerations(self, t, q, v, modes=None):
+        """Accelerations of the 11 coordinates at time ``t`` from the start, then rates of the modes.
 
-        ``side``: the patterns' places and velocities; absent: at rest where the balls rest, and the
-        accelerations of the rings alone.
+        ``modes``: complex, of balls and cage; absent: where their drive would hold them, and accelerations of
+        the rings alone.
         """
         p, speed = self.p, self.speed
         orbit = self.lv[L.RATIO] * speed
         ahead = q + self.tau * v
         f = np.zeros(L.N)
-        rest = np.zeros(L.PATTERNS)
+        place = q - self.lv[L.AT_RINGS : L.AT_RINGS + L.N]
+        # where the rings' linear motion takes the balls, by families
+        led = [one.follow @ one.of(place) + one.lead @ one.of(v) for one in self.families]
+        away = np.zeros((2, 2), dtype=complex)
         for j in range(self.balls):
             theta = orbit * (t + self.tau) + 2 * np.pi * j / self.balls
             across = theta - speed * (t + self.tau), theta - q[8]
             size = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
             heights = [size + self.height(race, across[race]) for race in range(2)]
-            bends = [
-                self.height(0, across[0], 2) * (orbit - speed) ** 2,
-                self.height(1, across[1], 2) * orbit**2,
-            ]
-            state = (theta, heights, bends, q, ahead)
+            state = (theta, heights, q, ahead)
             found = root(
                 lambda x, state=state: self.residual(1e-6 * x, *state), 1e6 * self.places[j], tol=1e-13
             )
             self.places[j] = 1e-6 * found.x
-            rest += self.patterns(theta) * (self.soft @ self.places[j] - self.lv[L.SIDE_STILL])
-            contacts = self.both(self.places[j], theta, heights, q, ahead)
-            for first, tilt, (force, moment, *_) in zip((0, 5), (3, 9), contacts, strict=True):
+            pushes = self.both(self.places[j], *state)
+            moved = self.places[j] - self.lv[L.AT_BALL : L.AT_BALL + 2]
+            moved = self.counted(moved - (led[0] + led[1] * np.exp(1j * theta)).real, pushes)
+            away[0] += moved / self.balls
+            away[1] += 2.0 * np.exp(-1j * theta) * moved / self.balls
+            for first, tilt, (force, moment) in zip((0, 5), (3, 9), pushes, strict=True):
                 f[first : first + 3] += force
                 f[tilt : tilt + 2] += moment[1:]
-        rolled = self.side["guide"] @ v
-        place, moving = (rest, np.zeros(L.PATTERNS)) if side is None else side
-        self.rest = rest
-        pushed = (place - rest) @ self.side["pull"] + (moving - rolled) @ self.side["drag"]
-        rings = self.rings(t, f, q, v, self.c, pushed)
-        if side is None:
-            return rings
-        return np.concatenate([rings, self.square * (rest - place) + self.rate * (rolled - moving)])
+        beside = self.matrix(L.BESIDE_PLACE) @ place + self.matrix(L.BESIDE_RATE) @ v
+        rates, begin = [], 0
+        for one, e in zip(self.families, away, strict=True):
+            drive = one.of(place) @ one.by_place + one.of(v) @ one.by_rate + e @ one.by_away
+            held = np.where(np.abs(one.value) < 1.0, 0.0, -drive / one.value)
+            z = held if modes is None else modes[begin : begin + len(one.value)]
+            beside += one.back(one.out @ z - one.push @ e)
+            rates.append(one.value * z + drive)
+            begin += len(one.value)
+        self.rates = np.concatenate(rates)
+        # what an operator adds at a start comes in by and by
+        beside += self.lv[L.JUMP : L.JUMP + L.N] * np.exp(-t / COMES_IN)
+        rings = self.rings(t, f, q, v, self.c) + beside
+        return rings if modes is None else np.concatenate([rings, self.rates])
 
-    def rings(self, t, f, q, v, c, pushed=0.0):
-        """Everything on the rings that does not come through the balls' contacts, then the mass matrix.
-
-        ``pushed``: accelerations of their own masses by the balls' transverse motion.
-        """
+    def rings(self, t, f, q, v, c):
+        """Everything on the rings that does not come through the balls' contacts, over their inertia."""
         p, speed = self.p, self.speed
         f[0] += c[C.PRELOAD]
         heavy = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed**2
@@ -220,4 +246,4 @@ class Slow:
             + [P.OUTER_POLAR]
             + [P.OUTER_TRANSVERSE] * 2
         ]
-        return np.linalg.solve(self.matrix(L.MASS), f / own + self.matrix(L.EXTRA) @ v + pushed)
+        return f / own

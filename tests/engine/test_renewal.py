@@ -66,7 +66,11 @@ def test_what_pieces_come_to_is_what_a_start_finds(scene, fidelity):
     now, then = block(run), block(wanted)
     assert now[L.SEARCH_STATE] == L.IDLE
     assert now[L.MORE] != 0.0  # a whirl, and balls that the load makes uneven
-    for first, count in ((L.RATIO, L.FOUND_SPEED - L.RATIO), (L.MORE_RATIO, 1 + L.LOST), (L.MASS, L.MATRIX)):
+    for first, count in (
+        (L.RATIO, L.FOUND_SPEED - L.RATIO),
+        (L.MORE_RATIO, 1 + L.LOST),
+        (L.FAMILY, 2 * L.FAMILY_SIZE),
+    ):
         found, expected = (one[first : first + count] for one in (now, then))
         near = 1e-7 if fidelity == "rings" else 5e-6  # lines are found for a speed within 1e-6
         np.testing.assert_allclose(found, expected, rtol=near, atol=1e-9 * np.abs(expected).max())

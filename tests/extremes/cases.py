@@ -146,7 +146,6 @@ CASES = [
         "no preload at 100000 r/min",
         start={"rpm": 1e5, "preload": 0.0},
         per_ms=1800.0,
-        refused={RINGS: ALL_LIFTED},
     ),
     Case(
         "preload taken away and given back",

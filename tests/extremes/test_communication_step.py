@@ -91,7 +91,9 @@ def test_same_means_over_twenty_milliseconds(settled, name, fidelity, method):
     # Steps that change three times in 0.1 ms forget their history each time: the axial velocity of the
     # spindle in `rings`, 6 % beside a resonance of 0.56 % damping, is 0.54 % less (0.02 % with even steps).
     slack = 1.2 if fidelity == "rings" else SLACK.get(method, 1.0)
-    np.testing.assert_allclose(spreads[1:], [spreads[0]] * 2, rtol=5e-3 * slack)
+    # the outer ring of the full-ceramic 7009C, which does a twentieth of the axial motion, 3.7 % more across
+    little = 2.5e-3 * max(spreads[0]) if fidelity == "rings" else 0.0
+    np.testing.assert_allclose(spreads[1:], [spreads[0]] * 2, rtol=5e-3 * slack, atol=little)
     np.testing.assert_allclose(loads[1:], [loads[0]] * 2, rtol=5e-3)
     # heats are means over the communication step, so that even two long ones hold all of them
     for h in (1e-4, 1e-3, 1e-2):

@@ -89,10 +89,9 @@ def test_ball_waves_stand_in_their_table():
     assert p[P.BALL_WAVES] == 3
     assert p.size == plain.size + 4 * P.FORM_ROW + 3 * STRIDE
     rows = p[int(p[P.AT_FORM]) :][: 4 * P.FORM_ROW].reshape(4, P.FORM_ROW)
-    # P_3 = 5/2 Q_3 with derivative P_0 + 5 P_2 and second derivative 15 P_1; P_2 = 3/2 Q_2
+    # P_3 = 5/2 Q_3 with derivative P_0 + 5 P_2; P_2 = 3/2 Q_2
     assert list(rows[:, P.FORM_HEIGHT]) == [0.0, 0.0, 0.0, pytest.approx(2.5 * 20e-9)]
     assert list(rows[:, P.FORM_RISE]) == [pytest.approx(20e-9), 0.0, pytest.approx(7.5 * 20e-9), 0.0]
-    assert list(rows[:, P.FORM_CURVE]) == [0.0, pytest.approx(15 * 20e-9), 0.0, 0.0]
     assert list(rows[1:, P.FORM_BACK]) == [pytest.approx(n * n / (4 * n * n - 1)) for n in (1, 2, 3)]
     axes = p[int(p[P.AT_AXES]) :][: 3 * STRIDE].reshape(3, STRIDE)
     np.testing.assert_allclose(np.linalg.norm(axes, axis=0), 1.0, rtol=1e-15)

@@ -13,6 +13,31 @@ VECTOR = 3  # numbers of a vector in space
 HISTORY = H.LENGTH  # places kept: now and at earlier steps
 PATTERNS = 3  # of the balls' motion that move the rings: uniform, as cosine and as minus sine of their angle
 
+# Families of motion: along the axis with the outer ring's turning, aside and tilting (complex, two planes).
+FAMILY_RINGS = 4  # coordinates of the rings in one at most
+INTERNAL = 13  # states of balls and cage: 3 places and 6 rates of a pattern of the balls, 2 and 2 of the cage
+MODES = -(-INTERNAL // FOUR) * FOUR  # lanes of modes
+COMPLEX = 2 * MODES  # a complex row of modes: real parts, then imaginary ones
+BOTH = 2 * COMPLEX  # of both families
+# What drives the modes: the rings' places, with the rest of what their rates do; the same of velocities; of
+# places what rates alone do; the balls' places of rest, now and at three steps before.
+BY_PLACE, BY_SLOPE, BY_RATE, BY_AWAY = range(4)
+DRIVES = 7
+# What they add in a step: by the first two at its end, at its begin, then by the last at the end and before.
+GAIN_PLACE, GAIN_SLOPE, GAIN_FROM_PLACE, GAIN_FROM_SLOPE, GAIN_AWAY = (k * BOTH for k in range(5))
+GAINS = 4 + HISTORY
+_family = Places()
+VALUE = _family(COMPLEX)  # 1/s: of the modes
+IN_PLACE = _family(FAMILY_RINGS * COMPLEX)  # how the rings' displacements drive them,
+IN_RATE = _family(FAMILY_RINGS * COMPLEX)  # velocities,
+IN_WHOLE = _family(FAMILY_RINGS * COMPLEX)  # the first plus the mode's rate times the second,
+IN_AWAY = _family(2 * COMPLEX)  # and how far balls' places of rest x, r are from those of linear balls
+OUT = _family(FAMILY_RINGS * COMPLEX)  # accelerations of the rings by the modes
+SHAPE = _family(INTERNAL * COMPLEX)  # states of balls and cage by the modes
+FOLLOW = _family(4 * FAMILY_RINGS * 2)  # complex: x, r at rest by the rings' places, then by velocities
+PUSH = _family(2 * FAMILY_RINGS * 2)  # complex, 1/s2: accelerations of the rings by the balls' places x, r
+FAMILY_SIZE = _family.next
+
 MOST_LINES = 384  # of fidelity response: a 7003C has 138 at 10,000 r/min; the last 100 weigh 4e-4 below 3,000
 # one line of fidelity response, in a table at the end of the state
 _line = Places()
@@ -58,16 +83,18 @@ SIDE_RATE = _at()  # 1/s: friction per velocity and mass of a ball
 SIDE_STEP = _at()  # s: step that the next two belong to; 0: none
 SIDE_STAY = _at()  # free motion over it: place by place,
 SIDE_COAST = _at()  # s: and by velocity
-SIDE_GAIN = _at()  # s2: place at the end of the step by what drives the balls there,
-SIDE_KICK = _at()  # s: and velocity
-SIDE_PLACE = _at(PATTERNS)  # m: of the balls,
-SIDE_VELOCITY = _at(PATTERNS)  # m/s: relative to their orbit
-SIDE_DRIVEN = _at(PATTERNS)  # m/s2: what drives them, now
-SIDE_BEFORE = _at(PATTERNS)  # a step before,
-SIDE_EARLIER = _at(PATTERNS)  # two
-SIDE_EARLIEST = _at(PATTERNS)  # and three
-SIDE_REST = _at(PATTERNS)  # m: where they would rest
-_SPARE = _at(3)  # rows begin at whole vectors
+# what balls and cage do between the rings, by modes of theirs: see condensed/operator and condensed/patterns
+MODES_STEP = _at()  # s: step that the next two belong to; 0: none
+MODES_KNOWN = _at()  # and how many earlier drives
+MODES_NEW = _at()  # 1: of a new operator: distances from where their drive would hold them
+SHARE = _at()  # of the balls that both races hold, lately
+_SPARE = _at(-_at.next % FOUR)
+MODES_NOW = _at(BOTH)  # complex: how far each mode is moved,
+MODES_DRIVEN = _at(DRIVES * BOTH)  # what drives it: see DRIVES
+JUMP = _at(COLUMN)  # m/s2, rad/s2: what renewals have changed in the rings' accelerations and still comes in
+ADDED = _at(COLUMN)  # m/s2, rad/s2: all that is added to those with balls at rest
+MODES_STAY = _at(BOTH)  # what is left of a mode after a step,
+MODES_GAIN = _at(GAINS * BOTH)  # and what the drives add: see GAINS
 CONDITIONS = _at(C.SIZE)  # that the held values were found at
 Q0 = _at(COLUMN)  # m, rad: displacements of the rings,
 V0 = _at(COLUMN)  # velocities
@@ -77,14 +104,19 @@ MEAN = _at(COLUMN)  # static equilibrium of the rings
 JX = _at(MATRIX)  # derivatives of accelerations by displacements
 JV = _at(MATRIX)  # and by velocities
 INVERSE = _at(MATRIX)  # of -JX
-MASS = _at(MATRIX)  # identity plus the balls' mass over the rings' own
-EXTRA = _at(MATRIX)  # 1/s: damping that traction adds, per own mass
 # rows of the rings' coordinates, one per pattern of the balls
-SIDE_FOLLOW = _at(PATTERNS * COLUMN)  # how far balls at rest follow the rings across their tracks,
-SIDE_LEAD = _at(PATTERNS * COLUMN)  # s: how far per rate of theirs, by contact damping,
-SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them
-SIDE_PULL = _at(PATTERNS * COLUMN)  # 1/s2: accelerations of the rings by the balls' distance from rest
-SIDE_DRAG = _at(PATTERNS * COLUMN)  # 1/s: and by their velocity against rolling
+SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them across their tracks
+# beside the held point: see condensed/contact_forces
+REACH = _at(VECTOR)  # 1/m2: quadratic form xx, xr, rr of a ball's place that is one far from there
+LOADED = _at()  # N2: product of its loads on both races there
+OPERATOR_BEGIN = _at.next
+# what fidelity full has beside the condensed balls, linear about a held point: see condensed/operator
+BESIDE_PLACE = _at(MATRIX)  # 1/s2: accelerations of the rings by displacements,
+BESIDE_RATE = _at(MATRIX)  # 1/s: and by velocities, with what balls and cage do held
+AT_RINGS = _at(COLUMN)  # m, rad: places of the rings that this holds about,
+AT_BALL = _at(FOUR)  # m: and x, r of a ball
+OPERATOR = _at(FOUR)  # modes of family 0 and of family 1; 0: balls follow statically
+FAMILY = _at(2 * FAMILY_SIZE)
 # rows per ball
 X = _at(STRIDE)  # m: place now
 R = _at(STRIDE)
@@ -120,11 +152,15 @@ OWN_KICK = _at(HISTORY)  # s: and velocity
 OWN_STEP = _at()  # s: the step they belong to; 0: none
 _SPARE_OWN = _at()  # rows begin at whole vectors
 Y0 = _at(Y.SIZE)  # state of the held point: even balls, the cage centred
+LAG = _at()  # rad: of the balls in their pockets there, which Y0 is without
 # what uneven balls add to what is lost there: see condensed/uneven
 MORE_SPEED = _at()  # rad/s: found at this speed of the shaft
 MORE_TOTAL = _at()  # W: lost with even balls there
 MORE_KNOWN = _at()  # 1: searched at least once
 MORE_RATIO = _at()  # factor on the orbit speed
+MORE_AWAY = _at()  # m: how far the cage is from the middle of its lands,
+MORE_WHIRL = _at()  # rad/s: how fast it goes round there
+MORE_PRESSED = _at()  # 1: its pockets press on all balls
 MORE = _at(LOST)  # losses added
 MORE_CONDITIONS = _at(C.SIZE)
 # a search for that, which goes on in pieces

@@ -8,8 +8,8 @@ vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 from fmu_bearing.engine.layout.condensed import FORCES, PATTERNS, N as RINGS
 from fmu_bearing.engine.layout.sizes import BALL_ORDERS, FOUR, STRIDE, Places
 
-PLACES = FORCES + PATTERNS  # components of the balls' forces, then of their places of rest across the track
-AWAY = PLACES - PATTERNS  # m: the uniform one of these
+AWAY = FORCES  # components of the balls' forces, then m: x, r of their places of rest in each pattern
+PLACES = AWAY + 2 * PATTERNS
 COMPONENTS = PLACES + 2  # and their places x, r between the races (m)
 REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most
@@ -21,9 +21,8 @@ COMPLEX = 2 * COMPONENTS  # numbers of one
 # kinds of sample
 FORCE = 0  # N, N m
 BY_HEIGHT = 1  # per m of race height under the ball: inner, outer
-BY_BEND = 3  # per m/s2 of its second time derivative: inner, outer
-BY_LEAN = 5  # per m/rad of the balls' slope across the track: inner, outer
-KINDS = 7
+BY_LEAN = 3  # per m/rad of the balls' slope across the track: inner, outer
+KINDS = 5
 FORMS = 4  # a ball's heights under both races, then its slopes across both tracks
 
 _at = Places()

@@ -1,6 +1,5 @@
 """P: parameters, written by ``prepare``; the engine copies the tunable ones to all bearings of a set."""
 
-from fmu_bearing.engine.layout import q as _Q
 from fmu_bearing.engine.layout.sizes import Places
 
 _at = Places()
@@ -104,7 +103,6 @@ PEDESTAL_DAMPING_Z = _at()
 PEDESTAL_DAMPING_YZ = _at()
 MISALIGNMENT_Y = _at()  # rad, of the outer ring's seat against the shaft
 MISALIGNMENT_Z = _at()  # rad
-OWN_SHARE = _at(_Q.RINGS)  # of the rings' coordinates: their inertia over that with what they carry in a set
 # cage, or springs in its place
 POCKET_CLEARANCE = _at()  # m
 POCKET_STIFFNESS = _at()  # N/m^1.5
@@ -163,8 +161,7 @@ TABLES = _at.next  # tables of variable length begin here
 # per zonal order of the balls' form, at AT_FORM; polynomials without their leading coefficients
 _form = Places()
 FORM_HEIGHT = _form()  # m
-FORM_RISE = _form()  # m: of its derivative by the cosine,
-FORM_CURVE = _form()  # and of its second one
+FORM_RISE = _form()  # m: of its derivative by the cosine
 FORM_BACK = _form()  # share of the polynomial before in the next one
 FORM_ROW = _form.next
 

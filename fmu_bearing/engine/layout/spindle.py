@@ -41,7 +41,6 @@ SIZE_U = _at()
 AT_ROWS = _at()  # ROW numbers per bearing
 AT_MASS = _at()  # n x n, without rings that are driven
 AT_INVERSE = _at()  # n x n: inverse of the mass with them
-AT_SLOW = _at()  # n x n: takes the fast motion from a shaft that bends, see rings/equations
 AT_STIFFNESS = _at()  # n x n, of the shaft and of springs at sliding rings
 AT_DAMPING = _at()
 AT_GYROSCOPIC = _at()  # per rad/s of the shaft's speed
@@ -174,8 +173,7 @@ LOAD = _bearing(PLANE)  # N, N m: of the inner ring on the balls, at the last co
 HELD_OFFSET = _bearing()  # m: that the bearing's quasi-static point was held with (fidelity rings)
 ANSWER = _bearing(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
 PER_BEARING = _bearing.next
-# fidelity rings, behind the inverse: numbers, then the vectors of history, and by padded columns B^-1 J_x and
-# what is added to the masses (`members.turned_at`)
+# fidelity rings, behind the inverse: numbers, then the vectors of history, and by padded columns B^-1 J_x
 MARCH = 0  # numbers of the march: see history
 _march = Places(_H.NUMBERS)
 HELD_NOSE = _march(PLANE)  # N, N m: what the bearings' quasi-static points were held with: loads on the nose,
@@ -209,14 +207,9 @@ LINE_MEMBER = _line()  # of which bearing,
 LINE_REAL = _line.next  # m, rad: real parts; imaginary parts follow
 TAIL_MEAN = FOUR  # behind the lines, from how many there were before those in use to their equilibrium
 
-# what the equations of all lines are made of: matrices of the coordinates by padded columns, then vectors of
-# them, how the balls of a bearing act on them across their tracks. Per pattern: how far balls at rest follow,
-# per rate of it, how far rolling takes them; forces by distance from rest, and by velocity against rolling
+# what the equations of all lines are made of: matrices of the coordinates by padded columns
 LINE_MASS, LINE_DAMPING, LINE_STIFFNESS = range(3)
 LINE_MATRICES = 3
-MOVES_FOLLOW, MOVES_LEAD, MOVES_GUIDE, MOVES_PULL, MOVES_DRAG = range(5)
-MOVES = 5
-LINE_MOVES = MOVES * _L.PATTERNS  # per bearing
 
 # --- work space -------------------------------------------------------------------------------------
 _at = Places()
@@ -287,7 +280,7 @@ def line_size(count):
 def state_size(bearings, count, mics=0, lines=False):
     """Length of the set's own in ``s``: head, vectors, per bearing, inverse, march, levels, ``lines``."""
     own = S_HEAD + MOTION * padded_size(count) + bearings * PER_BEARING + count * padded_size(count)
-    own += MARCHED + (_H.VECTORS + 2 * count) * padded_size(count) + bearings * mics
+    own += MARCHED + (_H.VECTORS + count) * padded_size(count) + bearings * mics
     table = _L.MOST_LINES * bearings * line_size(count) + TAIL_MEAN + padded_size(count)
     return own + (table if lines else 0)
 
@@ -297,8 +290,8 @@ def work_size(bearings, count):
     start = padded_size(count) + HOUSING * bearings
     own = W_HEAD + VECTORS * padded_size(count) + bearings * SCRATCH
     equations = start * (start + START_VECTORS) + 2 * count * padded_size(count)
-    # of lines, with the three matrices they are made of and what the balls' patterns add
-    complex_ones = (2 * (count + 1) + LINE_MATRICES * count + bearings * LINE_MOVES) * padded_size(count)
+    # of lines, with the three matrices they are made of, and what balls and cage add by rows
+    complex_ones = (2 * (count + 1) + LINE_MATRICES * count) * padded_size(count) + 2 * count * count
     return own + max(equations, complex_ones) + FOUR
 
 

@@ -6,7 +6,7 @@ the stages of a Runge-Kutta step.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
-from fmu_bearing.engine.layout.sizes import STRIDE, Places
+from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
 from fmu_bearing.engine.layout.w import Area
 
 # forces of the balls on one ring: rows
@@ -44,9 +44,10 @@ OUTER = _at(STRIDE)
 STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
-ASIDE = _at(_L.PATTERNS * STRIDE)  # m: patterns of the balls' places of rest across their tracks
+# behind the forces, as the components of a line have it: m, places x, r away from the held ones, by patterns
+AWAY = _at(2 * _L.PATTERNS * STRIDE)
+ASIDE = _at(STRIDE)  # m: the balls' places of rest across their tracks
 HELD = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes
-BEND = _at(2 * STRIDE)  # m/s2: second time derivative of the race heights, inner and outer
 LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
@@ -55,7 +56,6 @@ PHASES = _at(STRIDE)  # rad: of one row of lines
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE
-BEND_OUTER = BEND + STRIDE
 LEAN_OUTER = LEAN + STRIDE
 CONTACT_OUTER = CONTACT + CONTACT_SIZE
 
@@ -67,13 +67,30 @@ D = _at(_L.COLUMN)  # increment, and other short-lived vectors
 A = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations
 V = _at(_L.COLUMN)  # m/s, rad/s: velocities set aside
 BLENDED = _at(3 * _L.COLUMN)  # m, rad: displacements by the lines before, velocities, accelerations
-SIDE_REST = _at(_L.PATTERNS)  # m, m/s, m/s2: as L.SIDE_REST and so on, on trial
-SIDE_PLACE = _at(_L.PATTERNS)
-SIDE_VELOCITY = _at(_L.PATTERNS)
-SIDE_DRIVEN = _at(_L.PATTERNS)
-SIDE_FREE = _at(_L.PATTERNS)  # m: place at the end of the step if nothing drove the balls there
-SIDE_COASTING = _at(_L.PATTERNS)  # m/s: and velocity
-SIDE_END = _at.next
+_SPARE = _at(-_at.next % FOUR)
+MODES_FREE = _at(_L.BOTH)  # modes of balls and cage at the end of the step if nothing drove them there,
+MODES_DRIVEN = _at(4 * _L.BOTH)  # what drives them there, see L.DRIVES: the four at the end
+MODES_END = _at(_L.BOTH)  # modes there
+LINEAR = _at(_L.COLUMN)  # m, rad: places of the rings less the held ones
+FAMILY_PLACES = 2 * _L.FAMILY_RINGS  # numbers of a family: complex coordinates
+PLACES = _at(2 * FAMILY_PLACES)  # the same by families: of family 0, then of family 1
+RATES = _at(2 * FAMILY_PLACES)  # m/s, rad/s: and their velocities
+ADDED = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations beside those with balls at rest
+FAMILY_AWAY = 4  # numbers of a family: complex x, r
+AWAY_NOW = _at(
+    2 * FAMILY_AWAY
+)  # m: how far balls' places of rest x, r are from where these would take them: see patterns
+TRIAL_END = _at.next
+
+# what differences by the height of a race need of a contact: see condensed/contact_forces
+_pressed = Places()
+TOWARDS = _pressed(2)  # direction x, r from the ball into the race
+STIFFNESS = _pressed()  # N/m
+TOUCHED_X = _pressed()  # m: the contact from the ring's centre, in its orbiting axes
+TOUCHED_R = _pressed()
+TOUCHED_T = _pressed()
+ORBIT = _pressed()  # m: radius of the ball's orbit
+PRESSED_SIZE = _pressed.next
 
 _at = Places(_W.ACC)
 # derivatives of the accelerations
@@ -84,53 +101,33 @@ FOLLOW = _at(2 * _L.N * FOLLOW_SIZE)  # their change with coordinate i at FOLLOW
 # inverse of a matrix of the rings, both by rows
 MATRIX = _at(_L.N * _L.N)
 INVERSE = _at(_L.N * _L.N)
-# mass and damping of the rings' modes: matrices of one family by rows, scaled to own masses of 1
-FAMILY = 4  # coordinates of the larger family,
-CAGED = 2  # and of the cage in one
-BLOCK = FAMILY * FAMILY
-WHOLE = (FAMILY + CAGED) ** 2
-# in one plane, and what acts a quarter turn on, from the other: see condensed/whirls
-STILL = _at(2 * BLOCK)  # 1/s2: stiffness with balls at rest,
-DAMPER = _at(2 * BLOCK)  # 1/s: damping,
-HEAVY = _at(2 * BLOCK)  # and mass
-FULL_RE = _at(WHOLE)  # 1/s2: equations of a whirl by the full ones, rings and cage
-FULL_IM = _at(WHOLE)
-WHIRL_RE = _at(BLOCK)  # 1/s2: equations of the rings alone, or of the condensed rings
-WHIRL_IM = _at(BLOCK)
-MEAN_RE = _at(BLOCK)  # 1/s2: accelerations by the full equations, mean of both whirls
-MEAN_IM = _at(BLOCK)
-VALUES = _at(BLOCK)  # eigenvalues on the diagonal,
-VECTORS = _at(BLOCK)  # and their vectors in columns
-SHAPES = _at(BLOCK)  # mode shapes in rows
-BACK = _at(BLOCK)  # and the matrix that takes them back
-PARTS = 4
-ADDED = _at(PARTS * FAMILY)  # what each mode's mass and damping (1/s) lack, then what acts a quarter turn on
-PAIR = 4
-POLES = _at(PAIR * FAMILY)  # 1/s: complex frequencies of a mode's forward and backward whirl
-FOUND = _at(FAMILY)  # whether it has any
-FOLLOWS = _at(FAMILY)  # the family's L.SIDE_FOLLOW, scaled,
-LEADS = _at(FAMILY)  # L.SIDE_LEAD
-GUIDES = _at(FAMILY)  # and L.SIDE_GUIDE
-RIGHT = _at(2 * FAMILY)  # a whirl's shape: real, then imaginary parts,
-LEFT = _at(2 * FAMILY)  # and that of the matrix with rows for columns
-ROWS_RE = _at(FAMILY * (FAMILY + 1))  # equations of one iteration of a shape
-ROWS_IM = _at(FAMILY * (FAMILY + 1))
-BALL_ROW = _J.BALL + FAMILY + CAGED  # numbers per equation of a ball: coefficients, then right sides
-BALL_RE = _at(_J.BALL * BALL_ROW)
-BALL_IM = _at(_J.BALL * BALL_ROW)
-MODES_END = _at.next
-
-MASS_TURNED = 2 * FAMILY  # places in ADDED
-DAMPER_TURNED = 3 * FAMILY
+# balls and cage between the rings: complex matrices by rows, see condensed/operator
+_INNER = _L.INTERNAL * _L.INTERNAL
+STATES = _at(4 * _INNER)  # rates of the states by states: real parts twice, then imaginary parts twice
+TURNS = _at(2 * _INNER)
+VECTORS = _at(2 * _INNER)  # modes in columns
+INVERSE_RE = _at(2 * _INNER)  # rows of the modes and of a unit matrix, which becomes their inverse
+INVERSE_IM = _at(2 * _INNER)
+PER_RING = 4  # numbers: complex, by place and by velocity
+BY_RINGS = _at(PER_RING * _L.INTERNAL * _L.FAMILY_RINGS)  # rates by the rings' places and velocities
+HOLDS = _at(2 * _J.BALL)  # 1/s2: a ball's accelerations towards its place of rest x, r, by contacts
+PUSHED = 8 * _L.FAMILY_RINGS  # numbers of
+PUSHES = _at(PUSHED)  # 1/s2: accelerations of the rings by them
+PRESSED = _at(2 * PRESSED_SIZE)  # of each race
+HEIGHTENED = _at(_J.BALL)  # a ball's accelerations by the height of a race
+KEPT = _at(2 * _L.COMPLEX)  # states of balls and cage over a renewal
+OPERATOR_END = _at.next
 # lines of fidelity response
 LINE_SIDE = _L.N * _L.COLUMN  # right side of the rings' equations: behind the columns of coefficients
 LINE_RE = _at(LINE_SIDE + _L.COLUMN)
 LINE_IM = _at(LINE_SIDE + _L.COLUMN)
+ANSWER = _at(2 * _L.BOTH)  # modes of balls and cage at a frequency, per drive: forward, then backward
+BESIDE_RE = _at(_L.MATRIX)  # 1/s2: accelerations of the rings by them, and by what goes beside balls at rest
+BESIDE_IM = _at(_L.MATRIX)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
-BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height,
-BY_BEND = _at(_LN.COMPLEX)  # and per second time derivative of the height
+BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height
 # held values, which are found before the modes
-_at = Places(STILL)
+_at = Places(STATES)
 HELD_F = _at(_F.SIZE)  # right-hand side at the held state
 HELD_ROWS = _at(2 * STRIDE)  # orbit speeds and places of the published state, set aside
 HELD_LOST = _at(_L.LOST)  # losses with even balls, set aside
@@ -147,18 +144,19 @@ LEDGER: tuple[Area, ...] = (
     Area("T.D", D, _L.COLUMN, _BOTH),
     Area("T.A", A, _L.COLUMN, _BOTH),
     Area("T.V", V, _L.COLUMN, _BOTH),
-    Area("T side", SIDE_REST, SIDE_END - SIDE_REST, _BOTH),
+    Area("T modes of balls", MODES_FREE, TRIAL_END - MODES_FREE, _BOTH),
     Area("T.BASE", BASE, _L.N, _CONDENSED),
     Area("T.BALLS", BALLS, 2 * STRIDE, _CONDENSED),
     Area("T.FOLLOW", FOLLOW, 2 * _L.N * FOLLOW_SIZE, _CONDENSED),
     Area("T.MATRIX", MATRIX, _L.N * _L.N, _CONDENSED),
     Area("T.INVERSE", INVERSE, _L.N * _L.N, _CONDENSED),
-    Area("T modes", STILL, MODES_END - STILL, _CONDENSED),
+    Area("T operator", STATES, OPERATOR_END - STATES, _CONDENSED),
     Area("T.LINE_RE", LINE_RE, LINE_SIDE + _L.COLUMN, _LINES),
     Area("T.LINE_IM", LINE_IM, LINE_SIDE + _L.COLUMN, _LINES),
+    Area("T.ANSWER", ANSWER, 2 * _L.BOTH, _LINES),
+    Area("T.BESIDE", BESIDE_RE, 2 * _L.MATRIX, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
     Area("T.BY_HEIGHT", BY_HEIGHT, _LN.COMPLEX, _LINES),
-    Area("T.BY_BEND", BY_BEND, _LN.COMPLEX, _LINES),
     Area("T.HELD_F", HELD_F, _F.SIZE, _HELD),
     Area("T.HELD_ROWS", HELD_ROWS, 2 * STRIDE, _HELD),
     Area("T.HELD_LOST", HELD_LOST, _L.LOST, _HELD),

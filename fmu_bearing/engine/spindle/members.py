@@ -174,8 +174,7 @@ def squares(p):
 @kernel
 def alone(p, b):
     """Place in the set's own state of mean squares (Pa2) of bearing ``b`` alone, one per microphone."""
-    n, lanes = coordinates(p), padded_size(p)
-    return turned_at(history(p), n, lanes) + n * lanes + b * int(p[P.MICS])
+    return squares(p) + coordinates(p) * padded_size(p) + b * int(p[P.MICS])
 
 
 @kernel
@@ -224,15 +223,6 @@ def vector_at(lanes, k):
 def squares_at(vectors, lanes):
     """As `squares`, for the march's vectors at ``vectors``."""
     return vectors + H.VECTORS * lanes
-
-
-@kernel
-def turned_at(vectors, n, lanes):
-    """Place in the set's own state of what `equations.keep_turned` adds to the masses, by columns.
-
-    For ``n`` coordinates and the march's vectors at ``vectors``.
-    """
-    return squares_at(vectors, lanes) + n * lanes
 
 
 @kernel

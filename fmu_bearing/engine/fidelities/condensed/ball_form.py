@@ -47,7 +47,7 @@ def hold_rolling(p, lv, y, turning, w):
 
 @kernel
 def turned_back(lv, cosine, sine):
-    """Directions ``L.TOUCH``, turned about the balls' spin axis by minus an angle, and their first two rates.
+    """Directions ``L.TOUCH``, turned about the balls' spin axis by minus an angle, and their rates.
 
     Four at a time: into both races, across both tracks. ``cosine``, ``sine``: of the angle; the rates are
     derivatives by it (rad).
@@ -60,7 +60,7 @@ def turned_back(lv, cosine, sine):
     aside = cross(axis, e)
     here = added(scaled(cosine, moving), scaled(-sine, aside))
     rate = added(scaled(-sine, moving), scaled(-cosine, aside))
-    return added(still, here), rate, scaled(-1.0, here)
+    return added(still, here), rate
 
 
 @kernel
@@ -72,33 +72,31 @@ def one_of(vectors, k):
 
 @kernel
 def pair_of_sums(p, form, orders, x, y):
-    """Height of the zonal harmonics and its two derivatives at ``x``, then at ``y``, both of four balls.
+    """Height of the zonal harmonics and its derivative at ``x``, then at ``y``, both of four balls.
 
     As :func:`ball_waves.zonal`. Two chains at once fill each other's waiting time.
     """
     x_before, x_here = splat(1.0), x
     y_before, y_here = splat(1.0), y
-    x_height, x_rise, x_curve = splat(0.0), splat(p[form + P.FORM_RISE]), splat(p[form + P.FORM_CURVE])
-    y_height, y_rise, y_curve = x_height, x_rise, x_curve
+    x_height, x_rise = splat(0.0), splat(p[form + P.FORM_RISE])
+    y_height, y_rise = x_height, x_rise
     row = form
     for _ in range(orders):
         row += P.FORM_ROW
-        height, rise, curve = p[row + P.FORM_HEIGHT], p[row + P.FORM_RISE], p[row + P.FORM_CURVE]
+        height, rise = p[row + P.FORM_HEIGHT], p[row + P.FORM_RISE]
         back = p[row + P.FORM_BACK]
         x_height += height * x_here
         x_rise += rise * x_here
-        x_curve += curve * x_here
         y_height += height * y_here
         y_rise += rise * y_here
-        y_curve += curve * y_here
         x_here, x_before = x * x_here - back * x_before, x_here
         y_here, y_before = y * y_here - back * y_before, y_here
-    return x_height, x_rise, x_curve, y_height, y_rise, y_curve
+    return x_height, x_rise, y_height, y_rise
 
 
 @kernel
 def add_ball_form(p, c, lv, rolled, speed, w):
-    """Add the balls' form to the heights under both races and to their accelerations; write ``T.LEAN``.
+    """Add the balls' form to the heights under both races; write ``T.LEAN``.
 
     ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s). Heights are advanced by
     contact damping.
@@ -108,25 +106,17 @@ def add_ball_form(p, c, lv, rolled, speed, w):
     orders = int(p[P.BALL_WAVES])
     scale = c[C.OVERSIZE_SCALE]
     rate = lv[L.ROLL] * speed
-    squared = scale * rate * rate
     ahead = scale * rate * p[P.CONTACT_DAMPING]
-    here, rates, bends = turned_back(lv, math.cos(rolled), math.sin(rolled))
+    here, rates = turned_back(lv, math.cos(rolled), math.sin(rolled))
     inner, outer = one_of(here, 0), one_of(here, 1)
     inner_across, outer_across = one_of(here, 2), one_of(here, 3)
     inner_rate, outer_rate = one_of(rates, 0), one_of(rates, 1)
-    inner_bend, outer_bend = one_of(bends, 0), one_of(bends, 1)
     for j in range(0, int(p[P.LANES]), FOUR):
         a = three(p, axes + j)
-        height, rise, curve, height_o, rise_o, curve_o = pair_of_sums(
-            p, form, orders, dot(a, inner), dot(a, outer)
-        )
+        height, rise, height_o, rise_o = pair_of_sums(p, form, orders, dot(a, inner), dot(a, outer))
         swept = dot(a, inner_rate)
         swept_o = dot(a, outer_rate)
-        bend = squared * (curve * swept * swept + rise * dot(a, inner_bend))
-        bend_o = squared * (curve_o * swept_o * swept_o + rise_o * dot(a, outer_bend))
         store(w, T.INNER + j, load(w, T.INNER + j) + (scale * height + ahead * rise * swept))
         store(w, T.OUTER + j, load(w, T.OUTER + j) + (scale * height_o + ahead * rise_o * swept_o))
-        store(w, T.BEND + j, load(w, T.BEND + j) + bend)
-        store(w, T.BEND_OUTER + j, load(w, T.BEND_OUTER + j) + bend_o)
         store(w, T.LEAN + j, scale * rise * dot(a, inner_across))
         store(w, T.LEAN_OUTER + j, scale * rise_o * dot(a, outer_across))

@@ -4,10 +4,8 @@ A ball's place (x, r) balances both contacts, the centrifugal force, its weight 
 holds the gyroscopic moment. One Newton sweep for all balls at once also gives the forces on the rings at
 the corrected place, to first order, so that a good guess needs no second sweep.
 
-The balls' inertia along the contacts enters as far as they follow statically (Guyan 1965): what the rings'
-motion makes them do is mass added to the rings (``linearised.added_mass``), what the waves make them do is a
-force here. Across the track, where they give way most, they move by themselves (``transverse``). The turning
-of the orbit is neglected in both, some 0.1 of a term that is itself some 0.1 of the rings' mass.
+What they do beside that - inertia, slip, spin axes that lag behind - is linear and added to the rings'
+accelerations by ``patterns``.
 
 Contact damping. Fidelity `full` adds tau times the stiffness times the rate of approach to each contact. To
 first order in tau that is the force at the approach advanced by tau times its rate. The direction of the
@@ -19,7 +17,6 @@ no rate: what is found as its place is advanced along the contacts. Waviness is 
 import math
 
 from fmu_bearing.engine.constants import GRAVITY, PI
-from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
@@ -29,7 +26,10 @@ from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
 from fmu_bearing.engine.mechanics.powers import ROUND
 
-_FLOOR = 1e3  # N/m: keeps a ball without contact from being thrown far; 1e-5 of a loaded contact
+# N/m: keeps a ball without contact from being thrown far. It goes with the loads: a sweep leaves a ball short
+# of its rest by it, and the rings of loaded balls on a soft support would feel a spring to where these were.
+_FLOOR = 1e3
+_PER_LIGHT = 400.0  # 1/N2: a contact with 0.05 N halves it (chosen)
 _LONGEST = 2e-6  # m: move of a ball in one sweep, about the approach of a loaded contact
 # Sum over the balls of squared moves (m2) below which the first-order forces serve: 18 nm each, whose second
 # order is 18 nm squared over four approaches of 1.5 um, or 5e-11 m of ring motion, at frequencies above those
@@ -43,12 +43,11 @@ _SOFT = 1e6  # N/m: moves count as if against this stiffness at most; loaded con
 
 @kernel
 def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
-    """Put balls and races to their angles: cosines, sines, race heights (m) and their accelerations.
+    """Put balls and races to their angles: cosines, sines, race heights (m).
 
     ``theta``: angle of ball 0; all are evenly spaced; ``rolled``: angle by which the balls have turned (rad),
     not advanced by contact damping as the other angles may be: see ``ball_form``.
-    Heights contain half the ball's diameter deviation;
-    their second derivatives by time (m/s2) follow from the table's cubics at the ``speed`` of the shaft.
+    Heights contain half the ball's diameter deviation. ``speed``: of the shaft (rad/s).
     """
     lanes = int(p[P.LANES])
     c0 = math.cos(theta)
@@ -62,8 +61,6 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
         store(w, T.SIN + j, s0 * co + c0 * si)
         store(w, T.INNER + j, size)
         store(w, T.OUTER + j, size)
-        store(w, T.BEND + j, 0.0)
-        store(w, T.BEND_OUTER + j, 0.0)
         store(w, T.LEAN + j, 0.0)
         store(w, T.LEAN_OUTER + j, 0.0)
     if scale == 0.0:
@@ -79,9 +76,6 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
         table = int(p[P.AT_WAVES]) + race * 2 * intervals
         start = (theta - (inner_angle if race == 0 else outer_angle)) * per_radian
         row = T.INNER + race * STRIDE
-        bend = T.BEND + race * STRIDE
-        rate = (lv[L.RATIO] - (1.0 if race == 0 else 0.0)) * speed * per_radian
-        scale2 = 2.0 * scale * rate * rate
         for j in range(0, lanes, FOUR):
             place = start + load(lv, L.PHI + j)
             # adding ROUND leaves the whole part in the low bits; beside a whole number either one will do
@@ -97,7 +91,6 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
             a = g0 + g1 - 2.0 * d
             b = 3.0 * d - 2.0 * g0 - g1
             store(w, row + j, load(w, row + j) + scale * (h0 + t * (g0 + t * (b + t * a))))
-            store(w, bend + j, scale2 * (b + 3.0 * t * a))
 
 
 @kernel
@@ -145,11 +138,24 @@ def touch(
 
 
 @kernel
+def between(load_i, load_o):
+    """Return how far four balls with these loads (N) are held between both races, 0 to 1.
+
+    A ball that is not has no place across the track of its own. Twice a smooth step goes from 0.07 at 1 N to
+    0.97 at 3 N, for many a light ball together must not count as a loose one.
+    """
+    square_i, square_o = load_i * load_i, load_o * load_o
+    held = square_i * square_o / ((square_i + 1.0) * (square_o + 1.0))
+    held *= held * (3.0 - 2.0 * held)
+    return held * held * (3.0 - 2.0 * held)
+
+
+@kernel
 def balance(p, lv, speed, part, w):
     """Move every ball by a ``part`` of a Newton step towards its rest, from the contacts in ``T.CONTACT``.
 
-    Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places, the forces that the contacts have
-    there, and the patterns of the places across the track, ``T.ASIDE``.
+    Writes the moves ``T.DX``, ``T.DR`` and their squares, the new places, and those across the track,
+    ``T.ASIDE``.
     """
     mass = p[P.BALL_MASS]
     softx = lv[L.SIDE]
@@ -176,24 +182,11 @@ def balance(p, lv, speed, part, w):
         netx = -load_i * ex - pair_i * mx - load_o * fx - pair_o * tx
         netr = -load_i * er - pair_i * mr - load_o * fr - pair_o * tr
         netr += pull * (p[P.PITCH_RADIUS] + r) - weight * load(w, T.COS + j)
-        kxx = kn * ex * ex + kt * mx * mx + kn2 * fx * fx + kt2 * tx * tx + _FLOOR
+        floor = _FLOOR / ((_PER_LIGHT * load_i * load_i + 1.0) * (_PER_LIGHT * load_o * load_o + 1.0))
+        kxx = kn * ex * ex + kt * mx * mx + kn2 * fx * fx + kt2 * tx * tx + floor
         kxr = kn * ex * er + kt * mx * mr + kn2 * fx * fr + kt2 * tx * tr
-        krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + _FLOOR
-        # waves push the ball away from their race; the ball's inertia resists
-        # (not where a contact carries less than about 1 N: with a jump there, balls would find no rest)
-        square_i = load_i * load_i
-        square_o = load_o * load_o
-        both = 1.0 / ((square_i + 1.0) * (square_o + 1.0))
-        pushed_i = kn * load(w, T.BEND + j) * (square_i * (square_o + 1.0) * both)
-        pushed_o = kn2 * load(w, T.BEND_OUTER + j) * (square_o * (square_i + 1.0) * both)
-        bx = pushed_i * ex + pushed_o * fx
-        br = pushed_i * er + pushed_o * fr
+        krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + floor
         per = 1.0 / (kxx * krr - kxr * kxr)
-        followx = (bx * krr - br * kxr) * per
-        followr = (br * kxx - bx * kxr) * per
-        aside = softx * followx + softr * followr
-        netx += mass * (followx - softx * aside)
-        netr += mass * (followr - softr * aside)
         dx = part * (netx * krr - netr * kxr) * per
         dr = part * (netr * kxx - netx * kxr) * per
         moved = dx * dx + dr * dr
@@ -206,16 +199,9 @@ def balance(p, lv, speed, part, w):
         store(w, T.R + j, r + dr)
         store(w, T.DX + j, dx)
         store(w, T.DR + j, dr)
-        # a ball that is not between both races has no place across the track of its own: twice a smooth step
-        # goes from 0.07 at 1 N to 0.97 at 3 N, for many a light ball together must not count as a loose one
-        held = square_i * square_o * both
-        held *= held * (3.0 - 2.0 * held)
-        touched = load(lv, L.MASK + j) * held * held * (3.0 - 2.0 * held)
+        touched = load(lv, L.MASK + j) * between(load_i, load_o)
         store(w, T.HELD + j, touched)
-        rest = touched * (softx * (x + dx) + softr * (r + dr) - still)
-        store(w, T.ASIDE + j, rest)
-        store(w, T.ASIDE + STRIDE + j, rest * load(w, T.COS + j))
-        store(w, T.ASIDE + 2 * STRIDE + j, -rest * load(w, T.SIN + j))
+        store(w, T.ASIDE + j, touched * (softx * (x + dx) + softr * (r + dr) - still))
         # a ball that touches neither race goes towards one, but nothing waits for it
         touching = select(load_i + load_o > 0.0, load(lv, L.MASK + j), 0.0)
         # one that barely touches moves far for forces that nobody feels: 3e-8 m times _SOFT is 0.03 N
@@ -363,7 +349,4 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     y = w[W.STAGE : W.STAGE + Y.SIZE]
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)
-    times(lv, L.EXTRA, y, Y.V0, q, 0)
-    for i in range(L.N):
-        f[F.BODY + i] += q[i]
     return True

@@ -30,6 +30,14 @@ _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
 
 @kernel
+def turning_at(speed):
+    """Return the speed (rad/s), not zero, at which the state that is held at ``speed`` turns."""
+    if abs(speed) < _STANDSTILL:
+        return -_STANDSTILL if speed < 0.0 else _STANDSTILL
+    return speed
+
+
+@kernel
 def held_speed(p, u, speed, lv, c):
     """Put the conditions ``c`` of what is held to ``u``'s at ``speed``; return a speed (rad/s) not zero."""
     conditions(p, u, speed, c)
@@ -37,9 +45,7 @@ def held_speed(p, u, speed, lv, c):
     c[C.OVERSIZE_SCALE] = 0.0
     c[C.ECCENTRICITY] = 0.0
     c[C.CAGE_ECCENTRICITY] = 0.0
-    if abs(speed) < _STANDSTILL:
-        return -_STANDSTILL if speed < 0.0 else _STANDSTILL
-    return speed
+    return turning_at(speed)
 
 
 @kernel
@@ -134,6 +140,7 @@ def hold_at(p, speed, turning, ring_held, s, w):
     lv[L.PAIR_OUTER] = share * across_track(p, c, y, 1, w)
     # the rings' motion is found with balls that are free in their pockets
     lag = y[Y.TH]
+    lv[L.LAG] = lag
     for j in range(int(p[P.LANES])):
         y[Y.TH + j] -= lag
 

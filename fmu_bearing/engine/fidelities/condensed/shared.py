@@ -3,10 +3,19 @@
 import math
 
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.fidelities.condensed.balls import set_angles
-from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date
-from fmu_bearing.engine.fidelities.condensed.linearised import added_mass, at_rest, derivatives
-from fmu_bearing.engine.fidelities.condensed.modes import correct_modes
+from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
+from fmu_bearing.engine.fidelities.condensed.contact_forces import (
+    find_holds,
+    find_presses,
+    find_pushes,
+    note_contacts,
+)
+from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date, turning_at
+from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.operator import (
+    clear_operator,
+    find_operator,
+)
 from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     clear_transverse,
@@ -16,9 +25,10 @@ from fmu_bearing.engine.fidelities.condensed.transverse import (
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, S, T, U, W, Y
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.newton.body_slopes import land_slopes
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_rings
 from fmu_bearing.engine.status import OK
@@ -45,28 +55,57 @@ def flat(p, c, lv, w):
     set_angles(p, c, lv, 0.0, 0.0, 0.0, 0.0, 0.0, w)
     for i in range(2 * STRIDE):
         w[T.INNER + i] = 0.0
-        w[T.BEND + i] = 0.0
         w[T.LEAN + i] = 0.0
 
 
 @kernel
-def hold_masses(p, s, w):
-    """Masses, damping by traction and the balls' transverse motion, all at the held point.
+def jacobian_with_cage(p, c, lv, speed, w, jac):
+    """Jacobian of `full` at the held point, with the cage as it runs there.
 
-    ``L.JX`` and ``L.JV`` and the trial state are overwritten. Where balls find no rest there, the rings have
-    their own masses alone.
+    Where it whirls and its pockets press on all balls, these lag in them. The film of its lands has the
+    slopes of where the cage is: its whirl is faster or slower than what rings do, so that they feel the mean
+    over it.
+    """
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
+    if p[P.CAGE] == 0.0:
+        jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
+        return
+    lag = lv[L.LAG] if lv[L.MORE_PRESSED] != 0.0 and lv[L.MORE_WHIRL] != 0.0 else 0.0
+    for j in range(int(p[P.LANES])):
+        y[Y.TH + j] += lag
+    viscosity = c[C.LAND_VISCOSITY]
+    c[C.LAND_VISCOSITY] = 0.0
+    jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
+    for j in range(int(p[P.LANES])):
+        y[Y.TH + j] -= lag
+    # the mean over all directions is that of two
+    c[C.LAND_VISCOSITY] = 0.5 * viscosity
+    away, rate = lv[L.MORE_AWAY], lv[L.MORE_AWAY] * lv[L.MORE_WHIRL]
+    for k in range(2 if p[P.LAND] != 0.0 else 0):
+        place, moving = Y.Q0 + Q.CAGE + Q.Z - k, Y.V0 + Q.CAGE + Q.Y + k
+        sign = 1.0 - 2.0 * k
+        y[place] += away
+        y[moving] -= sign * rate
+        land_slopes(p, c, y, speed, p[P.LAND_OFFSET], jac)
+        land_slopes(p, c, y, speed, -p[P.LAND_OFFSET], jac)
+        y[place] -= away
+        y[moving] += sign * rate
+    c[C.LAND_VISCOSITY] = viscosity
+
+
+@kernel
+def hold_operator(p, s, w):
+    """Find what balls and cage do between the rings at the held point: see `operator` and `transverse`.
+
+    ``L.JX`` and ``L.JV`` and the trial state are overwritten. Where balls find no rest there, or nothing
+    holds them between both races, they follow statically.
     """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     jac = s[S.JAC : S.CONDENSED]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    speed = lv[L.FOUND_SPEED]
-    for i in range(L.MATRIX):
-        lv[L.EXTRA + i] = 0.0
-        lv[L.MASS + i] = 0.0
-    for i in range(L.N):
-        lv[L.MASS + L.DIAGONAL * i] = 1.0
-    clear_transverse(lv)
+    speed = turning_at(lv[L.FOUND_SPEED])
+    lv[L.MODES_NEW] = 1.0
     for i in range(Y.SIZE):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):
@@ -76,12 +115,22 @@ def hold_masses(p, s, w):
         w[T.R + j] = y[Y.R + j]
     flat(p, c, lv, w)
     if not derivatives(p, c, lv, 0.0, speed, 0.0, w):
+        clear_transverse(lv)
+        clear_operator(lv)
         return
+    # the last difference leaves the contacts moved
+    accelerations(p, c, lv, 0.0, speed, 0.0, w[T.Q : T.Q + L.COLUMN], w)
     find_transverse(p, c, lv, speed, w)
-    added_mass(p, c, lv, w)
-    jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
+    find_holds(p, lv[L.Y0 + Y.OM], w)
+    find_pushes(p, lv, speed, w)
+    note_contacts(p, lv, w)
+    if lv[L.SIDE_SQUARE] == 0.0:
+        clear_operator(lv)
+        return
+    find_presses(p, c, y, speed, w)
+    jacobian_with_cage(p, c, lv, speed, w, jac)
     find_friction(p, lv, jac)
-    correct_modes(p, lv, jac, w)
+    find_operator(p, lv, jac, lv[L.Y0 + Y.OM], w)
 
 
 @kernel
@@ -100,7 +149,7 @@ def start_condensed(p, u, s, w, t):
         return status
     c = s[S.C : S.C + C.SIZE]
     even_spacing(p, lv)
-    hold_masses(p, s, w)
+    hold_operator(p, s, w)
     for i in range(Y.SIZE):
         w[W.STAGE + i] = 0.0
     for i in range(L.N):

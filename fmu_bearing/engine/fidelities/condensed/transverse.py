@@ -1,27 +1,20 @@
-"""The balls' own motion across their tracks, where the contacts hold them a hundredth as stiffly as along.
+"""What holds a ball across its track and drags it along, for its own motion there (``ball_motion``).
 
 Held between the races, a ball swings across its track at sqrt((Q_i / l_i + Q_o / l_o) / m), l from the
-grooves' centres: 21.9 kHz (7003C), 4.6 kHz (7009C). Above that it stays behind, and the rings feel balls held
-there, not balls that follow. Traction drags it along with the mean of both races, in the 7003C so strongly
-that nothing swings.
+grooves' centres: 21.9 kHz (7003C), 4.6 kHz (7009C). Traction drags it along with the mean of both races, in
+the 7003C so strongly that nothing swings. With S a ball's place there, S_0 where it would rest (the condensed
+balls) and U v what the rings' velocities v would make it do by rolling,
 
-Rings feel the balls in three patterns alone, as far as balls carry equal loads: uniform, and as the cosine
-and the minus sine of their angle. With S a pattern's place across the track, S_0 where the balls would rest
-(the condensed balls) and U v what the rings' velocities v would make them do by rolling,
+    S'' = w^2 (S_0 - S) + c (U v - S').
 
-    S'' = w^2 (S_0 - S) + c (U v - S'),
-
-and the rings get the forces of a spring S - S_0 and of a damper S' - U v. Nothing here depends on the rings'
-accelerations, so the waves' inertia force is contained. The equation is linear: over a step it is solved
-exactly for a drive w^2 S_0 + c U v that is a polynomial through its last values, stable however stiff.
+The equation is linear: over a step it is solved exactly for a drive w^2 S_0 + c U v that is a polynomial
+through its last values, stable however stiff. What the rings feel of all balls is in ``patterns``.
 """
 
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import sum_lanes
-from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, W, Y
-from fmu_bearing.engine.newton.body_slopes import inertia
+from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, Y
 
 _LOADED = 1.0  # N at both races: with less a ball follows statically
 # Radians per step of the balls between held races: below them polynomials through three and five drives are
@@ -33,23 +26,12 @@ _STIFF = 2.0
 
 
 @kernel
-def pattern_weight(p, pattern):
-    """Sum over the balls of the square of a pattern."""
-    return p[P.BALLS] if pattern == 0 else 0.5 * p[P.BALLS]
-
-
-@kernel
-def share_held(p, w):
-    """Return the share of the transverse motion that rings feel: 1 with every ball held, 0 with one loose."""
-    return max(1.0 - p[P.BALLS] + sum_lanes(w, T.HELD, int(p[P.LANES])), 0.0)
-
-
-@kernel
 def clear_transverse(lv):
     """Let the balls follow statically."""
-    for i in range(L.SIDE, L.SIDE_GAIN):
+    for i in range(L.SIDE, L.SIDE_STEP):
         lv[i] = 0.0
-    for i in range(L.SIDE_FOLLOW, L.SIDE_DRAG + L.PATTERNS * L.COLUMN):
+    lv[L.SIDE_STEP] = 0.0
+    for i in range(L.SIDE_GUIDE, L.SIDE_GUIDE + L.PATTERNS * L.COLUMN):
         lv[i] = 0.0
 
 
@@ -109,36 +91,20 @@ def guide(c, lv, w, contact, first, tilt, share):
 
 @kernel
 def find_transverse(p, c, lv, speed, w):
-    """Fill direction, frequency and the rows of ``L.SIDE_FOLLOW`` on from derivatives at the held point.
+    """Fill direction, frequency and rolling of the balls at the held point, whose contacts are in ``w``.
 
-    They were just made. Where ball 0 is not held by both races, the balls follow statically.
+    Where ball 0 is not held by both races, the balls follow statically.
     """
     clear_transverse(lv)
     if not find_direction(p, lv, speed, w):
         return
-    tx = lv[L.SIDE]
-    tr = lv[L.SIDE + 1]
-    for k in range(2 * L.N):
-        i = L.SIDE_FOLLOW + k if k < L.N else L.SIDE_LEAD + k - L.N
-        at = T.FOLLOW + k * T.FOLLOW_SIZE
-        uniform = 0.0
-        with_cosine = 0.0
-        with_sine = 0.0
-        for j in range(int(p[P.BALLS])):
-            aside = tx * w[at + j] + tr * w[at + STRIDE + j]
-            uniform += aside
-            with_cosine += aside * w[T.COS + j]
-            with_sine -= aside * w[T.SIN + j]
-        lv[i] = uniform / pattern_weight(p, 0)
-        lv[i + L.COLUMN] = with_cosine / pattern_weight(p, 1)
-        lv[i + 2 * L.COLUMN] = with_sine / pattern_weight(p, 2)
     guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)
     guide(c, lv, w, T.CONTACT_OUTER, Q.OUTER, Q.OUTER + Q.BY, 0.5)
 
 
 @kernel
 def find_friction(p, lv, jac):
-    """Friction across the track from the full Jacobian of ball 0, whose spin yields; then what rings feel."""
+    """Friction across the track from the full Jacobian of ball 0, whose spin yields."""
     if lv[L.SIDE_SQUARE] == 0.0:
         return
     tx = lv[L.SIDE]
@@ -152,27 +118,6 @@ def find_friction(p, lv, jac):
     if jac[spin + Y.WT] < 0.0:
         own -= by_spin * of_spin / jac[spin + Y.WT]
     lv[L.SIDE_RATE] = max(-own, 0.0)
-    for pattern in range(L.PATTERNS):
-        mass = p[P.BALL_MASS] * pattern_weight(p, pattern)
-        for i in range(L.N):
-            at = pattern * L.COLUMN + i
-            per = mass / inertia(p, i)
-            lv[L.SIDE_PULL + at] = per * lv[L.SIDE_SQUARE] * lv[L.SIDE_FOLLOW + at]
-            lv[L.SIDE_DRAG + at] = per * lv[L.SIDE_RATE] * lv[L.SIDE_GUIDE + at]
-
-
-@kernel
-def hold_across(p, lv, w):
-    """Make of derivatives with balls at rest, just made, those with balls held across their tracks."""
-    share = share_held(p, w)
-    for k in range(L.N):
-        for i in range(L.N):
-            at = i + L.COLUMN * k
-            for row in range(0, L.PATTERNS * L.COLUMN, L.COLUMN):
-                pull = share * lv[L.SIDE_PULL + row + i]
-                drag = share * lv[L.SIDE_DRAG + row + i] * lv[L.SIDE_GUIDE + row + k]
-                lv[L.JX + at] -= pull * lv[L.SIDE_FOLLOW + row + k]
-                lv[L.JV + at] -= pull * lv[L.SIDE_LEAD + row + k] + drag
 
 
 @kernel
@@ -241,141 +186,12 @@ def continued(lv, h, end, now, before, earlier, earliest):
 
 
 @kernel
-def prepare_step(lv, h):
-    """Gain and kick of a step ``h`` (s): what its last drive does to a pattern."""
-    if lv[L.SIDE_SQUARE] == 0.0:
-        return
-    if h != lv[L.SIDE_STEP]:
-        free_motion(lv, h)
-    b0, b1, b2, b3, b4 = continued(lv, h, 1.0, 0.0, 0.0, 0.0, 0.0)
-    gain, kick = moved_on(lv, h, 0.0, 0.0, b0, b1, b2, b3, b4)
-    lv[L.SIDE_GAIN] = gain
-    lv[L.SIDE_KICK] = kick
-
-
-@kernel
-def begin_transverse(lv, h, w):
-    """Write what the patterns do in a step ``h`` (s) whose last drive is zero into the trial numbers."""
-    if lv[L.SIDE_SQUARE] == 0.0:
-        return
-    for k in range(L.PATTERNS):
-        b0, b1, b2, b3, b4 = continued(
-            lv, h, 0.0, lv[L.SIDE_DRIVEN + k], lv[L.SIDE_BEFORE + k], lv[L.SIDE_EARLIER + k],
-            lv[L.SIDE_EARLIEST + k],
-        )  # fmt: skip
-        place, velocity = lv[L.SIDE_PLACE + k], lv[L.SIDE_VELOCITY + k]
-        place, velocity = moved_on(lv, h, place, velocity, b0, b1, b2, b3, b4)
-        w[T.SIDE_FREE + k] = place
-        w[T.SIDE_COASTING + k] = velocity
-
-
-@kernel
 def guided(lv, k, y):
     """Velocity (m/s) that rolling alone gives pattern ``k``, the rings' velocities at ``y[Y.V0:]``."""
     total = 0.0
     for i in range(L.N):
         total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * y[Y.V0 + i]
     return total
-
-
-@kernel
-def rest_of(p, k, w):
-    """Place (m) where pattern ``k`` of the balls would rest, after a sweep."""
-    return sum_lanes(w, T.ASIDE + k * STRIDE, int(p[P.LANES])) / pattern_weight(p, k)
-
-
-@kernel
-def feel(lv, k, share, away, against, w):
-    """Add a share of what pattern ``k`` does to the rings: ``away`` (m) from rest, ``against`` (m/s) rolling.
-
-    To their accelerations in ``w``.
-    """
-    row = k * L.COLUMN
-    for i in range(L.N):
-        push = lv[L.SIDE_PULL + row + i] * away + lv[L.SIDE_DRAG + row + i] * against
-        w[W.F + F.BODY + i] += share * push
-
-
-@kernel
-def add_transverse(p, lv, w):
-    """Add the balls' transverse motion at the end of a step to the accelerations at ``w[W.F + F.BODY:]``.
-
-    The rings' velocities are in the trial state, after :func:`begin_transverse` and a sweep.
-    """
-    if lv[L.SIDE_SQUARE] == 0.0:
-        return
-    y = w[W.STAGE : W.STAGE + Y.SIZE]
-    share = share_held(p, w)
-    for k in range(L.PATTERNS):
-        rest = rest_of(p, k, w)
-        rolled = guided(lv, k, y)
-        drive = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
-        place = w[T.SIDE_FREE + k] + lv[L.SIDE_GAIN] * drive
-        velocity = w[T.SIDE_COASTING + k] + lv[L.SIDE_KICK] * drive
-        feel(lv, k, share, place - rest, velocity - rolled, w)
-        w[T.SIDE_REST + k] = rest
-        w[T.SIDE_PLACE + k] = place
-        w[T.SIDE_VELOCITY + k] = velocity
-        w[T.SIDE_DRIVEN + k] = drive
-
-
-@kernel
-def correct_transverse(lv, h, counts, w):
-    """Move the patterns on by what the last change ``T.D`` of the trial accelerations drives them.
-
-    The velocities that roll the balls are the true ones: see `rings.correction.true_rates`. ``counts``: what
-    the last acceleration counts in its own rate, times h.
-    """
-    if lv[L.SIDE_SQUARE] == 0.0:
-        return
-    # half less a twelfth of it
-    by_velocity = lv[L.SIDE_RATE] * h * (0.5 - counts / 12.0)
-    by_place = lv[L.SIDE_SQUARE] * h * h / 12.0
-    for k in range(L.PATTERNS):
-        row = k * L.COLUMN
-        drive = 0.0
-        for i in range(L.N):
-            by = by_velocity * lv[L.SIDE_GUIDE + row + i] + by_place * lv[L.SIDE_FOLLOW + row + i]
-            drive += by * w[T.D + i]
-        w[T.SIDE_DRIVEN + k] += drive
-        w[T.SIDE_PLACE + k] += lv[L.SIDE_GAIN] * drive
-        w[T.SIDE_VELOCITY + k] += lv[L.SIDE_KICK] * drive
-
-
-@kernel
-def keep_transverse(lv, w):
-    """Move the patterns to the end of the step."""
-    if lv[L.SIDE_SQUARE] == 0.0:
-        return
-    for k in range(L.PATTERNS):
-        lv[L.SIDE_EARLIEST + k] = lv[L.SIDE_EARLIER + k]
-        lv[L.SIDE_EARLIER + k] = lv[L.SIDE_BEFORE + k]
-        lv[L.SIDE_BEFORE + k] = lv[L.SIDE_DRIVEN + k]
-        lv[L.SIDE_DRIVEN + k] = w[T.SIDE_DRIVEN + k]
-        lv[L.SIDE_REST + k] = w[T.SIDE_REST + k]
-        lv[L.SIDE_PLACE + k] = w[T.SIDE_PLACE + k]
-        lv[L.SIDE_VELOCITY + k] = w[T.SIDE_VELOCITY + k]
-
-
-@kernel
-def carry_transverse(p, lv, w):
-    """After a jump: keep the patterns' distances from rest, and add what they do to the rings.
-
-    To the accelerations at ``w[W.F + F.BODY:]``, with the rings' velocities in the trial state.
-    """
-    if lv[L.SIDE_SQUARE] == 0.0:
-        for i in range(L.SIDE_PLACE, L.SIDE_REST + L.PATTERNS):
-            lv[i] = 0.0
-        return
-    y = w[W.STAGE : W.STAGE + Y.SIZE]
-    share = share_held(p, w)
-    for k in range(L.PATTERNS):
-        rest = rest_of(p, k, w)
-        rolled = guided(lv, k, y)
-        lv[L.SIDE_PLACE + k] += rest - lv[L.SIDE_REST + k]
-        lv[L.SIDE_REST + k] = rest
-        lv[L.SIDE_DRIVEN + k] = lv[L.SIDE_SQUARE] * rest + lv[L.SIDE_RATE] * rolled
-        feel(lv, k, share, lv[L.SIDE_PLACE + k] - rest, lv[L.SIDE_VELOCITY + k] - rolled, w)
 
 
 @kernel

@@ -8,6 +8,8 @@ search goes in pieces, one per millisecond that is simulated, and takes some 10 
 longer to find its whirl.
 """
 
+import math
+
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -189,6 +191,9 @@ def go_on_uneven(p, s, w):
     lv[L.MORE_RATIO] = 1.0
     for i in range(L.LOST):
         lv[L.MORE + i] = 0.0
+    lv[L.MORE_AWAY] = 0.0
+    lv[L.MORE_WHIRL] = 0.0
+    lv[L.MORE_PRESSED] = 1.0 if found == EVEN_BALLS else 0.0
     if found == NOT_FOUND or found == EVEN_BALLS:
         return
     whole = losing_state(found, w)
@@ -198,10 +203,30 @@ def go_on_uneven(p, s, w):
     lv[L.MORE_RATIO] = mean / (turning * lv[L.SEARCH_RATIO])
     show_lost(lv, s, w, T.HELD_LOST)
     hold_losses(p, c, whole, lv[L.SEARCH_SPEED], turning, s, w)
+    keep_cage(p, lv, whole, w)
     show_lost(lv, s, lv, L.MORE)
     keep_lost(lv, s, w, T.HELD_LOST)
     for i in range(L.LOST):
         lv[L.MORE + i] -= lv[L.SEARCH_LOST + i]
+
+
+@kernel
+def keep_cage(p, lv, y, w):
+    """Keep where the cage is in its lands in the state ``y``, whose right-hand side was just evaluated."""
+    if p[P.CAGE] == 0.0:
+        return
+    cage, ring = Y.Q0 + Q.CAGE, Y.Q0 + Q.INNER
+    away_y, away_z = y[cage + Q.Y] - y[ring + Q.Y], y[cage + Q.Z] - y[ring + Q.Z]
+    rate_y, rate_z = y[Y.V0 + Q.CAGE + Q.Y], y[Y.V0 + Q.CAGE + Q.Z]
+    square = away_y * away_y + away_z * away_z
+    lv[L.MORE_AWAY] = math.sqrt(square)
+    if square > 0.0:
+        lv[L.MORE_WHIRL] = (away_y * rate_z - away_z * rate_y) / square
+    pressed = 1.0
+    for j in range(int(p[P.BALLS])):
+        if not (w[W.POCKET + j] > 0.0):
+            pressed = 0.0
+    lv[L.MORE_PRESSED] = pressed
 
 
 @kernel

@@ -28,7 +28,7 @@ def form_over_turning(p, lv, j, count, at, x):
     for k in range(0, count, 2):
         # four directions at once, not four places of the turning; two places, as each waits for itself
         one, other = sines_at(lv, a, 2.0 * PI * k / count), sines_at(lv, a, 2.0 * PI * (k + 1) / count)
-        height, rise, _, height_after, rise_after, _ = pair_of_sums(p, form, orders, one, other)
+        height, rise, height_after, rise_after = pair_of_sums(p, form, orders, one, other)
         for race in range(2):
             here = at + LN.FORMS * k + race
             x[here] = lane(height, race)
@@ -40,7 +40,7 @@ def form_over_turning(p, lv, j, count, at, x):
 @kernel
 def sines_at(lv, a, turn):
     """Sines of the four directions of a ball's contacts against its axis ``a``, turned by ``turn`` (rad)."""
-    directions, _, _ = turned_back(lv, math.cos(turn), math.sin(turn))
+    directions, _ = turned_back(lv, math.cos(turn), math.sin(turn))
     return dot(a, directions)
 
 

@@ -209,26 +209,18 @@ def rolled_by_rings(lv, order, balls, q, re, im, omega):
 
 
 @kernel
-def place_by(x, kind, order, rate):
-    """How a ball's place answers one kind of excitation through ``order``: x, r, across; real and imaginary.
+def place_by(lv, x, kind, order):
+    """How a ball's place of rest answers one kind of excitation through ``order``.
 
-    Heights have an inertia of the ball along the contacts: ``rate`` (rad/s) of the height.
+    x, r, across; real and imaginary.
     """
     at = order_of(kind, abs(order))
     sign = 1.0 if order >= 0 else -1.0
-    xr, rr, ar = x[at + LN.PLACES], x[at + LN.PLACES + 1], x[at + LN.AWAY]
+    xr, rr = x[at + LN.PLACES], x[at + LN.PLACES + 1]
+    ar = lv[L.SIDE] * x[at + LN.AWAY] + lv[L.SIDE + 1] * x[at + LN.AWAY + 1]
     at += LN.IMAGINARY
-    xi, ri, ai = x[at + LN.PLACES], x[at + LN.PLACES + 1], x[at + LN.AWAY]
-    if kind < LN.BY_BEND:
-        squared = rate * rate
-        at = order_of(kind - LN.BY_HEIGHT + LN.BY_BEND, abs(order))
-        xr -= squared * x[at + LN.PLACES]
-        rr -= squared * x[at + LN.PLACES + 1]
-        ar -= squared * x[at + LN.AWAY]
-        at += LN.IMAGINARY
-        xi -= squared * x[at + LN.PLACES]
-        ri -= squared * x[at + LN.PLACES + 1]
-        ai -= squared * x[at + LN.AWAY]
+    xi, ri = x[at + LN.PLACES], x[at + LN.PLACES + 1]
+    ai = lv[L.SIDE] * x[at + LN.AWAY] + lv[L.SIDE + 1] * x[at + LN.AWAY + 1]
     return xr, sign * xi, rr, sign * ri, ar, sign * ai
 
 
@@ -261,7 +253,7 @@ def drive_by_inner(p, c, lv, x, ps, ws, n, a, reach, speed):
         mu = a - n - order
         if abs(mu) > harmonics:
             continue
-        by = place_by(x, LN.BY_HEIGHT, order, n * (orbit - speed))
+        by = place_by(lv, x, LN.BY_HEIGHT, order)
         sums = added_places((0.0, 0.0, 0.0, 0.0, 0.0, 0.0), by, re, im)
         add_found(p, lv, ps, ws, mu, a * orbit - n * speed, speed, sums)
 
@@ -283,10 +275,10 @@ def drive_by_orbit(p, c, lv, x, ps, ws, a, reach, speed):
                 sums = added_places(sums, rest_of_orbit(lv, x, order), 2.0 * balls, 0.0)
             for n in range(max(order - reach, 1), min(order + reach, highest) + 1):
                 re, im = wave_of(p, 1, n, balls * scale)
-                sums = added_places(sums, place_by(x, LN.BY_HEIGHT + 1, order - n, n * orbit), re, im)
+                sums = added_places(sums, place_by(lv, x, LN.BY_HEIGHT + 1, order - n), re, im)
         if abs(order) <= reach:
             for race in range(2):
-                sums = added_places(sums, place_by(x, LN.BY_HEIGHT + race, order, 0.0), dr, di)
+                sums = added_places(sums, place_by(lv, x, LN.BY_HEIGHT + race, order), dr, di)
         add_found(p, lv, ps, ws, mu, a * orbit, speed, sums)
 
 
@@ -314,5 +306,5 @@ def drive_by_form(p, c, lv, x, ps, ws, m, a, reach, speed):
         for form in range(LN.FORMS):
             re, im = form_sums(p, x, form, m, a, 2.0 * c[C.OVERSIZE_SCALE])
             kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-            sums = added_places(sums, place_by(x, kind, order, rate), re, im)
+            sums = added_places(sums, place_by(lv, x, kind, order), re, im)
         add_found(p, lv, ps, ws, mu, a * orbit + rate, speed, sums)

@@ -11,9 +11,9 @@ whose parts are accelerations of its free rings (m/s2, rad/s2). Other arguments:
 
 from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.response.bearing import turned
-from fmu_bearing.engine.fidelities.response.lines import STILL, across, add_moves, counts_by, line_table
+from fmu_bearing.engine.fidelities.response.beside import answer_at, beside_rings
+from fmu_bearing.engine.fidelities.response.lines import STILL, counts_by, line_table
 from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
-from fmu_bearing.engine.fidelities.rings.equations import add_turned, keep_turned
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, L, P, S, T
@@ -47,67 +47,36 @@ def equations_at(p):
 def prepare_equations(p, s, w, speed):
     """Make what the set's equations at any frequency consist of, for a shaft at ``speed`` (rad/s).
 
-    Matrices of the coordinates by padded columns: mass, rates, places, with all bearings' rings. Then
-    vectors for the balls' patterns: see ``SP.LINE_MOVES``.
+    Matrices of the coordinates by padded columns: mass, rates, places, with all bearings' rings.
     """
     lanes = members.padded_size(p)
     size = members.coordinates(p) * lanes
     _, table = equations_at(p)
-    keep_turned(p, s, w)
-    prepare_matrix(p, s, w, speed, L.MASS, 1.0, 0.0, 0.0, table + SP.LINE_MASS * size)
-    prepare_matrix(p, s, w, speed, L.JV, 0.0, 1.0, 0.0, table + SP.LINE_DAMPING * size)
-    prepare_matrix(p, s, w, speed, L.JX, 0.0, 0.0, 1.0, table + SP.LINE_STIFFNESS * size)
-    for b in range(members.count(p)):
-        prepare_moves(p, s, w, b, table + SP.LINE_MATRICES * size + b * SP.LINE_MOVES * lanes)
+    prepare_matrix(p, s, w, speed, 1.0, 0.0, 0.0, table + SP.LINE_MASS * size)
+    prepare_matrix(p, s, w, speed, 0.0, 1.0, 0.0, table + SP.LINE_DAMPING * size)
+    prepare_matrix(p, s, w, speed, 0.0, 0.0, 1.0, table + SP.LINE_STIFFNESS * size)
 
 
 @kernel
-def prepare_matrix(p, s, w, speed, matrix, by_mass, by_rate, by_place, to):
-    """Put one of the shaft's matrices with that of all bearings' rings at ``lv[matrix:]`` to ``ws[to:]``.
+def prepare_matrix(p, s, w, speed, by_mass, by_rate, by_place, to):
+    """Put one of the shaft's matrices with that of all bearings' rings to ``ws[to:]``.
 
-    ``by_mass``, ``by_rate``, ``by_place``: see `coupling.shaft_matrix`; one of them is one. Rates and places
-    of the rings are derivatives of accelerations: they belong to the other side.
+    ``by_mass``, ``by_rate``, ``by_place``: see `coupling.shaft_matrix`; one of them is one.
     """
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     spare = members.matrix(p)
-    rings = spare + n * n
-    for i in range(n * n):
-        ws[rings + i] = 0.0
+    shaft_matrix(p, members.set_state(p, s), ws, speed, by_mass, by_rate, by_place, spare)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
-        add_driven(p, b, lv, matrix, 1, L.COLUMN, ws, rings)
-    shaft_matrix(p, members.set_state(p, s), ws, speed, by_mass, by_rate, by_place, spare)
-    sign = 1.0 if by_mass != 0.0 else -1.0
-    for i in range(n * n):
-        ws[spare + i] += sign * ws[rings + i]
-    if by_mass != 0.0:
-        add_turned(p, members.set_state(p, s), ws, spare)
+        wb = members.work(p, w, b)
+        for k in range(L.N):
+            for i in range(L.N):
+                at = i + L.COLUMN * k
+                own = by_mass if i == k else 0.0
+                wb[T.MATRIX + i * L.N + k] = own - by_rate * lv[L.JV + at] - by_place * lv[L.JX + at]
+        add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, spare)
     keep_columns(ws, spare, n, members.padded_size(p), ws, to)
-
-
-@kernel
-def prepare_moves(p, s, w, b, to):
-    """Put the vectors of the balls' patterns of bearing ``b`` to ``ws[to:]``."""
-    ws = members.set_work(p, w)
-    wb = members.work(p, w, b)
-    lv = members.condensed(members.state(p, s, b))
-    lanes = members.padded_size(p)
-    masses = members.row(p, b) + SP.ROW_MASS
-    for i in range(SP.LINE_MOVES * lanes):
-        ws[to + i] = 0.0
-    for k in range(L.PATTERNS):
-        row = k * L.COLUMN
-        at = to + k * SP.MOVES * lanes
-        members.pull(p, b, lv, L.SIDE_FOLLOW + row, ws, at + SP.MOVES_FOLLOW * lanes)
-        members.pull(p, b, lv, L.SIDE_LEAD + row, ws, at + SP.MOVES_LEAD * lanes)
-        members.pull(p, b, lv, L.SIDE_GUIDE + row, ws, at + SP.MOVES_GUIDE * lanes)
-        for i in range(L.COLUMN):
-            wb[T.D + i] = p[masses + i] * lv[L.SIDE_PULL + row + i] if i < L.N else 0.0
-        members.pull(p, b, wb, T.D, ws, at + SP.MOVES_PULL * lanes)
-        for i in range(L.COLUMN):
-            wb[T.D + i] = p[masses + i] * lv[L.SIDE_DRAG + row + i] if i < L.N else 0.0
-        members.pull(p, b, wb, T.D, ws, at + SP.MOVES_DRAG * lanes)
 
 
 @kernel
@@ -129,18 +98,20 @@ def set_equations(p, s, w, omega):
     for i in range(lanes):
         ws[re + size + i] = 0.0
         ws[im + size + i] = 0.0
+    beside = table + SP.LINE_MATRICES * size
+    for i in range(2 * n * n):
+        ws[beside + i] = 0.0
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
-        if lv[L.SIDE_SQUARE] == 0.0:
-            continue
-        for k in range(L.PATTERNS):
-            at = table + SP.LINE_MATRICES * size + (b * L.PATTERNS + k) * SP.MOVES * lanes
-            pull, drag = at + SP.MOVES_PULL * lanes, at + SP.MOVES_DRAG * lanes
-            for i in range(n):
-                follow, lead = ws[at + SP.MOVES_FOLLOW * lanes + i], ws[at + SP.MOVES_LEAD * lanes + i]
-                guide = ws[at + SP.MOVES_GUIDE * lanes + i]
-                moves = across(lv, omega, follow, omega * lead, omega * guide)
-                add_moves(ws, pull, drag, -1.0, moves, ws[re:im], ws[im:table], i * lanes, lanes)
+        wb = members.work(p, w, b)
+        answer_at(lv, omega, wb)
+        beside_rings(lv, omega, wb)
+        add_driven(p, b, wb, T.BESIDE_RE, 1, L.COLUMN, ws, beside)
+        add_driven(p, b, wb, T.BESIDE_IM, 1, L.COLUMN, ws, beside + n * n)
+    for k in range(n):
+        for i in range(n):
+            ws[re + k * lanes + i] -= ws[beside + i * n + k]
+            ws[im + k * lanes + i] -= ws[beside + n * n + i * n + k]
 
 
 @kernel

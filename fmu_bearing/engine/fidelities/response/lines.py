@@ -1,8 +1,8 @@
 """Excitation of the rings line by line, and the linear answer to it (fidelity `response`).
 
 Held at their equilibrium, the rings feel from a ball at azimuth theta a force f(theta), and by a height h
-under it g(theta) h + m(theta) h'' (the ball's inertia along the contacts; across the track it moves itself,
-driven by where it would rest: ``condensed.transverse``). All vary with theta where a radial load makes the
+under it g(theta) h; what balls and cage do beside that answers to where the height lets the ball rest
+(``beside``). All vary with theta where a radial load makes the
 balls unequal, and are expanded in circumferential orders l. Evenly spaced balls let through only
 combinations that add up to multiples of their number Z:
 
@@ -21,8 +21,8 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.condensed.rows import component
-from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer, pattern_weight
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
+from fmu_bearing.engine.fidelities.response.beside import answer_at, beside_places, beside_rings
 from fmu_bearing.engine.fidelities.response.samples import (
     coefficients,
     highest_order,
@@ -58,70 +58,33 @@ def orders(p):
 
 
 @kernel
-def line_matrix(lv, omega, re, im):
-    """Put the coefficients of the rings' equations at ``omega`` (rad/s), per own inertia, by columns."""
+def line_matrix(lv, omega, w, re, im):
+    """Put the coefficients of the rings' equations at ``omega`` (rad/s), per own inertia, by columns.
+
+    After `beside.answer_at`.
+    """
+    beside_rings(lv, omega, w)
     for at in range(0, T.LINE_SIDE, FOUR):
-        store(re, at, -omega * omega * load(lv, L.MASS + at) - load(lv, L.JX + at))
-        store(im, at, -omega * load(lv, L.JV + at))
-    if lv[L.SIDE_SQUARE] != 0.0:
-        for k in range(L.PATTERNS):
-            row = k * L.COLUMN
-            pull, drag = L.SIDE_PULL + row, L.SIDE_DRAG + row
-            for n in range(L.N):
-                follow, lead = lv[L.SIDE_FOLLOW + row + n], lv[L.SIDE_LEAD + row + n]
-                moves = across(lv, omega, follow, omega * lead, omega * lv[L.SIDE_GUIDE + row + n])
-                add_moves(lv, pull, drag, -1.0, moves, re, im, n * L.COLUMN, L.COLUMN)
+        store(re, at, -1.0 * load(lv, L.JX + at) - load(w, T.BESIDE_RE + at))
+        store(im, at, -omega * load(lv, L.JV + at) - load(w, T.BESIDE_IM + at))
     for n in range(L.N):
+        re[n * L.DIAGONAL] -= omega * omega
         re[n * L.COLUMN + L.N] = 0.0
         im[n * L.COLUMN + L.N] = 0.0
 
 
 @kernel
-def line_side(p, lv, omega, w, re, im):
-    """Put ``T.LINE_FORCE`` as accelerations of the rings at ``omega`` (rad/s) to the right side."""
+def line_side(p, lv, w, re, im):
+    """Put ``T.LINE_FORCE`` as accelerations of the rings to the right side, after `beside.answer_at`."""
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
         at = T.LINE_FORCE + component(i)
         per = 1.0 / inertia(p, i) if moves else 0.0
         re[T.LINE_SIDE + i] = w[at] * per if moves else 0.0
         im[T.LINE_SIDE + i] = w[at + LN.IMAGINARY] * per if moves else 0.0
-    if lv[L.SIDE_SQUARE] != 0.0:
-        for k in range(L.PATTERNS):
-            at = T.LINE_FORCE + L.FORCES + k
-            weight = pattern_weight(p, k)
-            moves = across(lv, omega, w[at] / weight, w[at + LN.IMAGINARY] / weight, 0.0)
-            row = k * L.COLUMN
-            add_moves(lv, L.SIDE_PULL + row, L.SIDE_DRAG + row, 1.0, moves, re, im, T.LINE_SIDE, L.COLUMN)
+    beside_places(p, lv, w, re, im)
     re[T.LINE_SIDE + L.N] = 0.0
     im[T.LINE_SIDE + L.N] = 0.0
-
-
-@kernel
-def across(lv, omega, rest_re, rest_im, rolled):
-    """How far balls are from a place of rest that moves at ``omega``, and their velocity against rolling.
-
-    Complex: both parts of the distance, then of the velocity, per number at which the place of rest moves;
-    ``rolled``: imaginary part of the velocity that rolling gives.
-    """
-    gr, gi = pattern_answer(lv, omega)
-    square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
-    drive_re, drive_im = square * rest_re, square * rest_im + rate * rolled
-    place_re = gr * drive_re - gi * drive_im
-    place_im = gr * drive_im + gi * drive_re
-    return place_re - rest_re, place_im - rest_im, -omega * place_im, omega * place_re - rolled
-
-
-@kernel
-def add_moves(x, pull, drag, sign, moves, re, im, at, lanes):
-    """Add forces of balls that move `across` to a column of ``lanes`` numbers at ``re[at:]`` and ``im[at:]``.
-
-    By distance ``x[pull:]`` and by velocity ``x[drag:]``; ``sign``: -1 for coefficients.
-    """
-    away_re, away_im, against_re, against_im = moves
-    for g in range(0, lanes, FOUR):
-        by_place, by_rate = load(x, pull + g), load(x, drag + g)
-        store(re, at + g, load(re, at + g) + sign * (by_place * away_re + by_rate * against_re))
-        store(im, at + g, load(im, at + g) + sign * (by_place * away_im + by_rate * against_im))
 
 
 @kernel
@@ -134,9 +97,10 @@ def keep(p, lv, lines, alone, a, b, m, omega, w):
         return
     re = w[T.LINE_RE : T.LINE_RE + T.LINE_SIDE + L.COLUMN]
     im = w[T.LINE_IM : T.LINE_IM + T.LINE_SIDE + L.COLUMN]
-    line_side(p, lv, omega, w, re, im)
+    answer_at(lv, omega, w)
+    line_side(p, lv, w, re, im)
     if alone:
-        line_matrix(lv, omega, re, im)
+        line_matrix(lv, omega, w, re, im)
         if not solve_columns(re, im, L.N, L.COLUMN):
             return
     size = weight_of(omega, re, im)
@@ -196,12 +160,10 @@ def add_wave(p, x, race, n, order, factor, rate, tau, w):
     re, im = wave_of(p, race, n, factor)
     hr = re * co - im * si
     hi = re * si + im * co
-    squared = n * rate * n * rate
     coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
-    coefficients(x, LN.BY_BEND + race, order, T.BY_BEND, w)
     for i in range(LN.COMPONENTS):
-        gr = w[T.BY_HEIGHT + i] - squared * w[T.BY_BEND + i]
-        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i] - squared * w[T.BY_BEND + LN.IMAGINARY + i]
+        gr = w[T.BY_HEIGHT + i]
+        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
         w[T.LINE_FORCE + i] += gr * hr - gi * hi
         w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * hi + gi * hr
 
@@ -316,17 +278,11 @@ def add_form(x, kind, order, re, im, rate, tau, w):
     ``condensed.ball_form``.
     """
     coefficients(x, kind, order, T.BY_HEIGHT, w)
-    ahead = 0.0
-    for i in range(LN.COMPLEX):
-        w[T.BY_BEND + i] = 0.0
-    if kind < LN.BY_BEND:
-        coefficients(x, kind - LN.BY_HEIGHT + LN.BY_BEND, order, T.BY_BEND, w)
-        ahead = rate * tau
-    squared = rate * rate
+    ahead = rate * tau if kind < LN.BY_LEAN else 0.0
     for i in range(LN.COMPONENTS):
         hr, hi = w[T.BY_HEIGHT + i], w[T.BY_HEIGHT + LN.IMAGINARY + i]
-        gr = hr - ahead * hi - squared * w[T.BY_BEND + i]
-        gi = hi + ahead * hr - squared * w[T.BY_BEND + LN.IMAGINARY + i]
+        gr = hr - ahead * hi
+        gi = hi + ahead * hr
         w[T.LINE_FORCE + i] += gr * re - gi * im
         w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * im + gi * re
 

@@ -51,12 +51,8 @@ def keep_ball_loads(p, s, w):
     own = members.set_state(p, s)
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
-        lv = members.condensed(members.state(p, s, b))
-        masses = members.row(p, b) + SP.ROW_MASS
         for i in range(SP.PLANE):
-            load = -p[masses + i] * lv[L.A0 + i]
-            for k in range(L.N):
-                load += p[masses + i] * lv[L.MASS + i + L.COLUMN * k] * lv[L.A0 + k]
+            load = 0.0
             for j in range(int(members.parameters(p, b)[P.BALLS])):
                 load -= wb[T.FORCE + i * STRIDE + j]
             own[members.per_bearing(p, b) + SP.LOAD + i] = load

@@ -11,7 +11,7 @@ A search for what uneven balls add (``condensed.uneven``) goes on in the state i
 Arguments: see `spindle.members`; ``stage``: of `IDLE` and so on; ``back``: the second state.
 """
 
-from fmu_bearing.engine.fidelities.condensed.shared import hold_masses
+from fmu_bearing.engine.fidelities.condensed.shared import hold_operator
 from fmu_bearing.engine.fidelities.response import bearing
 from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import renew_from_zero, rest_at_inputs
@@ -159,7 +159,7 @@ def held_piece(p, s, w):
                 members.set_state(p, back)[SP.S_HEAD + i] = ws[found + i]
         enter(p, s, MASSES)
     elif stage == MASSES:
-        hold_masses(pb, sb, wb)
+        hold_operator(pb, sb, wb)
         next_member(p, s, MASSES, DERIVE)
         if b + 1 == members.count(p) and not rest_at_inputs(p, back, w, aim):
             return False
@@ -305,7 +305,7 @@ def take_bearing(p, s, b):
     sb, of = members.state(p, s, b), members.state(p, back_of(p, s), b)
     lv, new = members.condensed(sb), members.condensed(of)
     copy(new, lv, L.RATIO, L.SPACING)
-    copy(new, lv, L.ROLL, L.SIDE_PLACE)
+    copy(new, lv, L.ROLL, L.SIDE_STEP)
     copy(new, lv, L.CONDITIONS, L.Q0)
     copy(new, lv, L.MEAN, L.X)
     copy(new, lv, L.EVEN, L.PHI)

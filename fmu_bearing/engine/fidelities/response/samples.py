@@ -1,16 +1,16 @@
 """Forces and places of the balls round their orbit, by circumferential orders (fidelity `response`).
 
 One ball's forces on the rings, and its place between them, at azimuths round the orbit: at rest, and per
-height under it, acceleration of that height and slope across its track. See `lines` for what they are for.
+height under it and slope across its track. See `lines` for what they are for.
 """
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, T, W, Y
 
-_HEIGHT = 1e-9  # m, for differences; heights' accelerations by (3e4 rad/s)^2 times that
-_BEND = 1.0  # m/s2
+_HEIGHT = 1e-9  # m, for differences
 _LEAN = 1e-8  # m/rad
 _SMALL = 1e-6  # of the largest coefficient of a kind: an order of the balls below it is left out
 
@@ -48,17 +48,15 @@ def sample_orbit(p, c, lv, speed, x, w):
         for kind in range(kinds):
             changed = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
             step = _LEAN
-            if kind < LN.BY_BEND:
+            if kind < LN.BY_LEAN:
                 changed = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
                 step = _HEIGHT
-            elif kind < LN.BY_LEAN:
-                changed = T.BEND + (kind - LN.BY_BEND) * STRIDE
-                step = _BEND
             if kind != LN.FORCE:
                 for j in range(lanes):
                     w[changed + j] = step
             carried(p, c, lv, speed, q, w)
             carried(p, c, lv, speed, q, w)
+            show_away(lv, lanes, w)
             if kind != LN.FORCE:
                 for j in range(lanes):
                     w[changed + j] = 0.0
@@ -72,6 +70,26 @@ def sample_orbit(p, c, lv, speed, x, w):
                         x[at] /= step
     c[C.OVERSIZE_SCALE] = scale
     return balls * parts
+
+
+@kernel
+def store_patterns(at, places, co, si, w):
+    """Write four balls' places, and times cosine and minus sine of their angles, into every second row."""
+    store(w, at, places)
+    store(w, at + 2 * STRIDE, co * places)
+    store(w, at + 2 * 2 * STRIDE, -1.0 * (si * places))
+
+
+@kernel
+def show_away(lv, lanes, w):
+    """Put how far balls between races rest from the held place, by patterns, to ``T.AWAY``."""
+    for j in range(0, lanes, FOUR):
+        held = load(w, T.HELD + j)
+        x = held * (load(w, T.X + j) - lv[L.AT_BALL])
+        r = held * (load(w, T.R + j) - lv[L.AT_BALL + 1])
+        co, si = load(w, T.COS + j), load(w, T.SIN + j)
+        store_patterns(T.AWAY + j, x, co, si, w)
+        store_patterns(T.AWAY + STRIDE + j, r, co, si, w)
 
 
 @kernel

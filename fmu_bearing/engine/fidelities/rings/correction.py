@@ -7,11 +7,7 @@ places before. Other arguments: see `spindle.members`.
 import math
 
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
-from fmu_bearing.engine.fidelities.condensed.transverse import (
-    add_transverse,
-    begin_transverse,
-    correct_transverse,
-)
+from fmu_bearing.engine.fidelities.condensed.patterns import add_patterns, begin_step, correct_patterns
 from fmu_bearing.engine.fidelities.rings import equations, predictor
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -107,7 +103,7 @@ def predict(p, s, w, own, ws, vectors, n, lanes, h):
         lv = members.condensed(sb)
         equations.follow_trial(p, b, own, ws, wb, lanes, h)
         predictor.continue_places(lv, int(pb[P.LANES]), wb)
-        begin_transverse(lv, h, wb)
+        begin_step(lv, wb)
         set_angles_ahead(pb, sb, h, wb)
 
 
@@ -146,9 +142,6 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         moving = members.vector_at(lanes, SP.RATE)
         shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
         members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acc, ws, residual)
-    if equations.bends(p):
-        turned = members.turned_at(vectors, n, lanes)
-        members.add_columns(own, turned, lanes, n, -1.0, ws, acc, ws, residual)
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
@@ -157,13 +150,13 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         equations.follow_trial(p, b, own, ws, wb, lanes, h)
         q = wb[T.Q : T.Q + L.COLUMN]
         fine = accelerations(pb, sb[S.C : S.C + C.SIZE], lv, angle, speed, rate, q, wb)
-        add_transverse(pb, lv, wb)
         if not fine:
             return False
+        add_patterns(pb, lv, h, wb)
         if together:
-            equations.pull_rings(p, b, lv, wb, ws, residual)
+            equations.pull_rings(p, b, wb, ws, residual)
         else:
-            equations.rings_residual(pb, lv, wb, ws, residual)
+            equations.rings_residual(pb, wb, ws, residual)
     return True
 
 
@@ -187,7 +180,7 @@ def correct_once(p, s, w, own, ws, vectors, n, lanes, h):
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         members.moved(p, b, ws, d, wb, T.D)
-        correct_transverse(members.condensed(members.state(p, s, b)), h, counts, wb)
+        correct_patterns(members.condensed(members.state(p, s, b)), h, counts, wb)
     return 0.5 * h * size_of(own, vectors + H.LEVERS * lanes, n, ws, d)
 
 

@@ -1,8 +1,8 @@
 """Equations of fidelities rings and response: condensed bearings, on a pedestal or on shaft and housing.
 
-Each bearing gives the accelerations f its rings would have alone, their masses B (``L.MASS``) and derivatives
-J. With m the rings' inertia, the forces on a set are the shaft's and the housing's plus sum T^T m (f - B a),
-its masses M plus sum T^T m B T, and so on. A single bearing is a set whose coordinates are its rings' own: T
+Each bearing gives the accelerations f its rings would have alone, and their derivatives J. With m the rings'
+inertia, the forces on a set are the shaft's and the housing's plus sum T^T m (f - a), its masses M plus
+sum T^T m T, and so on. A single bearing is a set whose coordinates are its rings' own: T
 and m are one, M is zero. Jacobians are given in fixed axes. Arguments: see `spindle.members`.
 """
 
@@ -11,10 +11,10 @@ import math
 from fmu_bearing.engine.dense import times
 from fmu_bearing.engine.fidelities.condensed.ball_motion import carry_balls
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
-from fmu_bearing.engine.fidelities.condensed.linearised import derivatives, step_matrix
+from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
+from fmu_bearing.engine.fidelities.condensed.patterns import add_step, carry_patterns
 from fmu_bearing.engine.fidelities.condensed.publish import publish
 from fmu_bearing.engine.fidelities.condensed.rows import show_balls
-from fmu_bearing.engine.fidelities.condensed.transverse import carry_transverse, hold_across
 from fmu_bearing.engine.fidelities.rings.predictor import rate_error
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -103,14 +103,13 @@ def copy_trial(ws, w):
 
 
 @kernel
-def rings_residual(p, lv, w, ws, residual):
+def rings_residual(p, w, ws, residual):
     """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`.
 
-    A rigidly held inner ring keeps its place: the balls' own masses do not pull it.
+    A rigidly held inner ring keeps its place.
     """
-    times(lv, L.MASS, w, T.A, w, T.D)
     for i in range(L.N):
-        ws[residual + i] = w[W.F + F.BODY + i] - w[T.D + i]
+        ws[residual + i] = w[W.F + F.BODY + i] - w[T.A + i]
     ws[residual + L.N] = 0.0
     if p[P.RIGID] != 0.0:
         ws[residual + Q.X] = -w[T.A + Q.X]
@@ -134,15 +133,15 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
 
 
 @kernel
-def pull_rings(p, b, lv, wb, ws, residual):
+def pull_rings(p, b, wb, ws, residual):
     """Add what the rings of bearing ``b`` put on the set to its residual, at ``ws[residual:]``.
 
     Accelerations by the forces are in ``W.F``, the trial's in ``T.A``.
     """
-    times(lv, L.MASS, wb, T.A, wb, T.D)
     masses = members.row(p, b) + SP.ROW_MASS
     for i in range(L.N):
-        wb[T.D + i] = p[masses + i] * (wb[W.F + F.BODY + i] - wb[T.D + i])
+        wb[T.D + i] = p[masses + i] * (wb[W.F + F.BODY + i] - wb[T.A + i])
+    wb[T.D + L.N] = 0.0
     members.pull(p, b, wb, T.D, ws, residual)
 
 
@@ -157,11 +156,8 @@ def keep_loads(p, s, w):
         wb = members.work(p, w, b)
         masses = members.row(p, b) + SP.ROW_MASS
         at = members.scratch(p, b)
-        times(members.condensed(members.state(p, s, b)), L.MASS, wb, T.A, wb, T.D)
         for i in range(SP.PLANE):
-            # the balls' inertia is a force of theirs
-            free = wb[W.F + F.BODY + i] - (wb[T.D + i] - wb[T.A + i])
-            ws[at + i] = p[masses + i] * free
+            ws[at + i] = p[masses + i] * wb[W.F + F.BODY + i]
         keep_load(p, b, members.parameters(p, b), own, ws, at)
 
 
@@ -188,7 +184,7 @@ def stiffness_matrix(p, s, own, ws, at):
 
 @kernel
 def differentiate(p, s, w):
-    """Jacobian at the present state, with balls held across their tracks; False if there is none."""
+    """Jacobian at the present state, with balls at rest; False if there is none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     c = s[S.C : S.C + C.SIZE]
     for i in range(L.N):
@@ -201,9 +197,23 @@ def differentiate(p, s, w):
     set_angles(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
-    hold_across(p, lv, w)
     s[S.JACOBIANS] += 1.0
     return True
+
+
+@kernel
+def step_matrix(lv, cv, cx, w):
+    """Put ``1 - cv J_v - cx J_x`` of a bearing's rings to ``T.MATRIX``, row by row.
+
+    With what they do to themselves through balls and cage within a step.
+    """
+    for k in range(L.N):
+        for i in range(L.N):
+            at = i + L.COLUMN * k
+            own = 1.0 if i == k else 0.0
+            w[T.MATRIX + i * L.N + k] = own - cv * lv[L.JV + at] - cx * lv[L.JX + at]
+    if cv != 0.0:
+        add_step(lv, cv, cx, w, T.MATRIX, L.N, 1)
 
 
 @kernel
@@ -219,11 +229,11 @@ def begin_jacobian(x, numbers, highest):
 def present_forces(p, s, w):
     """After a jump and new derivatives: accelerations by the forces at the present state; False if none."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    # the derivatives leave the rows of the balls a nanometre off
+    # the derivatives leave the rows of the balls moved
     q = w[T.Q : T.Q + L.COLUMN]
     if not accelerations(p, s[S.C : S.C + C.SIZE], lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], q, w):
         return False
-    carry_transverse(p, lv, w)
+    carry_patterns(p, lv, w)
     if p[P.SOUND_SIZE] != 0.0:
         carry_balls(p, lv, w)
     return True
@@ -252,55 +262,33 @@ def highest_mode(p, own, ws):
 
 
 @kernel
-def keep_turned(p, s, w):
-    """Store what takes turned masses from the fast motion of a shaft that bends.
+def within_step(lv, w):
+    """Put the derivatives by places that rings feel within a step to ``T.MATRIX``, row by row.
 
-    Turned masses, the antisymmetric part A of a set's, damp one whirl of the rings' modes at the expense of
-    the other (`condensed.modes`), right at those modes' frequencies of some kHz. They would do the same at
-    any frequency, and make one whirl of the shaft's own modes grow, whose whirls fidelity `full` damps
-    equally. So A becomes R^T A R with R = (1 + M^-1 K / omega^2)^-1 of the free shaft (``SP.AT_SLOW``).
+    What balls and cage cannot follow in it stays behind.
     """
-    if not bends(p):
-        return
-    own = members.set_state(p, s)
-    ws = members.set_work(p, w)
-    n = members.coordinates(p)
-    lanes = members.padded_size(p)
-    at = members.matrix(p)
-    product = at + n * n
-    slow = members.table(p, SP.AT_SLOW)
-    to = members.turned_at(members.history(p), n, lanes)
-    for i in range(n * n):
-        ws[at + i] = 0.0
-    for b in range(members.count(p)):
-        add_driven(p, b, members.condensed(members.state(p, s, b)), L.MASS, 1, L.COLUMN, ws, at)
-    for i in range(n):
-        for k in range(n):
-            total = 0.0
-            for j in range(n):
-                total += 0.5 * (ws[at + i * n + j] - ws[at + j * n + i]) * p[slow + k * lanes + j]
-            ws[product + i * n + k] = total
-    for k in range(n):
-        for i in range(lanes):
-            own[to + k * lanes + i] = 0.0
-        for i in range(n):
-            total = 0.5 * (ws[at + k * n + i] - ws[at + i * n + k])
-            for j in range(n):
-                total += p[slow + i * lanes + j] * ws[product + j * n + k]
-            own[to + k * lanes + i] = total
+    for k in range(L.N):
+        for i in range(L.N):
+            w[T.MATRIX + i * L.N + k] = lv[L.JX + i + L.COLUMN * k]
+    add_step(lv, 0.0, -1.0, w, T.MATRIX, L.N, 1)
 
 
 @kernel
-def add_turned(p, own, ws, at):
-    """Add what `keep_turned` has stored to the set's masses at ``ws[at:]``, by rows."""
-    if not bends(p):
-        return
+def keep_squares(p, own, ws, at):
+    """Store B^-1 J_x, from J_x at ``ws[at:]`` by rows; B: the masses with all rings'."""
     n = members.coordinates(p)
     lanes = members.padded_size(p)
-    stored = members.turned_at(members.history(p), n, lanes)
-    for i in range(n):
-        for k in range(n):
-            ws[at + i * n + k] += own[stored + k * lanes + i]
+    inverse = members.table(p, SP.AT_INVERSE) if members.has_shaft(p) else 0
+    for k in range(n):
+        for i in range(n):
+            total = ws[at + i * n + k]
+            if members.has_shaft(p):
+                total = 0.0
+                for j in range(n):
+                    total += p[inverse + j * lanes + i] * ws[at + j * n + k]
+            own[members.squares(p) + k * lanes + i] = total
+        for i in range(n, lanes):
+            own[members.squares(p) + k * lanes + i] = 0.0
 
 
 @kernel
@@ -311,30 +299,20 @@ def renew(p, s, w):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.coordinates(p)
-    lanes = members.padded_size(p)
     show(p, s, w)
     at = members.matrix(p)
     for b in range(members.count(p)):
         if not differentiate(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)):
             return False
-    keep_turned(p, s, w)
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, 0.0, 0.0, at)
     for b in range(members.count(p)):
-        lv = members.condensed(members.state(p, s, b))
-        add_driven(p, b, lv, L.MASS, 1, L.COLUMN, ws, at)
-    add_turned(p, own, ws, at)
+        wb = members.work(p, w, b)
+        step_matrix(members.condensed(members.state(p, s, b)), 0.0, 0.0, wb)
+        add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, at)
     if not invert_set(p, own, ws):
         return False
     stiffness_matrix(p, s, own, ws, at)
-    column = members.vector(p, SP.INCREMENT)
-    found = members.vector(p, SP.FORCE)
-    for k in range(n):
-        for i in range(n):
-            ws[column + i] = ws[at + i * n + k]
-        answer(p, own, ws, members.inverse(p), column, found)
-        for i in range(lanes):
-            own[members.squares(p) + k * lanes + i] = ws[found + i]
+    keep_squares(p, own, ws, at)
     begin_jacobian(own, members.march(p), highest_mode(p, own, ws))
     return True
 
@@ -354,10 +332,7 @@ def by_squares(p, own, ws, x, out):
 
 @kernel
 def factor_step(p, s, w, h):
-    """Inverse of the set's Newton matrix for a step ``h`` (s); False if singular.
-
-    See ``condensed.linearised.factor_step``.
-    """
+    """Inverse of the set's Newton matrix for a step ``h`` (s); False if singular."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     n = members.coordinates(p)
@@ -369,10 +344,14 @@ def factor_step(p, s, w, h):
         wb = members.work(p, w, b)
         step_matrix(members.condensed(members.state(p, s, b)), 0.5 * h, by_place, wb)
         add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, at)
-    add_turned(p, own, ws, at)
     first = at + n * n
     second = first + n * n
-    stiffness_matrix(p, s, own, ws, second)
+    shaft_matrix(p, own, ws, s[S.SPEED], 0.0, 0.0, -1.0, second)
+    for b in range(members.count(p)):
+        wb = members.work(p, w, b)
+        within_step(members.condensed(members.state(p, s, b)), wb)
+        add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, second)
+    keep_squares(p, own, ws, second)
     by_squares(p, own, ws, second, first)
     for i in range(n * n):
         ws[at + i] += beyond * ws[first + i]
@@ -403,7 +382,7 @@ def restart_march(p, s, w):
             return False
         for i in range(L.COLUMN):
             wb[T.A + i] = 0.0
-        pull_rings(p, b, members.condensed(sb), wb, ws, residual)
+        pull_rings(p, b, wb, ws, residual)
     answer(p, own, ws, members.inverse(p), residual, found)
     if not members.has_shaft(p) and p[P.RIGID] != 0.0:
         ws[found + Q.X] = 0.0

@@ -7,11 +7,12 @@ import math
 
 from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, out_of_date
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
+from fmu_bearing.engine.fidelities.condensed.operator import clear_operator
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     even_spacing,
     flat,
-    hold_masses,
+    hold_operator,
     quasistatic_places,
     set_inputs,
     start_condensed,
@@ -177,13 +178,13 @@ def hold_all(p, u, at_once, s, w):
     status = hold_points(p, u, at_once, s, w)
     if status == OK:
         for b in range(members.count(p)):
-            hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+            hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     return status
 
 
 @kernel
 def hold_points(p, u, at_once, s, w):
-    """As `hold_all`, but leave the masses (`hold_masses`) as they are.
+    """As `hold_all`, but leave the operators (`hold_operator`) as they are.
 
     A set's coordinates there are left among its own work space's vectors, see ``SP.UNKNOWNS``.
     """
@@ -284,6 +285,8 @@ def start_held(p, u, s, w, t):
     own = members.set_state(p, s)
     for i in range(SP.PIECES, SP.MARCHED):
         own[members.march(p) + i] = 0.0
+    for b in range(members.count(p)):
+        clear_operator(members.condensed(members.state(p, s, b)))
     if not members.has_shaft(p):
         status = start_condensed(p, u, s, w, t)
         if status == OK:

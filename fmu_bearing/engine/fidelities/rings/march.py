@@ -16,8 +16,9 @@ the third difference of the accelerations shows that it is too long. Arguments: 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
-from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_masses, keep_end, show_end
-from fmu_bearing.engine.fidelities.condensed.transverse import keep_transverse, prepare_step
+from fmu_bearing.engine.fidelities.condensed.patterns import keep_patterns, prepare_step
+from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_operator, keep_end, show_end
+from fmu_bearing.engine.fidelities.condensed.transverse import guided
 from fmu_bearing.engine.fidelities.rings import equations, held, predictor
 from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
@@ -76,14 +77,10 @@ def accept_balls(p, s, h, w):
         for j in range(row, row + lanes, FOUR):
             store(lv, L.X + j, load(w, T.X + j))
     if p[P.SOUND_SIZE] != 0.0:
-        # what is not by the patterns' places of rest is friction's drive
-        square = lv[L.SIDE_SQUARE]
-        move_balls(
-            p, lv, h, w[T.SIDE_DRIVEN] - square * w[T.SIDE_REST],
-            w[T.SIDE_DRIVEN + 1] - square * w[T.SIDE_REST + 1],
-            w[T.SIDE_DRIVEN + 2] - square * w[T.SIDE_REST + 2], w,
-        )  # fmt: skip
-    keep_transverse(lv, w)
+        rate = lv[L.SIDE_RATE]
+        y = w[W.STAGE : W.STAGE + Y.SIZE]
+        move_balls(p, lv, h, rate * guided(lv, 0, y), rate * guided(lv, 1, y), rate * guided(lv, 2, y), w)
+    keep_patterns(p, lv, h, w)
     count_settled(lv, lanes, w)
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
     lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
@@ -116,7 +113,7 @@ def try_step(p, s, w, h, tolerance):
         ):
             return -1.0
         for b in range(members.count(p)):
-            prepare_step(members.condensed(members.state(p, s, b)), h)
+            prepare_step(members.condensed(members.state(p, s, b)), h, members.work(p, w, b))
         if abs(h - own[numbers + H.FACTOR_STEP]) > 0.05 * h:
             if not equations.factor_step(p, s, w, h):
                 return -1.0
@@ -177,8 +174,8 @@ def accept(p, s, w, h):
 def take_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; renew what is held where it is out of date. Status code.
 
-    In pieces, one per `held.PIECE` of simulated time: the points that are held, then each bearing's masses.
-    Between them the march goes on with the masses of before. A search for what uneven balls add waits.
+    In pieces, one per `held.PIECE` of simulated time: the points that are held, then each bearing's operator.
+    Between them the march goes on with the operators of before. A search for what uneven balls add waits.
     """
     own = members.set_state(p, s)
     at = members.march(p)
@@ -189,15 +186,12 @@ def take_inputs(p, u, s, w, h):
         due = held.MOST
     while due >= 1.0:
         due -= 1.0
-        b = int(own[at + SP.STAGE]) - 1  # whose masses are due; none: -1
+        b = int(own[at + SP.STAGE]) - 1  # whose operator is due; none: -1
         if b >= 0:
-            hold_masses(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
-            equations.keep_turned(p, s, w)
-            own[at + SP.STAGE] = b + 2.0
-            if b + 1 == members.count(p):
-                own[at + SP.STAGE] = 0.0
-                if not restart_here(p, s, w):
-                    return NOT_CONVERGED
+            hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+            own[at + SP.STAGE] = b + 2.0 if b + 1 < members.count(p) else 0.0
+            if not restart_here(p, s, w):
+                return NOT_CONVERGED
         elif own[at + SP.WAITING] != 0.0:
             own[at + SP.WAITING] = 0.0
             if held.hold_points(p, u, False, s, w) != OK:

@@ -18,6 +18,7 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, H, L, T
 
 _HIGHEST = L.HISTORY - 1  # degree
 _FORGET = 0.9  # per step: what is left of an old error
+_LONGER = 64.0  # times the step before, chosen: a first step of 1e-15 s says nothing
 
 
 @kernel
@@ -38,9 +39,12 @@ def change_spacing(x, numbers, vectors, lanes, n, h):
         old = x[numbers + H.SPACING]
         if old > 0.0:
             jerk = vectors + H.JERK * lanes
+            # a rate over a step says nothing about one that is far longer
+            kept = 1.0 if h < _LONGER * old else 0.0
             for i in range(n):
-                x[jerk + i] = 12.0 / (old * old) * rate_error(x, numbers, vectors, lanes, i)
-                x[vectors + H.V0 * lanes + i] += (h * h - old * old) / 12.0 * x[jerk + i]
+                part = rate_error(x, numbers, vectors, lanes, i)
+                x[jerk + i] = kept * 12.0 / (old * old) * part
+                x[vectors + H.V0 * lanes + i] += h * h / 12.0 * x[jerk + i] - part
         x[numbers + H.SPACING] = h
         x[numbers + H.KNOWN] = 0.0
         x[numbers + H.CALM] = 0.0

@@ -75,7 +75,7 @@ def forces_at_rest(p, s, w, speed):
         wb[W.STAGE + Y.V0] = 0.0
         if not derivatives(members.parameters(p, b), sb[S.C : S.C + C.SIZE], lv, 0.0, speed, 0.0, wb):
             return False
-        pull_rings(p, b, lv, wb, ws, members.vector(p, SP.RESIDUAL))
+        pull_rings(p, b, wb, ws, members.vector(p, SP.RESIDUAL))
     return True
 
 

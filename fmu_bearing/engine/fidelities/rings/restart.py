@@ -24,8 +24,8 @@ _TRIES = 3  # times to begin again within a communication step, before the rings
 
 @kernel
 def forget_motion(lv):
-    """Forget how the balls have moved across their tracks."""
-    for i in range(L.SIDE_PLACE, L.SIDE_REST + L.PATTERNS):
+    """Forget how balls and cage have moved."""
+    for i in range(L.MODES_NOW, L.MODES_STAY):
         lv[i] = 0.0
     forget_balls(lv)
 

@@ -1,0 +1,169 @@
+"""What contacts do to a ball and to the rings as the ball leaves its place of rest: K and D_e of `operator`.
+
+A ball at its place of rest has the loads of rest, and friction that follows them. So K and D_e are of how
+contacts press, with what friction gains or loses by that; not of surfaces that move along the track.
+"""
+
+from fmu_bearing.engine.fidelities.condensed.families import acting, member
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, T
+from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.newton.body_slopes import inertia
+
+# Where a ball counts as far from its place of rest, both chosen: contacts' forces over their loads, and the
+# distance over the approach. Lost contact then steps on, and the form of a 7009C's balls is not cut.
+_FAR, _WIDE = 2.0, 16.0
+_HEIGHT = 1e-9  # m: of differences, 1e-4 of an approach: errors of the second order are 1e-8
+
+
+@kernel
+def find_holds(p, orbit, w):
+    """Put what contacts do to ball 0 per place x, r to ``T.HOLDS`` (1/s2), with its orbit's pull."""
+    mass = p[P.BALL_MASS]
+    xx, xr, rr = 0.0, 0.0, -mass * orbit * orbit
+    for i in range(2 * J.BALL):
+        w[T.HOLDS + i] = 0.0
+    for at in (T.CONTACT, T.CONTACT_OUTER):
+        along, across = w[at + T.STIFF], w[at + T.ACROSS]
+        ex, er, mx, mr = w[at + T.EX], w[at + T.ER], w[at + T.MX], w[at + T.MR]
+        xx += along * ex * ex + across * mx * mx
+        xr += along * ex * er + across * mx * mr
+        rr += along * er * er + across * mr * mr
+    w[T.HOLDS] = xx / mass
+    w[T.HOLDS + 1] = xr / mass
+    w[T.HOLDS + 2] = xr / mass
+    w[T.HOLDS + 1 + 2] = rr / mass
+
+
+@kernel
+def pushed_by(w, at, pair, k):
+    """Return forces x, y, z and moments y, z on a ring by place ``k`` (x, r) of ball 0, by contact alone.
+
+    ``at``: rows of the contact; ``pair``: friction across the track (N). As `balls.push`.
+    """
+    dx, dr = (1.0, 0.0) if k == 0 else (0.0, 1.0)
+    ex, er, et = w[at + T.EX], w[at + T.ER], w[at + T.ET]
+    mx, mr, mt = w[at + T.MX], w[at + T.MR], w[at + T.MT]
+    along = w[at + T.STIFF] * (ex * dx + er * dr)
+    across = w[at + T.ACROSS] * (mx * dx + mr * dr)
+    fx, fr, ft = along * ex + across * mx, along * er + across * mr, along * et + across * mt
+    pressed = w[at + T.LOAD]
+    now_x, now_r, now_t = pressed * ex + pair * mx, pressed * er + pair * mr, pressed * et + pair * mt
+    qx, qr, qt = w[at + T.QX], w[at + T.QR], w[at + T.QT]
+    gr = qt * fx - qx * ft - dx * now_t
+    gt = qx * fr - qr * fx + dx * now_r - dr * now_x
+    return fx, -ft, fr, -gt, gr
+
+
+@kernel
+def find_pushes(p, lv, speed, w):
+    """Put accelerations of the rings by the balls' places x, r, by contacts alone, to ``T.PUSHES``.
+
+    Per family four coordinates by x, then r, complex. The contacts of ball 0, at angle 0, are in ``w``.
+    """
+    for i in range(T.PUSHED):
+        w[T.PUSHES + i] = 0.0
+    for ring in range(2):
+        at = T.CONTACT if ring == 0 else T.CONTACT_OUTER
+        pair = lv[L.PAIR_INNER + ring] * speed * speed
+        for k in range(2):
+            fx, fy, fz, my, mz = pushed_by(w, at, pair, k)
+            to = T.PUSHES + 2 * (2 * ring + k)
+            w[to] = acting(p, 0) * fx / inertia(p, member(0, 0, ring))
+            to = T.PUSHES + T.PUSHED // 2 + 2 * (2 * 2 * ring + k)
+            per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring))
+            w[to] = per * fz
+            w[to + 1] = per * fy
+            to += 2 * 2
+            per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring + 1))
+            w[to] = per * my
+            w[to + 1] = -per * mz
+
+
+@kernel
+def note_contacts(p, lv, w):
+    """Put what `find_presses` needs of both contacts of ball 0, which are in ``w``, to ``T.PRESSED``.
+
+    Direction x, r, stiffness, the contact from the ring's centre, radius of the ball's orbit. After
+    `find_holds`. ``L.REACH`` takes the quadratic form of a place x, r that is one where the contacts' forces
+    are `_FAR` times their loads, and at `_WIDE` times their approach; then the product of both loads.
+    """
+    stiff = 1e-300
+    reach = 0.0
+    for race in range(2):
+        at = T.CONTACT if race == 0 else T.CONTACT_OUTER
+        to = T.PRESSED + race * T.PRESSED_SIZE
+        half = 0.5 * p[P.DIAMETER]
+        ex, er = w[at + T.EX], w[at + T.ER]
+        w[to + T.TOWARDS], w[to + T.TOWARDS + 1], w[to + T.STIFFNESS] = ex, er, w[at + T.STIFF]
+        w[to + T.TOUCHED_X] = w[at + T.QX] + half * ex
+        w[to + T.TOUCHED_R] = w[at + T.QR] + half * er
+        w[to + T.TOUCHED_T] = w[at + T.QT]
+        w[to + T.ORBIT] = p[P.PITCH_RADIUS] + w[T.R]
+        reach += 1.5 * w[at + T.LOAD] / w[at + T.STIFF] if w[at + T.STIFF] > 0.0 else 0.0
+        stiff += w[at + T.STIFF] / p[P.BALL_MASS]
+    per = 1.0 / (_FAR * _FAR * stiff * reach * reach + 1e-300)
+    wide = 1.0 / (_WIDE * _WIDE * reach * reach + 1e-300)
+    lv[L.REACH] = per * abs(w[T.HOLDS]) + wide
+    lv[L.REACH + 1] = per * w[T.HOLDS + 1]
+    lv[L.REACH + 2] = per * abs(w[T.HOLDS + 1 + 2]) + wide
+    lv[L.LOADED] = w[T.CONTACT + T.LOAD] * w[T.CONTACT_OUTER + T.LOAD]
+
+
+@kernel
+def press_rings(p, race, k, push, w):
+    """Add what friction that comes with load does to a ring as ball 0 moves along ``k`` (x, r) to `T.PUSHES`.
+
+    ``push``: forces x, r, theta (N/m) on the ball per height of the race.
+    """
+    at = T.PRESSED + race * T.PRESSED_SIZE
+    towards = w[at + T.TOWARDS + k]
+    fx, fr, ft = -push[0] * towards, -push[1] * towards, -push[2] * towards
+    qx, qr, qt = w[at + T.TOUCHED_X], w[at + T.TOUCHED_R], w[at + T.TOUCHED_T]
+    gr, gt = qt * fx - qx * ft, qx * fr - qr * fx
+    to = T.PUSHES + 2 * (2 * race + k)
+    w[to] += acting(p, 0) * fx / inertia(p, member(0, 0, race))
+    to = T.PUSHES + T.PUSHED // 2 + 2 * (2 * 2 * race + k)
+    per = acting(p, 1) / inertia(p, member(1, 0, 2 * race))
+    w[to] += per * fr
+    w[to + 1] -= per * ft
+    to += 2 * 2
+    per = acting(p, 1) / inertia(p, member(1, 0, 2 * race + 1))
+    w[to] -= per * gt
+    w[to + 1] -= per * gr
+
+
+@kernel
+def find_presses(p, c, y, speed, w):
+    """Count in ``T.HOLDS`` and ``T.PUSHES`` that friction follows the load of a contact.
+
+    A ball at its place of rest has the load of rest, and friction of it: what leads there and what comes of
+    it are those of how far contacts press, friction included. By differences of the right-hand side at the
+    held point ``y``, by the heights of both races; after `note_contacts`.
+    """
+    f = w[T.HELD_F : T.HELD_F + F.SIZE]
+    for race in range(2):
+        at = T.PRESSED + race * T.PRESSED_SIZE
+        free = C.RACES + race * C.RACE_SIZE + C.FREE
+        kept = c[free]
+        for i in range(J.BALL):
+            w[T.HEIGHTENED + i] = 0.0
+        for sign in range(-1, 2, 2):
+            c[free] = kept - sign * _HEIGHT
+            right_hand_side(p, c, y, 0.0, speed, 0.0, w, f)
+            for i in range(J.BALL):
+                w[T.HEIGHTENED + i] += sign * f[F.X + i * STRIDE] / (2.0 * _HEIGHT)
+        c[free] = kept
+        # the contact itself is in both tables
+        mass = p[P.BALL_MASS]
+        for k in range(2):
+            w[T.HEIGHTENED + k] += w[at + T.STIFFNESS] * w[at + T.TOWARDS + k] / mass
+        push = (
+            mass * w[T.HEIGHTENED],
+            mass * w[T.HEIGHTENED + 1],
+            mass * w[at + T.ORBIT] * w[T.HEIGHTENED + 2],
+        )
+        for k in range(2):
+            for i in range(J.BALL):
+                w[T.HOLDS + 2 * i + k] -= w[at + T.TOWARDS + k] * w[T.HEIGHTENED + i]
+            press_rings(p, race, k, push, w)

@@ -1,0 +1,180 @@
+"""What drives the modes of balls and cage: the rings' places, and how far balls rest from where these lead.
+
+See `operator`; `patterns` steps them.
+"""
+
+from fmu_bearing.engine.fidelities.condensed.balls import between
+from fmu_bearing.engine.fidelities.condensed.families import family_size
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store, sum_four, sum_lanes
+from fmu_bearing.engine.layout import FOUR, L, P, Q, T, W, Y
+
+# Eighth power of a ball's share of the load it was linearised at: 1e-4 of one that has all is left out, half
+# of one that has a third.
+_LIGHT = 1e-4
+
+
+@kernel
+def share_held(p, w):
+    """Return the share of the balls that both races hold; loose ones rest where they are."""
+    return sum_lanes(w, T.HELD, int(p[P.LANES])) / p[P.BALLS]
+
+
+@kernel
+def modes_of(lv, family):
+    """Return the number of modes of a family."""
+    return int(lv[L.OPERATOR + family])
+
+
+@kernel
+def groups(lv, family):
+    """Return the number of lanes in use for a family."""
+    return (modes_of(lv, family) + FOUR - 1) // FOUR * FOUR
+
+
+@kernel
+def active(lv):
+    """Whether there is an operator: else balls follow statically."""
+    return lv[L.OPERATOR] != 0.0
+
+
+@kernel
+def put_pair(w, to, k, re, im):
+    """Write complex number ``k`` of a row of pairs."""
+    w[to + 2 * k] = re
+    w[to + 2 * k + 1] = im
+
+
+@kernel
+def by_families(x, at, to, w):
+    """Put the rings' numbers ``x[at:]`` by families to ``w[to:]``: four complex ones each, see `families`."""
+    put_pair(w, to, 0, x[at + Q.X], 0.0)
+    put_pair(w, to, 1, x[at + Q.OUTER + Q.X], 0.0)
+    put_pair(w, to, 2, x[at + Q.OUTER + Q.TURN], 0.0)
+    put_pair(w, to, 3, 0.0, 0.0)
+    one = to + T.FAMILY_PLACES
+    put_pair(w, one, 0, x[at + Q.Z], x[at + Q.Y])
+    put_pair(w, one, 1, x[at + Q.INNER_BY], -x[at + Q.INNER_BZ])
+    put_pair(w, one, 2, x[at + Q.OUTER + Q.Z], x[at + Q.OUTER + Q.Y])
+    put_pair(w, one, 3, x[at + Q.OUTER + Q.BY], -x[at + Q.OUTER + Q.BZ])
+
+
+@kernel
+def linear_place(lv, family, k, w):
+    """Return the complex place of rest x or r (``k``) of a pattern that the rings' linear motion gives."""
+    re, im = 0.0, 0.0
+    follow = L.FAMILY + family * L.FAMILY_SIZE + L.FOLLOW
+    for b in range(family_size(family)):
+        here = T.FAMILY_PLACES * family + 2 * b
+        at = follow + 2 * (k * L.FAMILY_RINGS + b)
+        for moved in range(2):
+            xr, xi = (
+                w[T.PLACES + moved * 2 * T.FAMILY_PLACES + here],
+                w[T.PLACES + moved * 2 * T.FAMILY_PLACES + here + 1],
+            )
+            fr, fi = lv[at], lv[at + 1]
+            re += fr * xr - fi * xi
+            im += fr * xi + fi * xr
+            at += 2 * 2 * L.FAMILY_RINGS
+    return re, im
+
+
+@kernel
+def moved_load(w, at, j):
+    """Return loads (N) of four contacts, rows from ``at`` on, with the balls where the sweep put them.
+
+    To first order, as what rings feel: by the loads before the sweep, what a ball adds would change from one
+    correction to the next by as much as the first one corrects.
+    """
+    along = load(w, at + T.EX + j) * load(w, T.DX + j) + load(w, at + T.ER + j) * load(w, T.DR + j)
+    return max(load(w, at + T.LOAD + j) + load(w, at + T.STIFF + j) * along, 0.0)
+
+
+@kernel
+def find_away(p, lv, w):
+    """Put how far the balls' places of rest are from where the rings' motion would take them to `T.AWAY_NOW`.
+
+    Complex x, r of family 0, then of family 1. After a sweep, with the rings at the trial state. Balls that
+    are farther away than contacts approach fade out, as loose ones and light ones do: nothing there is
+    linear, and what one ball does would change with forces that nobody feels.
+    """
+    x0, _ = linear_place(lv, 0, 0, w)
+    r0, _ = linear_place(lv, 0, 1, w)
+    xr, xi = linear_place(lv, 1, 0, w)
+    rr, ri = linear_place(lv, 1, 1, w)
+    x0 += lv[L.AT_BALL]
+    r0 += lv[L.AT_BALL + 1]
+    per = 1.0 / lv[L.LOADED]
+    xx, xr2, rr2 = lv[L.REACH], 2.0 * lv[L.REACH + 1], lv[L.REACH + 2]
+    ux, ur, cx, cr, sx, sr = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    for j in range(0, int(p[P.LANES]), FOUR):
+        co, si = load(w, T.COS + j), load(w, T.SIN + j)
+        x = load(w, T.X + j) - x0 - (xr * co - xi * si)
+        r = load(w, T.R + j) - r0 - (rr * co - ri * si)
+        far = x * (xx * x + xr2 * r) + rr2 * r * r
+        inner, outer = moved_load(w, T.CONTACT, j), moved_load(w, T.CONTACT_OUTER, j)
+        loaded = per * inner * outer
+        loaded *= loaded
+        held = load(lv, L.MASK + j) * between(inner, outer) * loaded * loaded
+        held /= (loaded * loaded + _LIGHT) * (1.0 + far * far)
+        x, r = held * x, held * r
+        ux, ur = ux + x, ur + r
+        cx, cr = cx + co * x, cr + co * r
+        sx, sr = sx - si * x, sr - si * r
+    per = 1.0 / p[P.BALLS]
+    put_pair(w, T.AWAY_NOW, 0, per * sum_four(ux), 0.0)
+    put_pair(w, T.AWAY_NOW, 1, per * sum_four(ur), 0.0)
+    per *= 2.0
+    put_pair(w, T.AWAY_NOW, 2, per * sum_four(cx), per * sum_four(sx))
+    put_pair(w, T.AWAY_NOW, 3, per * sum_four(cr), per * sum_four(sr))
+
+
+@kernel
+def add_input(lv, row, xr, xi, m, re, im):
+    """Return (``re``, ``im``) plus the row of four modes at ``lv[row + m:]`` times a complex number."""
+    ar, ai = load(lv, row + m), load(lv, row + L.MODES + m)
+    return re + (ar * xr - ai * xi), im + (ar * xi + ai * xr)
+
+
+@kernel
+def find_drive(lv, w):
+    """Put what drives the modes at the trial state to ``T.MODES_DRIVEN``, after :func:`find_away`."""
+    for family in range(2):
+        f = L.FAMILY + family * L.FAMILY_SIZE
+        into = T.MODES_DRIVEN + family * L.COMPLEX
+        for m in range(0, groups(lv, family), FOUR):
+            re, im = splat(0.0), splat(0.0)
+            sr, si = splat(0.0), splat(0.0)
+            rr, ri = splat(0.0), splat(0.0)
+            for b in range(family_size(family)):
+                whole = f + L.IN_WHOLE + b * L.COMPLEX
+                here = T.FAMILY_PLACES * family + 2 * b
+                xr, xi = w[T.PLACES + here], w[T.PLACES + here + 1]
+                re, im = add_input(lv, whole, xr, xi, m, re, im)
+                rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, xr, xi, m, rr, ri)
+                xr, xi = w[T.RATES + here], w[T.RATES + here + 1]
+                sr, si = add_input(lv, whole, xr, xi, m, sr, si)
+            keep_drive(w, into + L.BY_PLACE * L.BOTH + m, re, im)
+            keep_drive(w, into + L.BY_SLOPE * L.BOTH + m, sr, si)
+            keep_drive(w, into + L.BY_RATE * L.BOTH + m, rr, ri)
+            re, im = splat(0.0), splat(0.0)
+            for k in range(2):
+                at = T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k
+                re, im = add_input(lv, f + L.IN_AWAY + k * L.COMPLEX, w[at], w[at + 1], m, re, im)
+            keep_drive(w, into + L.BY_AWAY * L.BOTH + m, re, im)
+
+
+@kernel
+def keep_drive(w, at, re, im):
+    """Write four complex numbers of a row."""
+    store(w, at, re)
+    store(w, at + L.MODES, im)
+
+
+@kernel
+def show_linear(lv, w):
+    """Put the rings' trial places, less the held ones, to ``T.LINEAR``, and by families with their rates."""
+    for i in range(L.N):
+        w[T.LINEAR + i] = w[W.STAGE + Y.Q0 + i] - lv[L.AT_RINGS + i]
+    by_families(w, T.LINEAR, T.PLACES, w)
+    by_families(w, W.STAGE + Y.V0, T.RATES, w)

@@ -1,0 +1,121 @@
+"""What balls and cage do beside balls at rest, at one frequency: see `condensed.operator`.
+
+A line is the real part of a complex number times exp(i omega t). A family of two planes answers it forward
+and backward: with U = u_0 + i u_1, u_0 gives half of either, u_1 half of either a quarter turn on.
+"""
+
+from fmu_bearing.engine.fidelities.condensed.drives import active, groups
+from fmu_bearing.engine.fidelities.condensed.families import family_size, member, planes, side
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store, sum_four
+from fmu_bearing.engine.layout import FOUR, LN, L, P, T
+
+
+@kernel
+def answer_at(lv, omega, w):
+    """Put 1 / (i omega - lambda) of all modes to ``T.ANSWER``, then those at minus ``omega`` (rad/s)."""
+    if not active(lv):
+        return
+    for family in range(2):
+        value = L.FAMILY + family * L.FAMILY_SIZE + L.VALUE
+        for whirl in range(2):
+            turning = omega if whirl == 0 else -omega
+            into = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
+            for m in range(0, groups(lv, family), FOUR):
+                re = -1.0 * load(lv, value + m)
+                im = turning - load(lv, value + L.MODES + m)
+                per = 1.0 / (re * re + im * im + 1e-300)
+                store(w, into + m, per * re)
+                store(w, into + L.MODES + m, -1.0 * per * im)
+
+
+@kernel
+def through(lv, family, whirl, out, by_place, by_rate, omega, w):
+    """Return what the modes of a family do, by the row ``lv[out:]``, driven at a whirl of ``omega`` (rad/s).
+
+    By a place through the row ``lv[by_place:]`` and its rate through ``lv[by_rate:]``; complex.
+    """
+    re, im = splat(0.0), splat(0.0)
+    at = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
+    for m in range(0, groups(lv, family), FOUR):
+        xr = load(lv, by_place + m) - omega * load(lv, by_rate + L.MODES + m)
+        xi = load(lv, by_place + L.MODES + m) + omega * load(lv, by_rate + m)
+        gr, gi = load(w, at + m), load(w, at + L.MODES + m)
+        ar, ai = xr * gr - xi * gi, xr * gi + xi * gr
+        ur, ui = load(lv, out + m), load(lv, out + L.MODES + m)
+        re += ur * ar - ui * ai
+        im += ur * ai + ui * ar
+    return sum_four(re), sum_four(im)
+
+
+@kernel
+def both_whirls(forward_re, forward_im, backward_re, backward_im):
+    """Return what a plane does in itself and a quarter turn on, by a forward and a backward whirl."""
+    return (
+        0.5 * (forward_re + backward_re), 0.5 * (forward_im - backward_im),
+        0.5 * (forward_re - backward_re), 0.5 * (forward_im + backward_im),
+    )  # fmt: skip
+
+
+@kernel
+def beside_rings(lv, omega, w):
+    """Put accelerations by the rings' displacements at ``omega`` to ``T.BESIDE_RE``, ``_IM``, by columns."""
+    for at in range(0, L.MATRIX, FOUR):
+        store(w, T.BESIDE_RE + at, load(lv, L.BESIDE_PLACE + at))
+        store(w, T.BESIDE_IM + at, omega * load(lv, L.BESIDE_RATE + at))
+    if not active(lv):
+        return
+    for family in range(2):
+        f = L.FAMILY + family * L.FAMILY_SIZE
+        for a in range(family_size(family)):
+            out = f + L.OUT + a * L.COMPLEX
+            for b in range(family_size(family)):
+                by_place, by_rate = f + L.IN_PLACE + b * L.COMPLEX, f + L.IN_RATE + b * L.COMPLEX
+                fr, fi = through(lv, family, 0, out, by_place, by_rate, omega, w)
+                br, bi = through(lv, family, 1, out, by_place, by_rate, -omega, w)
+                re, im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
+                for plane in range(planes(family)):
+                    i, k = member(family, plane, a), member(family, plane, b)
+                    sign = side(plane, a) * side(plane, b)
+                    w[T.BESIDE_RE + i + L.COLUMN * k] += sign * re
+                    w[T.BESIDE_IM + i + L.COLUMN * k] += sign * im
+                if family == 1:
+                    # i times the turned one by the second plane's motion, minus that in it by the first one's
+                    i, k = member(1, 0, a), member(1, 1, b)
+                    w[T.BESIDE_RE + i + L.COLUMN * k] -= side(1, b) * turned_im
+                    w[T.BESIDE_IM + i + L.COLUMN * k] += side(1, b) * turned_re
+                    i, k = member(1, 1, a), member(1, 0, b)
+                    w[T.BESIDE_RE + i + L.COLUMN * k] += side(1, a) * turned_im
+                    w[T.BESIDE_IM + i + L.COLUMN * k] -= side(1, a) * turned_re
+
+
+@kernel
+def beside_places(p, lv, w, re, im):
+    """Add accelerations by the balls' places of rest in ``T.LINE_FORCE`` to the right side, see `lines`."""
+    if not active(lv):
+        return
+    for family in range(2):
+        f = L.FAMILY + family * L.FAMILY_SIZE
+        per = planes(family) / p[P.BALLS]
+        for a in range(family_size(family)):
+            out = f + L.OUT + a * L.COMPLEX
+            for k in range(2):
+                row = f + L.IN_AWAY + k * L.COMPLEX
+                fr, fi = through(lv, family, 0, out, row, row, 0.0, w)
+                br, bi = through(lv, family, 1, out, row, row, 0.0, w)
+                push = f + L.PUSH + 2 * (2 * a + k)
+                # contacts with balls at rest have pushed already
+                fr, fi, br, bi = fr - lv[push], fi - lv[push + 1], br - lv[push], bi - lv[push + 1]
+                own_re, own_im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
+                first = T.LINE_FORCE + LN.AWAY + 2 * family + k
+                xr, xi = per * w[first], per * w[first + LN.IMAGINARY]
+                i = T.LINE_SIDE + member(family, 0, a)
+                re[i] += own_re * xr - own_im * xi
+                im[i] += own_re * xi + own_im * xr
+                if family == 1:
+                    yr, yi = per * w[first + 2], per * w[first + 2 + LN.IMAGINARY]
+                    re[i] -= turned_re * yi + turned_im * yr
+                    im[i] += turned_re * yr - turned_im * yi
+                    i = T.LINE_SIDE + member(1, 1, a)
+                    re[i] += side(1, a) * (own_re * yr - own_im * yi + turned_re * xi + turned_im * xr)
+                    im[i] += side(1, a) * (own_re * yi + own_im * yr - turned_re * xr + turned_im * xi)

@@ -18,7 +18,7 @@ from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
 from fmu_bearing.modal.campbell.weak import whirl_words
-from fmu_bearing.progress import Tell, silent
+from fmu_bearing.progress import Tell, keeping, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 
@@ -58,6 +58,8 @@ def changes(
     ValueError
         Where the unchanged scene has no equilibrium (`EngineError`) or no figure to compare, or for
         ``seeds`` below 1.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
 
     Examples
     --------
@@ -87,10 +89,11 @@ def changes(
     found = Changes(scene, before, basis, (), reason, _no_life(scene))
     if not found.figures:
         raise ValueError(f"{scene.name} has nothing to compare. {found.conditions()}")
-    rows = []
-    for choice in alternatives(scene):
-        tell(choice.words)
-        rows.append(_changed(scene, choice, before, ear))
+    rows: list[Change] = []
+    with keeping(rows, lambda: replace(found, changes=tuple(rows))):
+        for choice in alternatives(scene):
+            tell(choice.words)
+            rows.append(_changed(scene, choice, before, ear))
     return replace(found, changes=tuple(rows))
 
 

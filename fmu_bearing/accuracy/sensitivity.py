@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Refused
+from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
+from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
 from fmu_bearing.scene import Scene, SceneError, SceneSource
@@ -250,6 +252,8 @@ def sensitivity(
         If the engine refuses the unchanged scene.
     SceneError
         For bearings on another model's shaft.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
     """
     scene = with_fidelity(source, model="full")
     require(scene, "sensitivity")
@@ -264,21 +268,26 @@ def sensitivity(
         for moved in ASSUMED[key](value)
         if moved != value
     ]
-    rows = []
-    for key, moved in track(moves):
-        value = _value(scene, key)
-        try:
-            other = scene.replace({key: moved})
-        except SceneError:
-            rows.append(Row(key, value, moved, remark="the scene does not allow it"))
-            continue
-        try:
-            figures = measure(other, _sound(other, blocks), warm_up, window).figures
-        except (Refused, ValueError) as problem:
-            rows.append(Row(key, value, moved, remark=str(problem)))
-            continue
-        rows.append(Row(key, value, moved, changes(figures, base)))
-    return Sensitivity(scene.name, scene.operation.speed_rpm, warm_up, window, base, tuple(rows))
+    rows: list[Row] = []
+
+    def study() -> Sensitivity:
+        return Sensitivity(scene.name, scene.operation.speed_rpm, warm_up, window, base, tuple(rows))
+
+    with keeping(rows, study):
+        for key, moved in track(moves):
+            value = _value(scene, key)
+            try:
+                other = scene.replace({key: moved})
+            except SceneError:
+                rows.append(Row(key, value, moved, remark="the scene does not allow it"))
+                continue
+            try:
+                figures = measure(other, _sound(other, blocks), warm_up, window).figures
+            except (Refused, ValueError) as problem:
+                rows.append(Row(key, value, moved, remark=str(problem)))
+                continue
+            rows.append(Row(key, value, moved, changes(figures, base)))
+    return study()
 
 
 def changes(found: Figures, base: Figures) -> tuple[float, ...]:
@@ -322,5 +331,5 @@ def _sound(scene: Scene, blocks: dict[str, list[NDArray[np.float64]]]) -> list[N
 def write(study: Sensitivity, folder: pathlib.Path) -> None:
     """Write ``sensitivity.md`` and ``sensitivity.csv`` into a folder, which is made."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "sensitivity.md").write_text(study.markdown(), "utf-8")
+    write_whole(folder / "sensitivity.md", study.markdown().encode("utf-8"))
     write_csv(folder / "sensitivity.csv", COLUMNS, study.cells())

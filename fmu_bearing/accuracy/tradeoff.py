@@ -17,7 +17,9 @@ import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import Sounds
+from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
 from fmu_bearing.run.settings import TERMS, Setting
@@ -190,6 +192,8 @@ def tradeoff(
         If the engine refuses the reference.
     SceneError
         For bearings on another model's shaft.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
     """
     scene = scene_of(source)
     require(scene, "tradeoff")
@@ -201,24 +205,31 @@ def tradeoff(
         with suppress(Refused):
             witness = measure(WITNESS.scene(scene), np.empty(0), warm_up, window)
             agreement = relative_error(truth.rings, witness.rings)
-    rows = []
-    for setting in track(settings):
-        if not setting.carries(scene):
-            rows.append(Row(setting, remark=BENDING.reason))
-            continue
-        try:
-            run = measure(setting.scene(scene), sounds.at(setting.fidelity), warm_up, window, budget=budget)
-        except Refused as problem:
-            rows.append(Row(setting, remark=f"refused: {problem}"))
-            continue
-        error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan
-        rows.append(Row(setting, errors(run.figures, truth.figures), error, run.wall, run.cpu))
+    rows: list[Row] = []
     rpm = scene.operation.speed_rpm
-    return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows))
+
+    def study() -> Tradeoff:
+        return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows))
+
+    with keeping(rows, study):
+        for setting in track(settings):
+            if not setting.carries(scene):
+                rows.append(Row(setting, remark=BENDING.reason))
+                continue
+            try:
+                run = measure(
+                    setting.scene(scene), sounds.at(setting.fidelity), warm_up, window, budget=budget
+                )
+            except Refused as problem:
+                rows.append(Row(setting, remark=f"refused: {problem}"))
+                continue
+            error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan
+            rows.append(Row(setting, errors(run.figures, truth.figures), error, run.wall, run.cpu))
+    return study()
 
 
 def write(study: Tradeoff, folder: pathlib.Path) -> None:
     """Write ``tradeoff.md`` and ``tradeoff.csv`` into a folder, which is made."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "tradeoff.md").write_text(study.markdown(), "utf-8")
+    write_whole(folder / "tradeoff.md", study.markdown().encode("utf-8"))
     write_csv(folder / "tradeoff.csv", COLUMNS, study.cells())

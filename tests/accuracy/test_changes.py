@@ -327,10 +327,24 @@ def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch
     # a scene that asks for one of the others gets it, with the remark
     asked = changes(with_fidelity(dry, model="rings"), seeds=1)
     assert asked.basis.fidelity == "rings"
-    assert any("levels of fidelity rings are in doubt" in line for line in asked.remarks())
+    assert any("of fidelity rings are in doubt" in line for line in asked.remarks())
     received.clear()
     assert changes(spindle, seeds=1).basis.fidelity == "response"
-    assert set(received) == {"rings", "response"}
+    assert received[:2] == ["full", "response"] and set(received[1:]) == {"response"}
+
+
+def test_a_loud_cage_is_judged_by_full(spindle, monkeypatch):
+    """Levels of full decide: 6 dB above, with the cage's sound, neither of the others is taken."""
+    only(monkeypatch)
+    levels = {"full": 56.0, "rings": 50.0, "response": 50.0}
+    monkeypatch.setattr(
+        ChangeLevels, "_all",
+        lambda self, scene, fidelity, seed: np.full(len(scene.microphones), levels[fidelity]),
+    )  # fmt: skip
+    loud = changes(spindle, seeds=5)
+    assert loud.basis.fidelity == "full" and len(loud.basis.seeds) == 3
+    levels["rings"] = 55.5
+    assert changes(spindle, seeds=5).basis.fidelity == "rings"
 
 
 def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):

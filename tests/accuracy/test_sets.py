@@ -91,7 +91,8 @@ def test_levels_of_changes_are_those_of_two_recordings(monkeypatch):
     found = changes(given, seeds=1)
     (row,) = found.changes
     basis = found.basis
-    assert basis.fidelity in ("rings", "response") and basis.microphone == "P2"
+    # the cages are loud at P2: 65.9 dB(A), of which rings have 61.1 and response 50.3
+    assert basis.fidelity == "full" and basis.microphone == "P2"
     levels = [
         record(
             with_fidelity(scene, model=basis.fidelity), basis.duration, settle=basis.settle, progress=False

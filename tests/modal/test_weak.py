@@ -24,8 +24,8 @@ def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
     scene = at(name, rpm)
     for fidelity in ("rings", "response"):
         text = doubt(with_fidelity(scene, model=fidelity))
-        assert text.startswith(f"levels of fidelity {fidelity} are in doubt here: the rings' mode '{mode}")
-        assert text.endswith("take fidelity full")
+        assert text.startswith("levels ") and f" of fidelity {fidelity} are in doubt here: " in text
+        assert f"the rings' mode '{mode}" in text and text.endswith("take fidelity full")
     assert doubt(with_fidelity(scene, model="full")) == ""
     assert min(found.damping for found in modes(scene).modes if found.name == mode) < LEAST
 

@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing import campbell, modes, operating_point, read_scene, verdicts
+from fmu_bearing import campbell, modes, operating_point, read_scene, simulate, verdicts
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import Q, S, Y
 from fmu_bearing.modal.campbell.weak import doubt, weakness, whirl
 from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.conftest import ROOT
@@ -42,14 +43,17 @@ def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, befo
     mode = self_excited(modes(scene))
     assert mode.growth == pytest.approx(growth, rel=0.05)
     assert mode.growth > 5.0 and mode.remark == "unstable" and mode.order == 1
+    # with its cage it grows, too, at another rate
+    frequency, growth = self_excitation(scene.with_rigid_rings(), modes(scene))
+    assert growth > 5.0
     for fidelity in ("rings", "response"):
         text = doubt(with_fidelity(scene, model=fidelity))
         assert text.startswith(f"fidelity {fidelity}: the ring whirls by itself, figures are of the unstable")
-        assert f"at {mode.frequency:.0f} Hz" in text and "only fidelity full" in text
+        assert f"at {frequency:.0f} Hz" in text and "only fidelity full" in text
     assert doubt(scene) == ""  # of full
     assert weakness(scene).startswith("the ring whirls by itself at ")
     point = operating_point(scene)
-    assert point.whirl == pytest.approx((mode.frequency, mode.growth))
+    assert point.whirl == pytest.approx((frequency, growth), rel=1e-6)
     (verdict,) = [one for one in verdicts(point) if one.key == "whirl"]
     assert verdict.judgement == "change" and verdict.advice == whirl(scene)
 
@@ -134,9 +138,36 @@ spindle.preload = { kind = "spacer", preload_N = 100.0 }
 """
 
 
-def test_a_set_is_judged_by_its_growth():
-    """Face to face on a short shaft, steel balls; the example's pair does not grow."""
+def test_a_whirl_that_the_cage_drives_is_named():
+    """In `full` ring and cage whirl at 630 Hz; without its cage the ring would, at 1,680 Hz."""
+    scene = scene_at("NSK-7003C", 42100, 29, support=None)
+    assert self_excited(modes(scene)).frequency > 1500.0
+    frequency, growth = operating_point(scene).whirl
+    assert frequency == pytest.approx(630.0, rel=0.1) and growth > 100.0
+
+
+def without_cage(scene):
+    return scene.model_copy(update={"bearing": scene.bearing.model_copy(update={"cage": None})})
+
+
+def rms_in_full(scene):
+    """Lateral velocity (m/s) of the first inner ring after 0.3 s."""
+    name = "bearing[1].inner_ring.velocity.y"
+    run = simulate(with_fidelity(scene, model="full"), 0.35, step=1e-4, outputs=[name], progress=False)
+    return run[name][-500:].std()
+
+
+def test_cages_that_stop_a_set_silence_the_remark():
+    """The pair grows by 370 1/s without its cages, and decays with them, as fidelity full does."""
     pair = read_scene_text(PAIR, "pair")
+    assert self_excited(modes(pair)).growth > 100.0  # cages are left out there
+    assert doubt(pair) == "" and operating_point(pair).whirl is None
+    assert rms_in_full(pair) < 2e-4 < 2e-2 < rms_in_full(without_cage(pair))
+
+
+def test_a_set_is_judged_by_its_growth():
+    """Face to face on a short shaft, steel balls, no cages; the example's pair does not grow."""
+    pair = without_cage(read_scene_text(PAIR, "pair"))
     assert self_excited(modes(pair)).growth > 20.0
     assert doubt(pair).startswith("fidelity rings: the set whirls by itself, figures are of the unstable")
     assert weakness(pair).startswith("the set whirls by itself at ")

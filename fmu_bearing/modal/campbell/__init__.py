@@ -6,6 +6,6 @@
 ``diagram_style``     what is drawn of it: colours, widths, dashes, which lines
 ``diagram_picture``   it as a Matplotlib figure
 ``over_speed``        `campbell`: modes of a scene over speed, followed by shape
-``weak``              weakly damped modes, for which levels of rings and response are in doubt
+``weak``              where figures of rings and response are in doubt: whirls, short runs, weak damping
 ====================  ===========================================================================
 """

@@ -9,5 +9,6 @@
 ``natural_modes``  `Modes`: all at one operating point, cautions, table
 ``solve``          eigenvalues of the equations as modes: ringing, or put apart
 ``points``         `modes`: of a scene, at an operating point given by inputs
+``growth``         what grows by itself, with the cage as it runs
 =================  ===========================================================================
 """

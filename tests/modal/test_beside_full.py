@@ -1,0 +1,94 @@
+"""A short run beside full: rings that move otherwise, balls that strike pockets, and what is said of it."""
+
+import numpy as np
+import pytest
+
+from fmu_bearing import new_scene, simulate
+from fmu_bearing.modal.campbell.weak import FAR, departs, doubt, is_of_levels, is_of_motion, struck
+from fmu_bearing.modal.equations.beside_full import beside_full
+from fmu_bearing.scene.read import read_scene_text, with_fidelity
+
+
+def fresh(bearing, rpm, preload, kind="hybrid", **options):
+    text = new_scene(
+        "fresh", bearing, speed_rpm=float(rpm), preload_N=preload, sound=False, kind=kind, **options
+    )
+    return with_fidelity(read_scene_text(text), model="rings")
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return fresh("NSK-7014C", 9000, 386.0)
+
+
+def play(scene):
+    return beside_full(scene.replace({"imperfections": None}).with_rigid_rings(), "rings").play
+
+
+# (N across, share of the room): levels of rings are 1, 1, 9 and 21 dB(A) low at the worst microphone
+@pytest.mark.parametrize(
+    ("load", "low", "high"), [(0.0, 0.0, 0.01), (100.0, 0.0, 0.1), (200.0, 0.3, 0.7), (386.0, 0.98, 1.02)]
+)
+def test_balls_use_the_room_in_pockets_as_the_load_across_grows(scene, load, low, high):
+    loaded = scene.replace({"mounting.radial_load_y_N": load})
+    assert low <= max(play(loaded)) <= high
+    said = doubt(loaded)
+    assert ("strike the pockets" in said) == (load > 150.0)
+    if said:
+        assert is_of_levels(said) and said.endswith("take fidelity full") and "damping" not in said
+    # the direction does not matter
+    turned = scene.replace({"mounting.radial_load_z_N": -load})
+    assert max(play(turned)) == pytest.approx(max(play(loaded)), abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "loads"), [("DB", {1.0: False, 200.0: True}), ("QBC", {150.0: True})]
+)
+def test_the_cages_of_a_set_are_looked_at_too(arrangement, loads):
+    """A DB set of 7008C, 10,000 r/min, 150 N across: inner rings move by 0.69 to 0.88 of full."""
+    pair = fresh("NSK-7008C", 10_000, None, arrangement=arrangement)
+    for load, expected in loads.items():
+        said = struck(pair.replace({"spindle.load.force_y_N": load}), "rings")
+        assert ("strike the pockets of the cage of bearing" in said) == expected
+
+
+def test_inputs_count_and_a_bearing_without_a_cage_has_no_pockets(scene):
+    assert "strike the pockets" in doubt(scene, {"radial_load.y": 300.0})
+    bare = scene.model_copy(update={"bearing": scene.bearing.model_copy(update={"cage": None})})
+    assert play(bare.replace({"mounting.radial_load_y_N": 386.0})) == (0.0,)
+
+
+# rms velocity of the inner ring along y, over full, of a longer run than that of the remark
+@pytest.mark.parametrize(
+    ("bearing", "rpm", "preload", "kind", "expected"),
+    [
+        ("NSK-7010C", 10_000, 280.0, "hybrid", (0.9, 1.1)),
+        # a whirl that P4 surfaces start, and surfaces of a tenth do not: no growth in the linear equations
+        ("NSK-7008AC", 20_000, 200.0, "steel", (0.0, 0.1)),
+        ("NSK-7904AC", 37_900, 120.0, "steel", (0.0, 0.2)),
+    ],
+)
+def test_rings_that_depart_from_full_are_named(bearing, rpm, preload, kind, expected):
+    scene = fresh(bearing, rpm, preload, kind)
+    name = "inner_ring.velocity.y"
+    found = [
+        simulate(with_fidelity(scene, model=model), 0.15, step=5e-5, outputs=[name], progress=False)[name]
+        for model in ("rings", "full")
+    ]
+    ratio = found[0][1000:].std() / found[1][1000:].std()
+    assert expected[0] <= ratio <= expected[1]
+    for model in ("rings", "response"):
+        said = departs(scene, model)
+        assert bool(said) == (ratio < 1.0 / FAR)
+        text = doubt(with_fidelity(scene, model=model))
+        assert is_of_motion(text) == bool(said)
+    assert doubt(with_fidelity(scene, model="full")) == ""
+
+
+def test_a_perfect_bearing_is_not_compared(scene):
+    """What moves in full there is the whirl of the cage."""
+    perfect = scene.replace({"imperfections": None})
+    run = beside_full(perfect.with_rigid_rings(), "response")
+    assert (run.ratio, run.what) == (1.0, "") and doubt(perfect) == ""
+    assert run.seconds == pytest.approx(0.05, abs=1e-3)  # three turns of the cage
+    assert np.isfinite(run.play).all()

@@ -1,5 +1,6 @@
 """The command line, as ``python -m fmu_bearing`` and as the command ``fmu-bearing``."""
 
+import os
 import sys
 
 
@@ -18,5 +19,13 @@ def main() -> None:
         exec("")
 
 
+def _without_current_folder() -> None:
+    """Take no more modules from the current folder, which `python -m` puts in front of all others."""
+    if not sys.flags.safe_path:
+        del sys.path[0]
+        sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
 if __name__ == "__main__":
+    _without_current_folder()
     main()

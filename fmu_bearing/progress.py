@@ -8,7 +8,7 @@ on, also while a piece of work computes without end in one call.
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence, Sized
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
@@ -18,6 +18,25 @@ Item = TypeVar("Item")
 Tell = Callable[[str], None]
 #: s between two lines where there is no terminal.
 EVERY = 10.0
+
+
+class Stopped(KeyboardInterrupt):
+    """Ctrl-C within a study; ``found`` is the study of what was finished until then."""
+
+    def __init__(self, found: Any) -> None:
+        super().__init__("interrupted")
+        self.found = found
+
+
+@contextmanager
+def keeping(done: Sized, made: Callable[[], Any]) -> Iterator[None]:
+    """On Ctrl-C in the block raise `Stopped` with what ``made`` makes, unless nothing is done."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if not len(done):
+            raise
+        raise Stopped(made()) from None
 
 
 def silent(text: str) -> None:

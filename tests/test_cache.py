@@ -98,6 +98,22 @@ def test_without_a_home_the_cache_is_a_private_temporary_folder(tmp_path, monkey
         cache_root()
 
 
+@pytest.mark.parametrize("value", ["", ".", "cache"])
+@pytest.mark.parametrize("name", ["HOME", "XDG_CACHE_HOME"])
+def test_a_home_that_is_no_whole_path_does_not_count(name, value, tmp_path, monkeypatch):
+    """The cache would be in the root's folder, or in the current one, whoever filled that."""
+    for one in ("FMU_BEARING_CACHE", "XDG_CACHE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(one, raising=False)
+    home = tmp_path / "home"
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.setenv(name, value)
+    entry = pwd.struct_passwd(("me", "x", os.geteuid(), 0, "", str(home), ""))
+    monkeypatch.setattr(pwd, "getpwuid", lambda _: entry)
+    monkeypatch.chdir(tmp_path)
+    assert cache_root() == home / ".cache" / "fmu-bearing"
+    assert [one.name for one in tmp_path.iterdir()] == ["home"]
+
+
 @pytest.mark.parametrize("which", ["step.o", "step.o.sha256"])
 @pytest.mark.parametrize("rights", [0o666, 0o664, None])
 def test_a_file_that_others_can_write_to_is_made_again(place, which, rights, request):

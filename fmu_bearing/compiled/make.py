@@ -10,14 +10,15 @@ import hashlib
 import json
 import os
 import queue
-import subprocess
 import sys
 import threading
 import time
 from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
+from subprocess import PIPE, Popen
 
+from fmu_bearing import children
 from fmu_bearing.compiled import disk_cache
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.platforms import Platform
@@ -219,15 +220,14 @@ class _Worker:
         self._messages: queue.SimpleQueue[float] = queue.SimpleQueue()
         self._done, self._since, self._begin, self._shown = 0.0, 0.0, 0.0, 0.0
         self.seconds = [_SECONDS[_whole(unit)][platform is not None] for unit in units]
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Popen[bytes] | None = None
 
     def _command(self) -> list[str]:
         if self.platform is None or self.suffix is None:
             job = ["lean" if lean(version("numba")) else "plain", *self.units]
         else:
             job = [self.platform.name, *self.units, self.suffix]
-        # -P: not from the current folder, where another checkout may lie, whose kernels have another key
-        return [sys.executable, "-P", "-m", "fmu_bearing.compiled.worker", *job]
+        return children.python("fmu_bearing.compiled.worker", *job)
 
     def _due(self) -> set[str]:
         """Names of the files that it makes."""
@@ -237,15 +237,7 @@ class _Worker:
 
     def start(self, code: bytes) -> None:
         """Start the process, which is given portable code."""
-        package = str(Path(__file__).parents[2])
-        path = os.pathsep.join([package, *filter(None, [os.environ.get("PYTHONPATH")])])
-        self._process = subprocess.Popen(
-            self._command(),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            env={**os.environ, **SETTINGS, "PYTHONPATH": path},
-        )
+        self._process = children.start(self._command(), SETTINGS, stdin=PIPE, stdout=PIPE, stderr=PIPE)
         self._complaint = b""
         self._begin = self._since = time.monotonic()
         self._readers = [threading.Thread(target=one, daemon=True) for one in (self._listen, self._collect)]

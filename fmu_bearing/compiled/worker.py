@@ -14,6 +14,7 @@ import os
 import sys
 from collections.abc import Callable
 
+from fmu_bearing.children import end_with_parent
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.optimise import object_code
 from fmu_bearing.compiled.platforms import OWN, own, platform_named
@@ -52,6 +53,7 @@ def _optimise(name: str, unit: str, suffix: str) -> None:
 def main() -> None:
     """Do what the command line asks for."""
     what, *names = sys.argv[1:]
+    end_with_parent()
     try:
         if what in ("lean", "plain"):
             _translate(names, what == "lean")

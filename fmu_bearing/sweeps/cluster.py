@@ -18,6 +18,11 @@ from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, code_digest, noth
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
 _AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
 _ASK = 2.0  # s between questions how large the cluster is
+_LOOK = 0.02  # s between two looks for what has ended
+ALONE = 30.0  # s without any worker: a nanny takes seconds to start another in the place of one that died
+_KEPT = "finished points are kept where a folder is given: the same command goes on"
+_LOGGERS = ("distributed", "tornado", "asyncio")
+_NOTHING = logging.CRITICAL + 1
 _ADDRESS = re.compile(r"(\w+://)?[^/\s]+:\d+")
 _WAY_OUT = "install the same version of fmu-bearing, NumPy and Numba there"
 
@@ -56,29 +61,59 @@ def cluster(
         running: dict[Any, Task] = {}
         finished = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
 
-        asked, room_for = -math.inf, 0
+        crew = _Crew(client, address)
 
         def more() -> None:
-            nonlocal asked, room_for
-            if clock.monotonic() - asked > _ASK:  # workers come and go; asking takes milliseconds
-                room_for = _AHEAD * max(1, sum(client.nthreads().values()))
-                asked = clock.monotonic()
-            room = room_for - len(running)
+            room = _AHEAD * max(1, crew.threads()) - len(running)
             for _, task in zip(range(room), waiting, strict=False):
                 future = client.submit(run, task, sounds.get(task.sound), key=f"fmu-bearing-{task.key}")
                 running[future] = task
                 finished.add(future)
 
         more()
-        for future, result in finished:
-            task = running.pop(future)
-            if future.cancelled():
+        while running:
+            ended = finished.next_batch(block=False)
+            if not ended:
+                crew.threads()
+                clock.sleep(_LOOK)
+            for future, result in ended:
+                task = running.pop(future)
+                if future.cancelled():
+                    raise SweepError(f"the scheduler at {address} was lost; {_KEPT}")
+                yield task, _outcome(task, result[1] if future.status == "error" else result)
+            if ended:
+                more()
+
+
+class _Crew:
+    """How many threads a cluster has, asked from time to time: workers come and go."""
+
+    def __init__(self, client: Any, address: str) -> None:
+        self._client, self._address = client, address
+        self._asked, self._there, self._count = -math.inf, clock.monotonic(), 0
+
+    def threads(self) -> int:
+        """Return their number.
+
+        Raises
+        ------
+        SweepError
+            When the scheduler is lost, or has had no workers for some time: it would wait without end.
+        """
+        now = clock.monotonic()
+        if now - self._asked > _ASK:  # it takes milliseconds
+            try:
+                self._count = sum(self._client.nthreads().values())
+            except (OSError, ValueError, RuntimeError):  # as Dask calls a connection that is lost
+                raise SweepError(f"the scheduler at {self._address} was lost; {_KEPT}") from None
+            self._asked = now
+            self._there = now if self._count else self._there
+            if now - self._there > ALONE:
                 raise SweepError(
-                    f"the scheduler at {address} was lost; finished points are kept where a folder is given: "
-                    "the same command goes on"
+                    f"the scheduler at {self._address} has had no workers for {ALONE:g} s: start some with "
+                    f"`dask worker {self._address}`; {_KEPT}"
                 )
-            yield task, _outcome(task, result[1] if future.status == "error" else result)
-            more()
+        return self._count
 
 
 def checked(address: str) -> ModuleType:
@@ -109,22 +144,33 @@ def _outcome(task: Task, result: Any) -> Outcome:
 @contextlib.contextmanager
 def _client(distributed: Any, address: str, timeout: float) -> Iterator[Any]:
     """Connect to a scheduler; the data it holds for this client are released at the end in every case."""
-    quiet = logging.getLogger("distributed")
-    level = quiet.level
+    with _quiet():
+        try:
+            client = distributed.Client(address, timeout=timeout, set_as_default=False)
+        except (OSError, TimeoutError) as problem:
+            raise SweepError(
+                f"no scheduler answered at {address} within {timeout:g} s ({type(problem).__name__}): start "
+                "one with `dask scheduler`, or leave out --scheduler to use this machine"
+            ) from None
+        try:
+            yield client
+        finally:
+            with contextlib.suppress(OSError, TimeoutError):  # the scheduler may be gone
+                client.close(timeout=timeout)
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Dask's loggers silent, which print tracebacks of lost connections: a refusal is one line, ours."""
+    names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] in _LOGGERS]
+    before = {name: logging.getLogger(name).level for name in names}
     try:
-        quiet.setLevel(logging.CRITICAL)  # a refusal is one line, ours
-        client = distributed.Client(address, timeout=timeout, set_as_default=False)
-    except (OSError, TimeoutError) as problem:
-        quiet.setLevel(level)
-        raise SweepError(
-            f"no scheduler answered at {address} within {timeout:g} s ({type(problem).__name__}): start one "
-            "with `dask scheduler`, or leave out --scheduler to use this machine"
-        ) from None
-    try:
-        yield client
+        for name in names:
+            logging.getLogger(name).setLevel(_NOTHING)
+        yield
     finally:
-        client.close(timeout=timeout)
-        quiet.setLevel(level)
+        for name, level in before.items():
+            logging.getLogger(name).setLevel(level)
 
 
 def _check_workers(client: Any, address: str, timeout: float) -> None:

@@ -13,12 +13,15 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
+from fmu_bearing.children import end_with_parent, surroundings
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, nothing, run_point
 
 TRIES = 3  # of a point whose worker dies
 _START = 10.0  # s that a process may take to come to life before it can be ended
-_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+_ONE_THREAD = dict.fromkeys(  # there is one process per core
+    ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"
+)
 _CANNOT_START = (
     "the worker processes cannot start: a script that calls sweep must do so under "
     "`if __name__ == '__main__':`, as each worker reads it; or give workers=1, which needs none"
@@ -57,7 +60,7 @@ def processes(
         When no worker starts.
     """
     sounds = list(dict.fromkeys(task.sound for task in tasks if task.sound is not None))
-    with _one_thread(), hired(min(workers, len(tasks))) as crew:
+    with surroundings(_ONE_THREAD), hired(min(workers, len(tasks))) as crew:
         # each sound is prepared by one worker, before any two meet the same one; both take it from disk then
         for _ in spread(crew, [(sound, _prepare_sound) for sound in sounds]):
             pass
@@ -114,6 +117,7 @@ class _Worker:
 
 def _begin() -> int:
     """Leave Ctrl-C to the parent, which also receives it; return the process's number."""
+    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     return os.getpid()
 
@@ -158,21 +162,6 @@ def spread(
             else:
                 yield item, done.result()
             free.append(worker)
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Limit processes that start meanwhile to one thread each, because there is one process per core."""
-    before = {name: os.environ.get(name) for name in _ONE_THREAD}
-    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value
 
 
 @contextmanager

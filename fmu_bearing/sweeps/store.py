@@ -33,7 +33,7 @@ class Store:
             if tuple(point["figures"]) != task.figures:
                 return None
             return Outcome(figures, str(point["reason"]), float(point["wall_s"]))
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
 
     def keep(self, task: Task, outcome: Outcome) -> None:

@@ -4,23 +4,24 @@ import json
 import os
 import queue
 import signal
-import subprocess
-import sys
 import tempfile
 import threading
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from subprocess import PIPE
 from typing import IO, Any
 from xml.etree import ElementTree
 
-from fmu_bearing.file_words import FMU, absent, instead, why
-from fmu_bearing.files import plain_file
-from fmu_bearing.validation import tools
+from fmu_bearing import children
+from fmu_bearing.file_words import FMU, absent, instead, one_line
+from fmu_bearing.files import no_room, plain_file
 from fmu_bearing.validation.checks import CHECKS, NEEDED, meaning_of, name_of
 from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
+from fmu_bearing.validation.tools import TOOLS, words
 
 LIMIT = 60.0  # s: any check of a bearing takes seconds
+_ALL = (*TOOLS, *CHECKS)
 _DESCRIPTION = "modelDescription.xml"
 _LOADING = 60.0  # s, for the process to begin
 _LAST_WORDS = 2  # lines of standard error that a finding repeats
@@ -66,16 +67,10 @@ def validate(
         folder = Path(place) / "fmu"
         _unpack(path, folder)
         problem = _kind(path, folder)
-        results = []
-        for tool in (tools.fmpy, tools.fmutool):
-            tell(tool.__name__)
-            results.append(tool(path))
-        if problem:
-            reason = f"the description cannot be read: {problem}"
-            rest = [Result(name_of(check), meaning_of(check), SKIPPED, [reason]) for check in CHECKS]
-        else:
-            rest = _Behaviour(folder, limit, tell).results()
-    return results + rest
+        results = _Process(path, folder, limit, tell).results(len(TOOLS) if problem else len(_ALL))
+    for result in results[len(TOOLS) :] if problem else ():
+        result.add(SKIPPED, f"the description cannot be read: {problem}")
+    return results
 
 
 def _unpack(path: Path, folder: Path) -> None:
@@ -84,18 +79,23 @@ def _unpack(path: Path, folder: Path) -> None:
             if _DESCRIPTION not in archive.namelist():
                 raise NotAnFmu(f"{path}: is not an FMU: it holds no {_DESCRIPTION}")
             archive.extractall(folder)  # leaves out what points outside the folder
+    except NotAnFmu:
+        raise
     except FileNotFoundError:
         raise NotAnFmu(f"{path}: {absent(path, 'FMU')}") from None
-    except (zipfile.BadZipFile, OSError) as problem:
-        raise NotAnFmu(f"{path}: {instead(path, FMU) or f'is not an FMU: {why(problem)}'}") from None
+    except Exception as problem:  # zipfile and zlib raise what they come upon in damaged files
+        if full := no_room(folder.parent, problem):
+            raise NotAnFmu(f"{path}: cannot be unpacked: {full}") from None
+        mistaken = instead(path, FMU) or f"is not an FMU, or damaged: {one_line(problem)}"
+        raise NotAnFmu(f"{path}: {mistaken}") from None
 
 
 def _kind(path: Path, folder: Path) -> str:
     """Return why the description cannot be read; another version or kind is refused."""
     try:
         root = ElementTree.parse(folder / _DESCRIPTION).getroot()
-    except ElementTree.ParseError as problem:
-        return str(problem)
+    except Exception as problem:  # of what is no XML, or in an encoding that is not known
+        return str(problem) or repr(problem)
     version = root.get("fmiVersion", "")
     if version != "2.0" or root.find("CoSimulation") is None:
         kind = "co-simulation" if root.find("CoSimulation") is not None else "model exchange only"
@@ -111,33 +111,38 @@ def _kind(path: Path, folder: Path) -> str:
     return ""
 
 
-class _Behaviour:
+class _Process:
     """Runs the checks in one separate process; after a check that ended it, in a new one."""
 
-    def __init__(self, folder: Path, limit: float, tell: Callable[[str], None]) -> None:
-        self.folder, self.limit, self.tell = folder, limit, tell
-        self.found = [Result(name_of(check), meaning_of(check)) for check in CHECKS]
-        # a host that may make one instance per process needs a process per check
-        root = ElementTree.parse(folder / _DESCRIPTION).getroot().find("CoSimulation")
-        once = root is not None and root.get("canBeInstantiatedOnlyOncePerProcess") == "true"
-        self.together = 1 if once else len(CHECKS)
+    def __init__(self, path: Path, folder: Path, limit: float, tell: Callable[[str], None]) -> None:
+        self.path, self.folder, self.limit, self.tell = path, folder, limit, tell
+        self.found = [words(tool) for tool in TOOLS]
+        self.found += [Result(name_of(check), meaning_of(check)) for check in CHECKS]
 
-    def results(self) -> list[Result]:
-        """Run all."""
+    def _together(self) -> int:
+        """Return how many checks a process may run: one where it may make one instance."""
+        root = ElementTree.parse(self.folder / _DESCRIPTION).getroot().find("CoSimulation")
+        once = root is not None and root.get("canBeInstantiatedOnlyOncePerProcess") == "true"
+        return 1 if once else len(_ALL)
+
+    def results(self, end: int) -> list[Result]:
+        """Run all up to a number, and return all."""
         number, alone = 0, False
-        while number < len(CHECKS):
-            count = 1 if alone else self.together
+        together = self._together() if end == len(_ALL) else end
+        while number < end:
+            count = min(1 if alone else together, end - number)
             at, how = self._process(number, count)
             if not how:
                 number, alone = number + count, False
-            elif at > number:
+            elif at > max(number, len(TOOLS)):
                 also = "earlier instances in that process may have had an effect; it is run again alone"
                 self.found[at].add(FINDING, f"{how}; {also}")
                 number, alone = at, True
             else:
-                self.found[at].add(FINDING, how)
+                # that another tool takes long is no fault of the FMU
+                self.found[at].add(SKIPPED if at < len(TOOLS) and "longer" in how else FINDING, how)
                 number, alone = at + 1, False
-                if CHECKS[at] in NEEDED:
+                if _ALL[at] in NEEDED:
                     for result in self.found[number:]:
                         result.add(SKIPPED, f"'{self.found[at].check}' did not come to an end")
                     break
@@ -145,11 +150,11 @@ class _Behaviour:
 
     def _process(self, first: int, count: int) -> tuple[int, str]:
         """Run some checks; return which one ended the process, and how; None if all came to an end."""
-        command = [sys.executable, "-m", "fmu_bearing.validation.worker"]
-        command += [str(self.folder), str(first), str(count)]
+        asked = (str(self.path), str(self.folder), str(first), str(count))
+        command = children.python("fmu_bearing.validation.worker", *asked)
         with (
             tempfile.TemporaryFile() as errors,
-            subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors) as process,
+            children.start(command, stdout=PIPE, stderr=errors) as process,
         ):
             assert process.stdout is not None
             at, late = self._listen(process.stdout, first)

@@ -1,6 +1,7 @@
 """Validation of the description by other tools."""
 
 import logging
+from collections.abc import Callable
 from pathlib import Path
 
 from fmpy.validation import validate_fmu
@@ -11,7 +12,7 @@ from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
 
 def fmpy(path: Path) -> Result:
     """Validate by FMPy."""
-    result = Result("FMPy", "FMPy's validation of the description: schema, names, units, structure")
+    result = words(fmpy)
     for problem in validate_fmu(str(path)):
         result.add(FINDING, _line(problem))
     return result
@@ -19,7 +20,7 @@ def fmpy(path: Path) -> Result:
 
 def fmutool(path: Path) -> Result:
     """Validate by the checker of fmu-manipulation-toolbox, where it is installed."""
-    result = Result("fmutool", "fmu-manipulation-toolbox's checks of the description: schema, semantics")
+    result = words(fmutool)
     try:
         checker = need("fmu_manipulation_toolbox.checker", "the checker fmutool")
         operations = need("fmu_manipulation_toolbox.operations", "the checker fmutool")
@@ -43,6 +44,18 @@ def fmutool(path: Path) -> Result:
     for line in dict.fromkeys(collector.lines):
         result.add(FINDING, line.replace(f"'{path}': ", ""))
     return result
+
+
+#: In the order in which they are run: the name of each, and its requirement.
+TOOLS: dict[Callable[[Path], Result], tuple[str, str]] = {
+    fmpy: ("FMPy", "FMPy's validation of the description: schema, names, units, structure"),
+    fmutool: ("fmutool", "fmu-manipulation-toolbox's checks of the description: schema, semantics"),
+}
+
+
+def words(tool: Callable[[Path], Result]) -> Result:
+    """Return the result of a tool that has found nothing yet."""
+    return Result(*TOOLS[tool])
 
 
 class _MessageCollector(logging.Handler):

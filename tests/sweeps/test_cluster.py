@@ -3,6 +3,8 @@
 import os
 import signal
 import socket
+import subprocess
+import sys
 import time
 
 import pytest
@@ -11,6 +13,7 @@ from fmu_bearing.sweeps import cluster as room
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.cluster import cluster
 from fmu_bearing.sweeps.point import run_point
+from tests.conftest import ROOT
 from tests.sweeps import points
 
 # Clusters are for long sweeps; that workers change no result is tested in test_workers.
@@ -78,3 +81,41 @@ def test_a_scheduler_that_does_not_answer(silent):
     assert time.monotonic() - begin < 10.0
     with pytest.raises(SweepError, match="scheduler = 'somewhere' is refused"):
         next(cluster(points.small(silent).tasks, "somewhere"))
+
+
+@pytest.fixture
+def apart(trace):
+    """A scheduler and one worker without a nanny, which would start another."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    address, started = f"tcp://127.0.0.1:{port}", []
+    places = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *filter(None, sys.path)])}
+    for words in (
+        ["dask_scheduler", "--port", str(port), "--no-dashboard"],
+        ["dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"],
+    ):
+        command = [sys.executable, "-m", f"distributed.cli.{words[0]}", *words[1:]]
+        started.append(subprocess.Popen(command, env=places, stderr=subprocess.DEVNULL))
+    yield address, *started
+    for one in started:
+        one.kill()
+        one.wait(timeout=20)
+
+
+@pytest.mark.parametrize(
+    ("lost", "said"), [(1, "has had no workers for 3 s: start some with"), (0, "was lost; finished points")]
+)
+def test_a_cluster_that_is_lost_ends_the_sweep(lost, said, apart, silent, monkeypatch, capfd):
+    """The last worker, or the scheduler: without workers the sweep would wait without end."""
+    monkeypatch.setattr(room, "ALONE", 3.0)
+    address, *started = apart
+    made = points.small(silent, speeds=range(1000, 41000, 250))
+    found = []
+    with pytest.raises(SweepError, match=said):
+        for _, outcome in cluster(made.tasks, address, points.slow, timeout=60.0):
+            found.append(outcome)
+            if len(found) == 3:
+                started[lost].kill()
+    assert 3 <= len(found) < 160
+    assert "Traceback" not in capfd.readouterr().err

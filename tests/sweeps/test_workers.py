@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -11,6 +13,7 @@ from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import Interrupted, local, runs, sweep
 from fmu_bearing.sweeps.runs import run_plan
 from fmu_bearing.sweeps.store import Store
+from tests.conftest import EXAMPLES, ROOT
 from tests.sweeps import points
 
 
@@ -108,6 +111,39 @@ def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch, req
     while any(alive(pid) for pid in workers) and time.monotonic() < late:
         time.sleep(0.05)
     assert workers and not any(alive(pid) for pid in workers)
+
+
+#: A sweep of many points, of which each takes a moment.
+SWEEP = """
+from fmu_bearing import read_scene
+from fmu_bearing.sweeps import local
+from tests.sweeps import points
+
+if __name__ == "__main__":
+    scene = read_scene({scene!r}).model_copy(update={{"sound": None}})
+    made = points.small(scene, speeds=range(1000, 60000, 500))
+    list(local.processes(made.tasks, 2, points.slow))
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
+def test_workers_end_with_a_program_that_is_killed(trace, tmp_path):
+    """Their pipes stay open, as they hold both ends: nothing else would end them."""
+    script = tmp_path / "it.py"
+    script.write_text(SWEEP.format(scene=str(EXAMPLES / "7003C-bare.toml")), "utf-8")
+    places = os.pathsep.join([str(ROOT), *filter(None, sys.path)])
+    with subprocess.Popen([sys.executable, str(script)], env={**os.environ, "PYTHONPATH": places}) as program:
+        try:
+            late = time.monotonic() + 60.0
+            while len(workers := {path.name.split("-")[1] for path in trace.iterdir()}) < 2:
+                assert program.poll() is None and time.monotonic() < late
+                time.sleep(0.05)
+        finally:
+            program.kill()
+    late = time.monotonic() + 20.0
+    while any(alive(pid) for pid in workers) and time.monotonic() < late:
+        time.sleep(0.05)
+    assert not any(alive(pid) for pid in workers)
 
 
 def alive(pid):

@@ -1,7 +1,9 @@
 """`validate`: sound FMUs have no findings, each fault of a broken one is found, nothing ends the process."""
 
+import errno
 import importlib.util
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -11,16 +13,19 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from fmu_bearing import cli, extras
+from fmu_bearing import cli, extras, simulate
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.compiled.platforms import host
 from fmu_bearing.fmi import reference
 from fmu_bearing.fmi.package import build
 from fmu_bearing.prepare.model import prepare
+from fmu_bearing.results.result import ResultError
+from fmu_bearing.run.simulate_fmu import open_fmu
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.validation import NotAnFmu, Result, abilities, life, tools, validate
 from fmu_bearing.validation.checks import CHECKS, meaning_of, name_of
 from fmu_bearing.validation.remarks import Skip
+from fmu_bearing.validation.run import _unpack
 from fmu_bearing.validation.subject import NoInstance, Subject
 from tests.conftest import ROOT
 from tests.native_builds import no_native_fmu
@@ -195,6 +200,63 @@ def test_a_step_that_does_not_return_is_ended(broken):
     result = by_name(validate(broken("HANGS"), limit=2.0))["finite"]
     assert result.outcome == "finding"
     assert result.details[-1] == "the check took longer than 2 s and was ended"
+
+
+@pytest.mark.heavy
+def test_another_tool_that_takes_long_is_ended(tmp_path):
+    """FMPy takes minutes for the names of very many variables."""
+    variable = '<ScalarVariable name="v{0}" valueReference="{0}" causality="local"><Real/></ScalarVariable>'
+    many = "".join(variable.format(number) for number in range(2, 120_000))
+    path = tmp_path / "many.fmu"
+    with zipfile.ZipFile(path, "w") as archive:
+        text = DESCRIPTION.format(more="").replace("</ModelVariables>", many + "</ModelVariables>")
+        archive.writestr("modelDescription.xml", text)
+    result = by_name(validate(path, limit=2.0))["FMPy"]
+    assert (result.outcome, result.details) == ("skipped", ["the check took longer than 2 s and was ended"])
+
+
+def test_a_full_folder_of_temporary_files_is_no_fault_of_the_fmu(broken, monkeypatch):
+    def full(self, *_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    path = broken("NONE")
+    monkeypatch.setattr(zipfile.ZipFile, "extractall", full)
+    words = "cannot be unpacked: no space left on device in .*: name a folder with room in TMPDIR"
+    with pytest.raises(NotAnFmu, match=words):
+        validate(path)
+    with pytest.raises(ResultError, match=words):
+        simulate(path, 1.0)
+
+
+@pytest.mark.parametrize("absolute", [True, False])
+def test_members_that_point_outside_stay_inside(broken, tmp_path, absolute):
+    outside = tmp_path.parent / "outside.txt"
+    name = outside.as_posix() if absolute else "../outside.txt"
+    path = tmp_path / "it.fmu"
+    path.write_bytes(broken("NONE").read_bytes())
+    with zipfile.ZipFile(path, "a") as archive:
+        archive.writestr(name, "x")
+    if absolute:
+        with pytest.raises(ResultError, match="is not a valid FMU: .*outside"):
+            simulate(path, 1.0)
+    else:
+        simulate(path, 1.0)  # the dots are left out
+    assert not outside.exists()
+
+
+def test_damaged_archives_are_refused_in_one_line(broken, tmp_path):
+    """By each byte that a disk or a transfer damages; some change nothing that is read."""
+    whole, refused = broken("NONE").read_bytes(), 0
+    path = tmp_path / "it.fmu"
+    for at in range(len(whole) - 200, len(whole), 4):  # the list of members
+        path.write_bytes(whole[:at] + bytes([whole[at] ^ 0x55]) + whole[at + 1 :])
+        for number, read in enumerate((open_fmu, lambda it: _unpack(it, tmp_path / "unpacked"))):
+            try:
+                read(path)
+            except (ResultError, NotAnFmu) as refusal:
+                refused += 1
+                assert "\n" not in str(refusal) and str(path) in str(refusal), (at, number)
+    assert refused >= 20  # of 100
 
 
 # --- damaged files -----------------------------------------------------------------------------------------

@@ -6,11 +6,11 @@ import zipfile
 
 from fmu_bearing.files import plain_file
 
-__all__ = ["absent", "instead", "why"]
+__all__ = ["absent", "instead", "one_line", "why"]
 
 EMPTY, SCENE, SWEEP, FMU, TABLE = "an empty file", "a scene", "a sweep", "an FMU", "a table of values (CSV)"
 RESULT, RECORDING, CATALOGUE = "a result of a run", "a recording", "a catalogue of bearings"
-SURFACE = "a surface found from a vibration test"
+SURFACE, NETCDF = "a surface found from a vibration test", "a netCDF or HDF5 file"
 
 #: What a file has to hold, and where one comes from.
 _DUE = {
@@ -22,6 +22,7 @@ _DUE = {
     RECORDING: "`fmu-bearing sound` writes recordings, as .npz",
     CATALOGUE: "a catalogue is a TOML file with one table per bearing",
     SURFACE: "`fmu-bearing vibration --measured` writes one",
+    NETCDF: "`fmu-bearing simulate` writes results as .nc",
 }
 #: Which commands read what is given.
 _READ = {
@@ -32,29 +33,58 @@ _READ = {
     RECORDING: "`fmu-bearing sound`, `report` and `compare` read recordings",
     SURFACE: "a scene names it as surface in [imperfections], `fmu-bearing sound` as --surface",
 }
+MAT, MODELICA = "a MATLAB file (.mat)", "a result file of a Modelica tool (.mat)"
+WORKBOOK = "a workbook of a spreadsheet"
+TDMS, MDF, PARQUET = "a LabVIEW file (.tdms)", "a measurement file (MDF)", "a Parquet file"
+_CSV = "write it as CSV, `time` (s) first:"
+#: How what other programs write becomes a table; said where a table or a result is due.
+_CONVERT = {
+    MAT: f"{_CSV} `writetimetable` or `writetable` in MATLAB, `scipy.io.loadmat` in Python (files of version "
+    "7.3: h5py)",
+    MODELICA: f'{_CSV} outputFormat="csv" in OpenModelica, "Export result" in Dymola',
+    WORKBOOK: "save its sheet as CSV (UTF-8)",
+    TDMS: f"{_CSV} nptdms in Python (`to_csv` of its data frame)",
+    MDF: f'{_CSV} asammdf in Python (`export("csv")`)',
+    PARQUET: f"{_CSV} `pandas.read_parquet(...).to_csv(..., index=False)`",
+}
 _BEGINNINGS = {
-    b"\x89HDF": "a netCDF or HDF5 file",
+    b"MATLAB": MAT,
+    b"TDSm": TDMS,
+    b"MDF ": MDF,
+    b"PAR1": PARQUET,
+    b"\xd0\xcf\x11\xe0": WORKBOOK,  # of Excel before 2007
+    b"\x89HDF": NETCDF,
     b"RIFF": "a WAV file",
     b"\x89PNG": "a picture",
     b"%PDF": "a PDF file",
     b"<": "a page or picture in HTML or XML",
     b"{": "a JSON file",
 }
+_OF_MODELICA = b"Aclass\0"  # first matrix of a result file (Modelica tools write version 4 of .mat)
 _OF_SCENE = re.compile(r"^\s*\[+\s*(bearing|mounting|spindle|operation|lubricant)\b", re.MULTILINE)
 _OF_SWEEP = re.compile(r"^\s*\[\s*axes\s*\]", re.MULTILINE)
 _OF_SURFACE = re.compile(r"^\s*\[\s*draws\s*\]", re.MULTILINE)
+_LONGEST = 300  # characters of a library's words that are repeated
 _HEAD = 65_536  # bytes that are looked at; the tables of a scene begin among the first
 
 
 def why(problem: Exception) -> str:
     """Return why a file could not be read or written, in one line without Python's own words."""
     if isinstance(problem, UnicodeDecodeError):
+        if problem.object[:4] in (b"\xff\xfe\0\0", b"\0\0\xfe\xff"):
+            return "it is UTF-32: save it as UTF-8"
         if problem.object[:2] in (b"\xff\xfe", b"\xfe\xff"):
             return "it is UTF-16: save it as UTF-8"
         return f"byte {problem.start + 1} is no character of it: save it as UTF-8"
     if isinstance(problem, OSError) and problem.strerror:
         return problem.strerror[0].lower() + problem.strerror[1:]
     return str(problem)
+
+
+def one_line(problem: Exception) -> str:
+    """Return why a library could not read a file, as `why`, in one line that is never empty."""
+    words = " ".join(why(problem).split())
+    return words[:_LONGEST] if words else type(problem).__name__
 
 
 def absent(path: str | os.PathLike[str], kind: str = "file") -> str:
@@ -77,7 +107,8 @@ def instead(path: str | os.PathLike[str], due: str) -> str:
     fits = found == due or (found, due) == (TABLE, RESULT) or (found == EMPTY and due != SCENE)
     if not found or fits:
         return ""
-    ways = [_DUE[due], _READ.get(found, "")]
+    tabular = due in (TABLE, RESULT)
+    ways = [_DUE[due], _READ.get(found, ""), _CONVERT.get(found, "") if tabular else ""]
     return f"is not {due}, but {found}: {'; '.join(way for way in ways if way)}"
 
 
@@ -91,6 +122,10 @@ def _holds(path: str | os.PathLike[str]) -> str:
     if zipfile.is_zipfile(path):
         return _archive(path)
     known = next((words for mark, words in _BEGINNINGS.items() if head.lstrip().startswith(mark)), "")
+    if not known and _OF_MODELICA in head[:64]:
+        return MODELICA
+    if not known and b"\0" in head and os.fspath(path).lower().endswith(".mat"):
+        return MAT  # of version 4, which has no mark of its own
     if known or b"\0" in head:
         return known
     text = head.decode("utf-8-sig", errors="ignore")
@@ -112,10 +147,12 @@ def _archive(path: str | os.PathLike[str]) -> str:
     try:
         with zipfile.ZipFile(path) as archive:
             names = archive.namelist()
-    except (OSError, zipfile.BadZipFile):
+    except Exception:  # zipfile raises what it comes upon
         return "a damaged archive"
     if "modelDescription.xml" in names:
         return FMU
     if "head.npy" in names:
         return RECORDING
+    if "xl/workbook.xml" in names or {"mimetype", "content.xml"} <= set(names):
+        return WORKBOOK
     return "a NumPy archive" if any(name.endswith(".npy") for name in names) else "a ZIP archive"

@@ -1,13 +1,13 @@
 """Reading files that a user names, writing files in one step, and where what is kept lies."""
 
 import contextlib
+import errno
 import os
+import re
 import stat
 import sys
 import tempfile
-import zipfile
-import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,8 @@ __all__ = [
     "check_file",
     "check_folder",
     "foreign",
+    "naming",
+    "no_room",
     "own_folder",
     "plain_file",
     "read_arrays",
@@ -26,12 +28,10 @@ __all__ = [
     "write_whole",
 ]
 
+_ENDING = re.compile(r"\.[A-Za-z][A-Za-z0-9]{1,4}")  # of files: .uff, .csv, .html
 _WAY_OUT = "name a folder of your own in FMU_BEARING_CACHE, which is made where it is not there"
-#: What NumPy, zipfile and zlib raise for a file that is damaged or no archive of plain arrays.
-_NO_ARCHIVE = (
-    OSError, EOFError, ValueError, TypeError, AttributeError, KeyError, MemoryError, RuntimeError,
-    zipfile.BadZipFile, zlib.error,
-)  # fmt: skip
+#: Of the place that is written to: it is full, or may not be written.
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM)
 
 
 def plain_file(path: str | os.PathLike[str], most: float = float("inf")) -> Path:
@@ -92,7 +92,7 @@ def read_arrays(path: str | os.PathLike[str], names: Iterable[str] | None = None
     try:
         with np.load(file, allow_pickle=False) as archive:
             return {name: archive[name] for name in (names or archive.files) if name in archive.files}
-    except _NO_ARCHIVE:
+    except Exception:  # NumPy, zipfile, zlib and tokenize raise what they come upon in damaged files
         raise ValueError("it is not a NumPy archive of plain arrays, or damaged") from None
 
 
@@ -104,7 +104,8 @@ def cache_root() -> Path:
     """Folder of all that is kept, this user's own (`own_folder`).
 
     ``FMU_BEARING_CACHE``, else ``fmu-bearing`` in the user's cache folder, else one per user among the
-    temporary files: without HOME and without an entry in the user table there is no better one.
+    temporary files: without HOME and without an entry in the user table there is no better one. Variables
+    of the surroundings that are empty or no whole paths do not count, but for the first.
 
     Raises
     ------
@@ -113,13 +114,28 @@ def cache_root() -> Path:
     """
     if named := os.environ.get("FMU_BEARING_CACHE"):
         return own_folder(Path(named))
-    base = (
-        os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or os.path.expanduser("~/.cache")
-    )
-    if base.startswith("~"):
+    # one that counts from the current folder is none: who fills that folder would give the code that is run
+    names = ("XDG_CACHE_HOME", "LOCALAPPDATA")
+    base = next((place for name in names if os.path.isabs(place := os.environ.get(name, ""))), "")
+    if not base and (home := _home()):
+        base = os.path.join(home, ".cache")
+    if not base:
         user = "" if sys.platform == "win32" else f"-{os.geteuid()}"
         return own_folder(Path(tempfile.gettempdir()) / f"fmu-bearing{user}")
     return own_folder(Path(base) / "fmu-bearing")
+
+
+def _home() -> str:
+    """Return the user's own folder; empty where there is none, or none that is a whole path."""
+    if sys.platform != "win32" and not os.path.isabs(os.environ.get("HOME", "")):
+        import pwd
+
+        with contextlib.suppress(KeyError):
+            found = pwd.getpwuid(os.geteuid()).pw_dir
+            return found if os.path.isabs(found) else ""
+        return ""
+    found = os.path.expanduser("~")
+    return found if os.path.isabs(found) else ""
 
 
 def own_folder(folder: Path) -> Path:
@@ -213,7 +229,7 @@ def check_file(path: str | os.PathLike[str]) -> Path:
         raise OSError(
             f"{target} is a pipe or a device, which a file would replace: name another file to write"
         )
-    check_folder(target.parent)
+    _writable(target.parent)
     return target
 
 
@@ -222,10 +238,22 @@ def check_folder(path: str | os.PathLike[str]) -> Path:
 
     Raises
     ------
+    ValueError
+        For a name that ends as a file's does, where no such folder is: ``out.uff``.
     OSError
         Where it is a file, or cannot be made or written to.
     """
     folder = Path(path)
+    if _ENDING.fullmatch(folder.suffix) and not os.path.lexists(folder):
+        raise ValueError(
+            f"{folder}: a folder is written here, and {folder.suffix} is the ending of a file: name a "
+            f"folder, as {folder.with_suffix('')}"
+        )
+    return _writable(folder)
+
+
+def _writable(folder: Path) -> Path:
+    """Return a folder that can be made and written to; `OSError` for others."""
     there = folder.absolute()
     while not os.path.lexists(there) and there != there.parent:
         there = there.parent
@@ -242,6 +270,24 @@ def check_folder(path: str | os.PathLike[str]) -> Path:
     return folder
 
 
+@contextlib.contextmanager
+def naming(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Give errors of the operating system the name of the file: writing to a full disk has none."""
+    try:
+        yield
+    except OSError as problem:
+        if problem.filename is None and problem.errno is not None:
+            problem.filename = os.fspath(path)
+        raise
+
+
+def no_room(folder: str | os.PathLike[str], problem: Exception) -> str:
+    """Say that a folder of temporary files takes nothing; empty: the problem is another."""
+    if not isinstance(problem, OSError) or problem.errno not in _NO_ROOM:
+        return ""
+    return f"{os.strerror(problem.errno or 0).lower()} in {folder}: name a folder with room in TMPDIR"
+
+
 def write_whole(path: Path, data: bytes) -> Path:
     """Write all of a file or none of it, and return its path; folders on the way are made.
 
@@ -253,13 +299,15 @@ def write_whole(path: Path, data: bytes) -> Path:
     if path.exists() and not path.is_file():
         raise OSError(f"{path} is not a plain file: name another one to write")
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    temporary = path.parent / f".{path.name}.{os.urandom(6).hex()}"
+    # the user's mask may take rights away; more than these, none in the cache may have
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    handle = os.open(temporary, flags, 0o644)
     try:
-        with os.fdopen(handle, "wb") as file:
+        with naming(path), os.fdopen(handle, "wb") as file:
             file.write(data)
-        os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise
     return path

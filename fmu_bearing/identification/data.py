@@ -13,7 +13,8 @@ from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
-from fmu_bearing.results.table import read_rows
+from fmu_bearing.results.column_units import suffixed
+from fmu_bearing.results.rows import read_rows
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import fields_of, limits
 
@@ -222,12 +223,12 @@ def _records(source: Source) -> Iterable[tuple[str, dict[str, Any]]]:
 
 def _file(path: pathlib.Path) -> Iterable[tuple[str, dict[str, Any]]]:
     try:
-        rows = read_rows(path)
+        titles, rows = read_rows(path)
     except ValueError as problem:
         raise IdentifyError(str(problem)) from None
-    if not rows:
+    if not titles:
         raise IdentifyError(f"{path}: is empty; its first line names the columns: {', '.join(COLUMNS)}")
-    (_, columns), *rows = rows
+    columns = [suffixed(title) for title in titles]
     for number, cells in rows:
         where = f"{path}, line {number}"
         if len(cells) != len(columns):

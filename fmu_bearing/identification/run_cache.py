@@ -32,7 +32,7 @@ class RunCache:
             data = json.loads(line)
             if data["check"] == _check(data["key"], data["levels"]):
                 self.found[data["key"]] = tuple(math.nan if v is None else float(v) for v in data["levels"])
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, RecursionError):
             return
 
     def get(self, key: str) -> tuple[float, ...] | None:

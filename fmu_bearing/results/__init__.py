@@ -2,7 +2,9 @@
 
 ==================  ===========================================================================
 ``variable_names``  names of variables, with patterns and suggestions
-``table``           tables to terminal, Markdown, CSV; rows of CSV files; the machine they were made on
+``table``           tables to terminal, Markdown, CSV; the machine they were made on
+``column_units``    units of columns as people write them
+``rows``            rows and columns of CSV files: separators, decimal commas, titles with units
 ``levels``          sound levels as they are drawn: absent before metering begins
 ``picture_parts``   colours, labels and files of all pictures
 ``spectra``         spectra of variables and of microphones, with names and units

@@ -2,11 +2,12 @@
 
 import os
 import pathlib
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.files import check_file
+from fmu_bearing.files import check_file, naming
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,6 +28,13 @@ DASHES = ("-", "--", "-.", ":")
 _MARKS = ("", "s", "^", "D")
 _WIDEST, _NARROWEST = 3.0, 0.9  # points: of curves that may lie on each other
 _HEIGHTS = 12  # that are tried for a label, each one line of text above the last
+
+_OWN_LETTERS = 0x2E7F  # DejaVu Sans has the scripts below in part; those of East Asia begin here
+#: Fonts of systems that have the letters of East Asia.
+_FONTS = (
+    "Noto Sans CJK SC", "Noto Sans CJK JP", "Noto Sans SC", "Source Han Sans SC", "Microsoft YaHei", "SimHei",
+    "PingFang SC", "Hiragino Sans", "Yu Gothic", "Malgun Gothic", "WenQuanYi Micro Hei",
+)  # fmt: skip
 
 #: Endings of files, and metadata left out of each: dates and versions.
 _METADATA: dict[str, dict[str, None]] = {
@@ -65,8 +73,38 @@ def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
     """
     target = check_picture(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    with need("matplotlib", "a picture").rc_context({"svg.hashsalt": "fmu-bearing"}):
+    _give_fonts(figure)
+    with (
+        need("matplotlib", "a picture").rc_context({"svg.hashsalt": "fmu-bearing"}),
+        warnings.catch_warnings(record=True) as caught,
+        naming(target),
+    ):
+        warnings.simplefilter("always")
         figure.savefig(target, dpi=120, metadata=_METADATA[target.suffix])
+    absent = [one for one in caught if "missing from font" in str(one.message)]
+    for one in caught:
+        if one not in absent:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+    if absent:
+        warnings.warn(
+            f"{target} has boxes in place of letters that no font here has: install Noto Sans CJK, or name "
+            "scenes and microphones in other letters",
+            stacklevel=2,
+        )
+
+
+def _give_fonts(figure: "Figure") -> None:
+    """Let texts with letters that Matplotlib's own font lacks look for them in fonts of the machine."""
+    manager, text = need("matplotlib.font_manager", "a picture"), need("matplotlib.text", "a picture")
+    beyond = [
+        one
+        for one in figure.findobj(text.Text)
+        if any(ord(letter) > _OWN_LETTERS for letter in one.get_text())
+    ]
+    if beyond:
+        there = {font.name for font in manager.fontManager.ttflist}
+        for one in beyond:
+            one.set_fontfamily(["DejaVu Sans", *(name for name in _FONTS if name in there)])
 
 
 def empty(size: tuple[float, float]) -> "Figure":

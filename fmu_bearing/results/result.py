@@ -1,29 +1,34 @@
 """Results of a run, and their files: CSV as FMPy reads and writes it, netCDF."""
 
+import gc
 import html
 import math
 import os
 import pathlib
+import sys
 import tempfile
-import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from fmpy.util import read_csv, write_csv
+from fmpy.util import write_csv
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
-from fmu_bearing.file_words import RESULT, absent, instead, why
+from fmu_bearing.file_words import NETCDF, RESULT, absent, instead, one_line, why
 from fmu_bearing.files import plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
+from fmu_bearing.results.column_units import unit_of_suffix, written_unit
 from fmu_bearing.results.levels import present, shown
+from fmu_bearing.results.rows import read_columns
 from fmu_bearing.results.series import Series, structured
 from fmu_bearing.results.spectra import Spectrum, of_variables
 from fmu_bearing.results.time_pictures import time_picture
 from fmu_bearing.scene import read_scene_text
+from fmu_bearing.scene.units import split_unit
 
 if TYPE_CHECKING:
     import pandas
@@ -217,6 +222,9 @@ class Run(Series):
     def load(cls, path: str | os.PathLike[str]) -> "Run":
         """Read ``.csv`` (ours, FMPy's, or any with ``time`` and numbers) or ``.nc`` as `save` writes it.
 
+        A CSV file may come from a spreadsheet: semicolons or tabs, decimal commas, units in titles or in a
+        row of their own, by which values are converted to SI.
+
         Raises
         ------
         ResultError
@@ -225,28 +233,38 @@ class Run(Series):
         path = pathlib.Path(path)
         if path.suffix == ".nc":
             return cls._load_netcdf(_plain(path))
-        return cls(path.stem, read_table(path))
+        return cls(path.stem, *_read(path))
 
     @classmethod
     def _load_netcdf(cls, path: pathlib.Path) -> "Run":
         xr = need("xarray", "netCDF")
         need("h5netcdf", "netCDF")
-        try:
-            with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
-                data.load()
-        except (OSError, ValueError) as problem:
-            words = f"is not a netCDF file: {why(problem)}"
-            raise ResultError(f"{path}: {instead(path, RESULT) or words}") from None
-        if "time" not in data.coords or any(data[name].dims != ("time",) for name in data.data_vars):
-            raise ResultError(f"{path}: holds no variables over time; sweeps are read by xarray")
-        columns = {"time": data["time"].values} | {str(n): data[n].values for n in data.data_vars}
-        units = {str(name): str(data[name].attrs.get("units", "")) for name in data.data_vars}
-        text = data.attrs.get("scene", "")
-        return cls(
-            data.attrs.get("name", path.stem), structured(columns), units,
-            read_scene_text(text, str(path)) if text else None,
-            ended=data.attrs.get("ended", COMPLETE), note=data.attrs.get("note", ""),
-        )  # fmt: skip
+        words = ""
+        with _no_word_of_open_files():
+            try:
+                with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
+                    data.load()
+                if "time" not in data.coords or any(data[n].dims != ("time",) for n in data.data_vars):
+                    raise ResultError("holds no variables over time; sweeps are read by xarray")
+                columns = {"time": data["time"].values} | {str(n): data[n].values for n in data.data_vars}
+                table = structured({n: values.astype(float) for n, values in columns.items()})
+                units = {str(n): str(data[n].attrs.get("units", "")) for n in data.data_vars}
+                scene, name, ended, note = (
+                    str(data.attrs.get(key, default))
+                    for key, default in (
+                        ("scene", ""), ("name", path.stem), ("ended", COMPLETE), ("note", "")
+                    )
+                )  # fmt: skip
+            except ResultError as problem:
+                words = str(problem)
+            except Exception as problem:  # its libraries raise what they come upon in damaged files
+                words = instead(path, NETCDF) or f"is not a netCDF file, or damaged: {one_line(problem)}"
+            if words:
+                gc.collect()  # closes what was opened in part, while nothing is printed of it
+        if words:
+            raise ResultError(f"{path}: {words}")
+        read = read_scene_text(scene, str(path)) if scene else None
+        return cls(name, table, units, read, ended=ended, note=note)
 
     def summary(self) -> dict[str, Any]:
         """Return how the run ended, and the last values with their units, for machines.
@@ -266,6 +284,17 @@ class Run(Series):
                 for value in present(self[name][-1:], unit).tolist()
             },
         }
+
+
+@contextmanager
+def _no_word_of_open_files() -> Iterator[None]:
+    """Print nothing when a file that was opened in part is closed, which h5netcdf does with a traceback."""
+    before = sys.unraisablehook
+    sys.unraisablehook = lambda _: None
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 def _listed(names: str | Sequence[str] | None) -> Sequence[str] | None:
@@ -295,33 +324,37 @@ def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
 
 
 def read_table(path: str | os.PathLike[str]) -> NDArray[Any]:
-    """Read a CSV file with ``time`` (s) first and numbers only; times may repeat (a jump) but not fall.
+    """Read a CSV file of numbers over time as a table in SI units; see `results.rows.read_columns`.
 
     Raises
     ------
     ResultError
         Naming the file, the column and what is wrong.
     """
+    return _read(path)[0]
+
+
+def _read(path: str | os.PathLike[str]) -> tuple[NDArray[Any], dict[str, str]]:
+    """Return a CSV file's table, and the units that its titles state, in SI where they are known."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            table = np.atleast_1d(read_csv(os.fspath(_plain(path))))
-    except ResultError:
-        raise
-    except (OSError, UnicodeDecodeError, ValueError, IndexError, TypeError) as problem:
-        words = f"is not a table of numbers with a line of names: {why(problem)}"
-        raise ResultError(f"{path}: {instead(path, RESULT) or words}") from None
-    names = table.dtype.names or ()
-    if names[:1] != ("time",):
-        words = f"the first column must be 'time' (s), not '{names[0] if names else ''}'"
-        raise ResultError(f"{path}: {instead(path, RESULT) or words}")
-    for name in names:
-        if table[name].ndim != 1 or not np.isfinite(table[name]).all():
-            raise ResultError(f"{path}: column '{name}' must hold one finite number per line")
-    if (np.diff(table["time"]) < 0.0).any():
-        line = int(np.argmax(np.diff(table["time"]) < 0.0)) + 3
-        raise ResultError(f"{path}: time falls at line {line}; it must rise, or repeat where values jump")
-    return table
+        titles, _, values = read_columns(path, RESULT)
+    except ValueError as problem:
+        raise ResultError(str(problem)) from None
+    columns: dict[str, NDArray[np.float64]] = {}
+    units = {}
+    for place, title in enumerate(titles):
+        unit = written_unit(title.unit) if title.unit else None
+        base, suffix = split_unit(title)
+        # a name with the suffix of its unit, as speed_rpm: SI values have the name without
+        same = unit is not None and suffix and unit_of_suffix(suffix, unit.si)[:2] == unit[:2]
+        name = base if same else str(title)
+        if not name or name in columns:
+            words = f"'{title.written}' is given more than once" if name else f"{place + 1} has no title"
+            raise ResultError(f"{path}: column {words}")
+        columns[name] = values[:, place] if unit is None else unit.to_si(values[:, place])
+        if title.unit:
+            units[name] = title.unit if unit is None else unit.si
+    return structured(columns), units
 
 
 def _plain(path: str | os.PathLike[str]) -> pathlib.Path:

@@ -1,12 +1,10 @@
-"""Tables of results for terminal, Markdown and CSV; rows of CSV files; description of the machine."""
+"""Tables of results for terminal, Markdown and CSV; description of the machine."""
 
 import csv
-import io
 import math
 import os
 import pathlib
 import platform
-import re
 import textwrap
 from collections.abc import Iterator, Sequence
 
@@ -15,12 +13,9 @@ import numpy as np
 
 from fmu_bearing import __version__
 from fmu_bearing.engine.sources import source_hash
-from fmu_bearing.file_words import TABLE, absent, instead, why
-from fmu_bearing.files import read_text
+from fmu_bearing.files import naming
 
 _WIDEST = 10_000  # characters: no table is wider
-_SEPARATORS = (";", "\t", ",")
-_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
 
 
 def machine() -> str:
@@ -98,66 +93,7 @@ def row_by_row(
 
 def write_csv(path: pathlib.Path, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Comma-separated values with a head line."""
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with naming(path), path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(rows)
-
-
-class Cell(str):
-    """A cell of a file, with a decimal point where the file has a comma; ``written``: as the file has it."""
-
-    written: str
-
-    def __new__(cls, written: str, comma: bool = False) -> "Cell":
-        """Make a cell of a text; ``comma``: whether numbers may have a decimal comma."""
-        decimal = comma and _DECIMAL_COMMA.fullmatch(written)
-        cell = super().__new__(cls, written.replace(",", ".") if decimal else written)
-        cell.written = written
-        return cell
-
-
-def read_rows(path: str | os.PathLike[str]) -> list[tuple[int, list[Cell]]]:
-    """Read a CSV file: the cells of every line that holds any, without spaces round them, and its number.
-
-    The first line says whether semicolons, tabs or commas separate the cells. Beside semicolons and tabs
-    numbers may have a decimal comma. Lines that begin with # are remarks.
-
-    Parameters
-    ----------
-    path : path
-        Text in UTF-8, with or without byte order mark.
-
-    Returns
-    -------
-    list of (int, list of Cell)
-        A cell in quotes may go on over several lines; the last one counts.
-
-    Raises
-    ------
-    ValueError
-        For a file that is not there, that is no text, or whose lines are no cells.
-    """
-    try:
-        text = read_text(path)
-    except FileNotFoundError:
-        raise ValueError(f"{path}: {absent(path)}") from None
-    except (OSError, UnicodeDecodeError) as problem:
-        words = f"cannot be read as text in UTF-8: {why(problem)}"
-        raise ValueError(f"{path}: {instead(path, TABLE) or words}") from None
-    if mistaken := instead(path, TABLE):
-        raise ValueError(f"{path}: {mistaken}")
-    # remarks become empty, so that lines keep their numbers and quotes in remarks open no cell
-    lines = ["" if line.lstrip().startswith("#") else line for line in io.StringIO(text)]
-    first = next((line for line in lines if line.strip()), "")
-    separator = next((mark for mark in _SEPARATORS if mark in first), ",")
-    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-    rows = []
-    try:
-        for row in reader:
-            cells = [Cell(cell.strip(), comma=separator != ",") for cell in row]
-            if any(cells):
-                rows.append((reader.line_num, cells))
-    except csv.Error as problem:
-        raise ValueError(f"{path}: line {reader.line_num}: is not a line of a table: {problem}") from None
-    return rows

@@ -5,6 +5,7 @@
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene
 ``balls``         place, load and angle of every ball, read from the state
+``rates``         how fast the balls orbit and spin, read from the state
 ``metrics``       figures that compare runs, and the speed of a run
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
 ``simulate_fmu``  a run of an FMU, by FMPy

@@ -373,7 +373,7 @@ def chosen(scene: Scene) -> Choice:
     path = cache_file(scene)
     try:
         return _from_text(path.read_text("utf-8"))
-    except (OSError, ValueError, TypeError, KeyError):
+    except Exception:  # not there, or damaged in any way
         pass
     choice = choose(scene)
     _keep(path, json.dumps(dataclasses.asdict(choice), indent=1))

@@ -2,6 +2,7 @@
 
 import math
 import os
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -50,14 +51,21 @@ class Input:
 
 
 def input_table(
-    inputs: Inputs | None, known_inputs: Mapping[str, Input], stop_time: float, step: float
+    inputs: Inputs | None,
+    known_inputs: Mapping[str, Input],
+    stop_time: float,
+    step: float,
+    from_start: bool = False,
 ) -> NDArray[Any] | None:
     """Return inputs as a table over time; None where there are none.
+
+    A table that begins after the run's start or ends before its end is held there, with a warning.
+    ``from_start``: shift its times so that the first is 0.
 
     Raises
     ------
     ValueError
-        For an unknown input, or a value outside its range, with its time.
+        For an unknown input, a value outside its range, with its time, and a table whose times miss the run.
     """
     if inputs is None:
         return None
@@ -73,10 +81,33 @@ def input_table(
         table = inputs if isinstance(inputs, np.ndarray) else read_inputs(inputs, known_inputs)
         if (table.dtype.names or ("",))[0] != "time":
             raise ValueError("a table of inputs needs 'time' (s) as its first column")
+        if from_start and len(table):
+            table = structured({name: table[name] for name in table.dtype.names or ()})
+            table["time"] -= table["time"][0]
+        _check_range(table, inputs, stop_time, step)
     for name in columns_of(table):
         known(name, list(known_inputs), "input")
         known_inputs[name].check(name, table)
     return table if columns_of(table) and len(table) else None
+
+
+def _check_range(table: NDArray[Any], inputs: Any, stop_time: float, step: float) -> None:
+    """Compare the times of a table with those of the run; a single row is a constant, for any time."""
+    if len(table) < 2 or not columns_of(table):
+        return
+    first, last = float(table["time"][0]), float(table["time"][-1])
+    where = "inputs" if isinstance(inputs, np.ndarray) else os.fspath(inputs)
+    times = f"{where}: times are {first:.10g} to {last:.10g} s, the run takes 0 to {stop_time:g} s"
+    shift = "--input-from-start (input_from_start=True) shifts the times so that the first is 0"
+    if first >= stop_time or last <= 0.0:
+        raise ValueError(f"{times}, so that only one of its rows would count: {shift}")
+    held = []
+    if first > _EPSILON * step:
+        held.append(f"the first values are held before {first:g} s: {shift}")
+    if last < stop_time - (1.0 + _EPSILON) * step:  # inputs are read at the beginning of each step
+        held.append(f"the last values are held after {last:g} s")
+    if held:
+        warnings.warn(f"{times}: {'; '.join(held)}", stacklevel=4)
 
 
 def _sampled(name: str, signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:

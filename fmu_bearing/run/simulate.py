@@ -38,6 +38,7 @@ def simulate(
     *,
     step: float = 1e-3,
     inputs: Inputs | None = None,
+    input_from_start: bool = False,
     start_values: Mapping[str, float] | None = None,
     outputs: Sequence[str] | None = None,
     progress: bool | None = None,
@@ -65,7 +66,10 @@ def simulate(
     inputs : mapping, structured array or path, optional
         Numbers or functions of time (s) by name; or a table with ``time`` and columns of inputs, linear in
         between, or a CSV file of one (`run.input_file.read_inputs`). SI units; columns of a file may be
-        in r/min and degC by their names. Inputs that are not named keep their start values.
+        in r/min and degC by their names. Inputs that are not named keep their start values. Beyond the
+        times of a table its first and last values are held, with a warning.
+    input_from_start : bool
+        Shift the times of a table or file so that the first is 0.
     start_values : mapping, optional
         Inputs and parameters at the start, SI units.
     outputs : sequence of str, optional
@@ -104,7 +108,7 @@ def simulate(
         _warn_of_loose(player, start_values)
     else:
         player = _Library(_model(source), watch)
-    table = input_table(inputs, player.inputs, stop_time, step)
+    table = input_table(inputs, player.inputs, stop_time, step, input_from_start)
     names = chosen_names(outputs, player.readable, player.outputs)
     for name in by_name(start_values):
         known(name, player.settable, "input or parameter")
@@ -119,6 +123,18 @@ def simulate(
         warnings.warn(note, EndedEarly, stacklevel=2)
     units = {name: player.readable[name] for name in names}
     return Run(player.name, columns, units, player.scene, wall, ended, note)
+
+
+def part_of_study(*given: Any, **options: Any) -> Run:
+    """Run as `simulate`, within a longer computation, all of which Ctrl-C interrupts."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", EndedEarly)
+        run = simulate(*given, **options)
+    if run.ended == INTERRUPTED:
+        raise KeyboardInterrupt
+    if run.note:
+        warnings.warn(run.note, EndedEarly, stacklevel=2)
+    return run
 
 
 class EndedEarly(UserWarning):

@@ -1,6 +1,7 @@
 """A run of an FMU by FMPy, with its log, and with the results so far when a step is refused."""
 
 import pathlib
+import re
 import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
@@ -12,13 +13,14 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
-from fmu_bearing.file_words import FMU, absent, instead, why
-from fmu_bearing.files import plain_file
+from fmu_bearing.file_words import FMU, absent, instead, one_line
+from fmu_bearing.files import no_room, plain_file
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, ResultError
 from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.run.inputs import Input
 from fmu_bearing.scene import SceneError, read_scene
 
+_REFUSED_VALUE = re.compile(r"\S+ = \S+ is refused")
 _LAST_LINES = 3  # of the FMU's log that go into a message
 
 
@@ -46,7 +48,7 @@ class FmuPlayer:
         """Return the table of results, how the run ended, and why."""
         watch = _Watch(stop, tell, stop_time)
         with tempfile.TemporaryDirectory() as folder:
-            fmpy.extract(str(self.path), folder)
+            self._unpack(folder)
             try:
                 fmpy.simulate_fmu(
                     folder, start_time=0.0, stop_time=stop_time, output_interval=step,
@@ -64,6 +66,14 @@ class FmuPlayer:
         rows = watch.rows if watch.ended == REFUSED else len(result)
         columns = {name: np.asarray(result[name], float)[:rows] for name in ("time", *names)}
         return structured(columns), watch.ended, watch.note
+
+    def _unpack(self, folder: str) -> None:
+        try:
+            fmpy.extract(str(self.path), folder)
+        except Exception as problem:  # of members that point outside, damaged ones, a full disk
+            full = no_room(folder, problem)
+            words = f"cannot be unpacked: {full}" if full else f"is not a valid FMU: {one_line(problem)}"
+            raise ResultError(f"{self.path}: {words}") from None
 
     def _whole(self, table: NDArray[Any] | None, start: Mapping[str, float]) -> NDArray[Any] | None:
         """Return the table with a column for every input, as FMPy needs it; inputs not given are held."""
@@ -90,7 +100,9 @@ class _Watch:
     def log(self, environment: Any, name: Any, status: int, category: Any, message: Any) -> None:
         """Take a message of the FMU's log if it is a warning or worse."""
         if status > 0:
-            self.lines.append(message.decode("utf-8", "replace"))
+            # a message is a format in which % and # are doubled
+            text = message.decode("utf-8", "replace")
+            self.lines.append(text.replace("%%", "%").replace("##", "#"))
 
     def step_finished(self, time: float, recorder: Any) -> bool:
         """Return whether to continue; FMPy itself would repeat a refused step for ever."""
@@ -106,9 +118,14 @@ class _Watch:
         return self.ended == COMPLETE
 
     def refused(self, why: str) -> None:
-        """Note why the run ends here, with the FMU's messages."""
+        """Note why the run ends here, with the FMU's messages, each refused value once."""
         self.ended = REFUSED
-        self.note = "; ".join([why, *self.lines[-_LAST_LINES:]])
+        kept: list[str] = []
+        for line in self.lines[-_LAST_LINES:]:
+            again = _REFUSED_VALUE.search(line)
+            if again is None or not any(again[0] in one for one in kept):
+                kept.append(line)
+        self.note = "; ".join([why, *kept])
 
 
 def open_fmu(path: pathlib.Path) -> FmuPlayer:
@@ -121,13 +138,18 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
     """
     try:
         description = fmpy.read_model_description(str(plain_file(path)))
+        if description.coSimulation is None:
+            raise ResultError(f"{path}: is not a co-simulation FMU")
+        return FmuPlayer(path, description)
+    except ResultError:
+        raise
     except FileNotFoundError:
         raise ResultError(f"{path}: {absent(path, 'FMU')}") from None
-    except Exception as problem:
-        raise ResultError(f"{path}: {instead(path, FMU) or f'is not a valid FMU: {why(problem)}'}") from None
-    if description.coSimulation is None:
-        raise ResultError(f"{path}: is not a co-simulation FMU")
-    return FmuPlayer(path, description)
+    except Exception as problem:  # FMPy, zipfile and zlib raise what they come upon
+        if full := no_room(tempfile.gettempdir(), problem):
+            raise ResultError(f"{path}: cannot be read: {full}") from None
+        words = instead(path, FMU) or f"is not a valid FMU: {one_line(problem)}"
+        raise ResultError(f"{path}: {words}") from None
 
 
 def _bound(value: str | float | None) -> float | None:

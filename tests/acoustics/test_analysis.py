@@ -1,9 +1,12 @@
 """Analysis of signals whose results are known in closed form."""
 
 import math
+import wave
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from scipy.io import wavfile
 from scipy.signal import sosfilt, sosfreqz
 
 from fmu_bearing.acoustics.analysis.audio import read_wav, resample, write_wav
@@ -294,12 +297,55 @@ def test_wav_keeps_pascals(tmp_path):
     assert np.abs(resample(np.sin(2 * np.pi * 25_000 * t), RATE)[2400:-2400]).max() < 1e-4
     with pytest.warns(UserWarning, match="clip"):
         write_wav(tmp_path / "loud.wav", signal[0], RATE, full_scale=1.0)
-    from scipy.io import wavfile
-
     wavfile.write(tmp_path / "foreign.wav", 48_000, np.array([0, 16_384], dtype=np.int16))
     with pytest.raises(ValueError, match="full_scale"):
         read_wav(tmp_path / "foreign.wav")
     assert read_wav(tmp_path / "foreign.wav", 2.0)[0] == pytest.approx([0.0, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("kind", "samples"),
+    [
+        # what WAV writes for -1, -1/2, 0 and 1/2 of the full scale; 8 bits are the only ones without sign
+        (np.uint8, [0, 64, 128, 192]),
+        (np.int16, [-32_768, -16_384, 0, 16_384]),
+        (np.int32, [-(2**31), -(2**30), 0, 2**30]),
+        (np.float32, [-1.0, -0.5, 0.0, 0.5]),
+        (np.float64, [-1.0, -0.5, 0.0, 0.5]),
+    ],
+)
+def test_wav_of_any_samples_is_read(tmp_path, kind, samples):
+    wavfile.write(tmp_path / "any.wav", 44_100, np.array(samples, dtype=kind))
+    pressure, rate = read_wav(tmp_path / "any.wav", full_scale=4.0)
+    assert rate == 44_100.0 and pressure.tolist() == [-4.0, -2.0, 0.0, 2.0]
+
+
+@pytest.mark.parametrize(("sample_format", "step"), [("16", 2.0**-15), ("24", 2.0**-23), ("float", 2.0**-24)])
+@pytest.mark.parametrize("shape", [(480,), (481,), (2, 480)])
+def test_wav_formats_keep_pascals_within_half_a_step(tmp_path, sample_format, step, shape):
+    signal = np.random.default_rng(3).uniform(-9.9, 9.9, shape)
+    write_wav(tmp_path / "run.wav", signal, 48_000.0, full_scale=10.0, sample_format=sample_format)
+    back, rate = read_wav(tmp_path / "run.wav")
+    assert back.shape == shape and rate == 48_000.0
+    # half a step of the full scale of 10 Pa, and rounding
+    assert np.abs(back - signal).max() <= 0.5 * 10.0 * step * (1.0 + 1e-6)
+    with wave.open(str(tmp_path / "run.wav")) if sample_format != "float" else nullcontext() as file:
+        assert file is None or 8 * file.getsampwidth() == int(sample_format)
+
+
+def test_wav_of_whole_numbers_is_clipped_with_a_caution(tmp_path):
+    with pytest.warns(UserWarning, match="the file is clipped"):
+        write_wav(tmp_path / "loud.wav", [0.0, 2.0, -2.0], 48_000.0, full_scale=1.0, sample_format="16")
+    back, _ = read_wav(tmp_path / "loud.wav")
+    assert back.tolist() == [0.0, 1.0 - 2.0**-15, -1.0]
+
+
+def test_what_is_no_wav_is_refused_by_name(tmp_path):
+    with pytest.raises(ValueError, match="no WAV format '8': choose from float, 16, 24"):
+        write_wav(tmp_path / "no.wav", [0.0], 48_000.0, sample_format="8")
+    (tmp_path / "no.wav").write_bytes(b"time,x\n0,1\n")
+    with pytest.raises(ValueError, match=r"no\.wav: is not a WAV file"):
+        read_wav(tmp_path / "no.wav", 1.0)
 
 
 def test_psychoacoustics():
@@ -323,3 +369,10 @@ def test_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "mosqito.sq_metrics", None)
     with pytest.raises(ImportError, match="psychoacoustics"):
         sensation(np.zeros(48_000), 48_000)
+
+
+def test_kinematic_frequencies_of_a_printed_example():
+    """MathWorks, bearingFaultBands: 8 balls of 20 mm on 120 mm, 15 deg, 25 Hz; two or three decimals."""
+    found = kinematic_frequencies(2.0 * math.pi * 25.0, 8, 0.02, 0.12, math.radians(15.0))
+    assert found.f_c == pytest.approx(10.488, abs=5e-4)
+    assert [found.f_o, found.f_i, found.f_b] == pytest.approx([83.90, 116.10, 73.06], abs=5e-3)

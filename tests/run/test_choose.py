@@ -138,7 +138,7 @@ def test_a_bearing_that_whirls_by_itself_takes_full(automatic, example):
     for probe in found.probes[:2]:
         assert probe.errors == () and probe.worst is None and math.isnan(probe.pace)
         assert probe.reason.startswith("left out: the ring whirls by itself at ")
-    assert "; response and rings left out: the ring whirls by itself at 1312 Hz" in found.summary
+    assert "; response and rings left out: the ring whirls by itself at 1320 Hz" in found.summary
     assert found.table()[0][-1] == found.probes[0].reason and found.table()[0][4] == ""
     rows = found.cells()
     assert len(rows) == 2 + 3 + 3 and rows[0][4] == "all" and rows[2][-1] == "accurate, chosen"

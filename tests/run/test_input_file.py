@@ -1,5 +1,8 @@
 """CSV files of inputs: units by column, separators, decimal commas, errors with line and column."""
 
+import re
+import warnings
+
 import numpy as np
 import pytest
 
@@ -48,7 +51,7 @@ def test_units_separators_and_decimal_commas(tmp_path, text):
     [
         ("", "holds no values"),
         ("time,preload\n", "holds no values"),
-        ("t,preload\n0,1\n", r"the first column must be 'time' \(s\), not 't'"),
+        ("u,preload\n0,1\n", r"the first column must be 'time' \(s\), not 'u'"),
         ("time,preload\n0,1\n1,one\n", "line 3, column 'preload': 'one' is not a finite number"),
         ("time,preload\n0,1\n\n1,\n", "line 4, column 'preload': '' is not a finite number"),
         ("time,preload\n0,nan\n", "line 2, column 'preload': 'nan' is not a finite number"),
@@ -63,7 +66,7 @@ def test_units_separators_and_decimal_commas(tmp_path, text):
             "time,shaft_speed_rpm\n0,1\n1,200000\n",
             "line 3, column 'shaft_speed_rpm': 200000 is refused: allowed are -100000 to 100000 r/min",
         ),
-        ("time;oil_temperature_degC\n0;-80,5\n", "-80,5 is refused: allowed are -40.15 to 199.85 degC"),
+        ("time;oil_temperature_degC\n0;-80,5\n", "-80.5 is refused: allowed are -40.15 to 199.85 degC"),
         ("time,preload\n0,-1\n", "-1 is refused: allowed are 0 to 10000 N"),
     ],
 )
@@ -89,3 +92,58 @@ def test_a_run_from_r_min_is_that_from_rad_s(silent, tmp_path):
     found = simulate(rings, 2e-3, inputs=tmp_path / "rpm.csv", outputs=["shaft_speed"])
     np.testing.assert_allclose(found["shaft_speed"] * 30.0 / np.pi, [6000.0, 6000.0, 9000.0], rtol=1e-12)
     # inputs are taken at the beginning of each step, as FMPy does
+
+
+def held(silent, tmp_path, times, **more):
+    """Speeds (r/min) of a run of 2 ms whose file has these times, the speed going from 6,000 to 12,000."""
+    rows = "".join(f"{time!r},{6000.0 + 6000.0 * k}\n" for k, time in enumerate(times))
+    (tmp_path / "rpm.csv").write_text(f"time,shaft_speed_rpm\n{rows}")
+    rings = with_fidelity(silent, model="rings")
+    run = simulate(rings, 2e-3, inputs=tmp_path / "rpm.csv", outputs=["shaft_speed"], **more)
+    return run["shaft_speed"] * 30.0 / np.pi
+
+
+@pytest.mark.parametrize(
+    "times",
+    [(1.0, 1.002), (1.7e9, 1.7e9 + 0.25), (-1.0, -0.5), (2e-3, 4e-3)],
+    ids=["late", "clock", "past", "end"],
+)
+def test_a_file_whose_times_miss_the_run_is_refused_with_both_ranges(silent, tmp_path, times):
+    first, last = (re.escape(f"{time:.10g}") for time in times)
+    reason = rf"rpm.csv: times are {first} to {last} s, the run takes 0 to 0.002 s.*--input-from-start"
+    with pytest.raises(ValueError, match=reason):
+        held(silent, tmp_path, times)
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        ((0.0, 5e-4), "times are 0 to 0.0005 s, the run takes 0 to 0.002 s: the last values are held after"),
+        (
+            (1e-3, 2e-3),
+            "times are 0.001 to 0.002 s.*: the first values are held before 0.001 s: --",
+        ),
+        (
+            (5e-4, 8e-4),
+            "the first values are held before 0.0005 s.*; the last .* after 0.0008 s",
+        ),
+    ],
+)
+def test_a_file_that_covers_a_part_of_the_run_says_so(silent, tmp_path, times, words):
+    with pytest.warns(UserWarning, match=words):
+        held(silent, tmp_path, times)
+
+
+@pytest.mark.parametrize("times", [(0.0, 2e-3), (-1.0, 5.0), (0.0, 1e-3), (3.0,)])
+def test_a_file_that_covers_the_run_says_nothing(silent, tmp_path, times):
+    """The last step begins 1 ms before the end; one row is a constant."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        held(silent, tmp_path, times)
+
+
+@pytest.mark.parametrize("begin", [1.0, 1.7e9, -3.0])
+def test_times_are_shifted_to_the_start(silent, tmp_path, begin):
+    found = held(silent, tmp_path, (begin, begin + 0.25), input_from_start=True)
+    # 6,000 r/min in 0.25 s, read at the beginning of each step; a clock of 1.7e9 s has digits of 0.24 us
+    np.testing.assert_allclose(found, [6000.0, 6000.0, 6024.0], rtol=1e-6)

@@ -2,13 +2,14 @@
 
 import pytest
 
-from fmu_bearing.results.table import read_rows
+from fmu_bearing.results.rows import read_rows
 
 
 def read(tmp_path, text):
     file = tmp_path / "table.csv"
     file.write_bytes(text.encode())
-    return read_rows(file)
+    titles, rows = read_rows(file)
+    return [[title.written for title in titles], *rows] if titles else rows
 
 
 @pytest.mark.parametrize("separator", [";", "\t", ","])
@@ -17,7 +18,7 @@ def test_the_first_line_names_the_separator(tmp_path, separator, end):
     lines = ["name{0}value", "P1{0} 1.5", '"a {0} b"{0}', '  {0}"2" ']
     found = read(tmp_path, "\ufeff" + end.join(lines).format(separator) + end)
     assert found == [
-        (1, ["name", "value"]),
+        ["name", "value"],
         (2, ["P1", "1.5"]),
         (3, [f"a {separator} b", ""]),
         (4, ["", "2"]),
@@ -25,7 +26,7 @@ def test_the_first_line_names_the_separator(tmp_path, separator, end):
 
 
 def test_one_column_has_commas_between_what_is_too_much(tmp_path):
-    assert read(tmp_path, "time\n0,5\n") == [(1, ["time"]), (2, ["0", "5"])]
+    assert read(tmp_path, "time\n0,5\n") == [["time"], (2, ["0", "5"])]
 
 
 NUMBERS = [
@@ -54,11 +55,11 @@ def test_between_commas_a_comma_in_quotes_is_no_decimal_comma(tmp_path):
 
 def test_remarks_and_empty_lines_keep_the_numbers(tmp_path):
     text = '# saved by: a; "b\n\n  # another\na,b\n#1,2\n,\n \n3,4#5\n"#6",7\n'
-    assert read(tmp_path, text) == [(4, ["a", "b"]), (8, ["3", "4#5"]), (9, ["#6", "7"])]
+    assert read(tmp_path, text) == [["a", "b"], (8, ["3", "4#5"]), (9, ["#6", "7"])]
 
 
 def test_a_cell_over_two_lines_ends_in_the_second(tmp_path):
-    assert read(tmp_path, 'a,b\n"1\n2",3\n4,5\n') == [(1, ["a", "b"]), (3, ["1\n2", "3"]), (4, ["4", "5"])]
+    assert read(tmp_path, 'a,b\n"1\n2",3\n4,5\n') == [["a", "b"], (3, ["1\n2", "3"]), (4, ["4", "5"])]
 
 
 @pytest.mark.parametrize("text", ["", "\n\n", "# a,b\n", " , \n"])
@@ -69,7 +70,7 @@ def test_nothing_is_no_row(tmp_path, text):
 def test_what_is_no_table(tmp_path):
     with pytest.raises(ValueError, match=r"none\.csv: there is no such file"):
         read_rows(tmp_path / "none.csv")
-    with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
+    with pytest.raises(ValueError, match="cannot be read: it is a folder"):
         read_rows(tmp_path)
     (tmp_path / "latin.csv").write_bytes(b"a,b\n\xe4,1\n")
     with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):

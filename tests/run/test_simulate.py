@@ -195,11 +195,11 @@ def test_files_give_back_what_was_written(rings, tmp_path):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "not a table of numbers"),
+        ("", "holds no values"),
         ("a,b\n1,2\n", "the first column must be 'time'"),
-        ("time,x\n0,one\n", "not a table of numbers"),
-        ("time,x\n0,nan\n", "column 'x' must hold one finite number per line"),
-        ("time,x\n0,1\n1,1\n0.5,1\n", "time falls at line 4"),
+        ("time,x\n0,one\n", "line 2, column 'x': 'one' is not a finite number"),
+        ("time,x\n0,nan\n", "line 2, column 'x': 'nan' is not a finite number"),
+        ("time,x\n0,1\n1,1\n0.5,1\n", "line 4: time falls from 1 to 0.5 s"),
         ("time,x\n0,1 2\n", "column 'x'"),
     ],
 )

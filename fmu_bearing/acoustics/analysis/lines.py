@@ -1,5 +1,6 @@
 """Lines in spectra: where the kinematics expect them, which exceed their surroundings, what explains them."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -11,18 +12,24 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 _LOBE = 5  # bins: a line under a flat-top window is that wide
 _ABOVE = 6.0  # dB over what surrounds it makes a peak a line
 _AROUND = 25  # bins to either side that surround a peak
+_FEW = 3  # frequencies that a line may add up and be named without those that fit as well
+_WHIRL = 4  # multiples of a whirl's frequency: it varies, and with it many times as much
+_WIDE = 3  # bins to either side: the lobe of a flat-top window
+_NEAR = 0.75  # bins by which noise and neighbours move a line
 
 
 @dataclass(frozen=True)
 class KinematicLine:
-    """A frequency (Hz) that rolling without sliding produces.
+    """A frequency (Hz) that a turning bearing produces.
 
     ``name`` reads like ``2 f_o + f_c``; ``rank`` grows with harmonics and sidebands: the simpler explains.
+    ``terms``: how many frequencies are added up, 3 for ``2 f_o + f_c``.
     """
 
     frequency: float
     name: str
     rank: int
+    terms: int = 1
 
 
 @dataclass(frozen=True)
@@ -31,6 +38,8 @@ class Line:
 
     ``name`` is empty for an unexplained line; ``off`` is its distance (Hz) from the kinematic frequency.
     ``nearest`` names the nearest kinematic line of an unexplained one, ``nearest_off`` is its distance (Hz).
+    ``fits``: how many kinematic lines are as near as the one that explains it has to be; ``terms``: how many
+    frequencies that one adds up.
     """
 
     frequency: float
@@ -39,6 +48,15 @@ class Line:
     off: float = float("nan")
     nearest: str = ""
     nearest_off: float = float("nan")
+    fits: int = 0
+    terms: int = 0
+
+    @property
+    def words(self) -> str:
+        """What explains it, as one of how many where it is a sum of many; empty: nothing."""
+        if self.fits > 1 and self.terms > _FEW:
+            return f"{self.name}, one of {self.fits} that fit"
+        return self.name
 
     @property
     def explanation(self) -> str:
@@ -49,7 +67,7 @@ class Line:
 
 
 def kinematic_lines(
-    frequencies: KinematicFrequencies, highest: float, harmonics: int = 12
+    frequencies: KinematicFrequencies, highest: float, harmonics: int = 12, whirl: float = float("nan")
 ) -> list[KinematicLine]:
     """Lines up to ``highest`` (Hz), in order of frequency.
 
@@ -57,6 +75,7 @@ def kinematic_lines(
     the passing of balls at the races f_i and f_o; with sidebands by what modulates them: the inner race's
     harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by f_r, as waviness
     and unbalance of the turning ring make, and two by f_c: more would explain anything.
+    ``whirl``: f_w (Hz), at which the cage goes round off its middle; NaN: it does not.
     """
     both = {"f_r": 4, "f_c": 2}
     modulators: dict[str, dict[str, int]] = {
@@ -67,13 +86,15 @@ def kinematic_lines(
         base = float(getattr(frequencies, carrier))
         # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
         for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
-            lines.append(KinematicLine(n * base, combination(n, carrier), n - 1))
+            lines.append(KinematicLine(n * base, combination(n, carrier), n - 1, n))
             for modulator, sidebands in by.items():
                 step = float(getattr(frequencies, modulator))
                 for m in range(1, sidebands + 1):
                     for sign in (1, -1):
                         name = combination(n, carrier, sign * m, modulator)
-                        lines.append(KinematicLine(n * base + sign * m * step, name, n + 2 * m + 1))
+                        lines.append(KinematicLine(n * base + sign * m * step, name, n + 2 * m + 1, n + m))
+    if not math.isnan(whirl):
+        lines += [KinematicLine(n * whirl, combination(n, "f_w"), n - 1, n) for n in range(1, _WHIRL + 1)]
     return sorted(
         (line for line in lines if 0.0 < line.frequency <= highest), key=lambda line: line.frequency
     )
@@ -89,17 +110,16 @@ def _times(n: int, name: str) -> str:
     return name if n == 1 else f"{n} {name}"
 
 
-def explain(frequency: float, lines: Sequence[KinematicLine], tolerance: float) -> KinematicLine | None:
-    """Return the line that best explains a frequency (Hz); None when all are further than ``tolerance`` (Hz).
+def explain(
+    frequency: float, lines: Sequence[KinematicLine], tolerance: float
+) -> tuple[KinematicLine | None, int]:
+    """Return the simplest line within ``tolerance`` (Hz) of a frequency (Hz), and how many lie there.
 
-    Simplicity weighs as much as nearness: at the tolerance a line costs as much as eight ranks (assumed).
+    None when all are further. Of equally simple ones the nearest.
     """
     near = [line for line in lines if abs(line.frequency - frequency) <= tolerance]
-    return min(
-        near,
-        key=lambda line: line.rank + 8.0 * ((line.frequency - frequency) / tolerance) ** 2,
-        default=None,
-    )
+    best = min(near, key=lambda line: (line.rank, abs(line.frequency - frequency)), default=None)
+    return best, len(near)
 
 
 def nearest_line(frequency: float, lines: Sequence[KinematicLine]) -> KinematicLine | None:
@@ -125,12 +145,14 @@ def strongest_lines(
     kinematic : sequence of KinematicLine
         What may explain them.
     slip : float
-        Share of its frequency by which a line may miss the kinematic one, as balls slide; at least one bin.
+        Share of its frequency by which a line may miss the kinematic one; at least three quarters of a bin.
+        Default: as balls slide against rolling at one contact angle.
 
     Notes
     -----
     A line is a bin higher than all within five bins and 6 dB above the median of the 50 around it; its
-    frequency is refined by a parabola through its neighbours.
+    frequency is the middle of the energy of seven bins, which for a tone under a flat-top window is right
+    within 0.5 % of a bin.
     """
     f: NDArray[np.float64] = np.asarray(frequency, dtype=float)
     value: NDArray[np.float64] = np.asarray(levels, dtype=float)
@@ -141,19 +163,19 @@ def strongest_lines(
         around = value[max(0, i - _AROUND) : i + _AROUND + 1]
         if value[i] < near.max() or value[i] < np.median(around) + _ABOVE:
             continue
-        below, at, above = value[i - 1 : i + 2]
-        curve = below - 2.0 * at + above
-        place = f[i] + (0.5 * (below - above) / curve * bin_width if curve < 0.0 else 0.0)
-        found.append(Line(float(place), float(at)))
+        about = slice(max(0, i - _WIDE), i + _WIDE + 1)
+        energy = 10.0 ** (0.1 * (value[about] - value[i]))
+        found.append(Line(float(f[about] @ energy / energy.sum()), float(value[i])))
     found = sorted(found, key=lambda line: -line.level)[:count]
-    return [_explained(line, kinematic, max(bin_width, slip * line.frequency)) for line in found]
+    return [_explained(line, kinematic, max(_NEAR * bin_width, slip * line.frequency)) for line in found]
 
 
 def _explained(line: Line, kinematic: Sequence[KinematicLine], tolerance: float) -> Line:
     """Return a line with what explains it within ``tolerance`` (Hz), else with what is nearest."""
-    best = explain(line.frequency, kinematic, tolerance)
+    best, fits = explain(line.frequency, kinematic, tolerance)
     if best is not None:
-        return replace(line, name=best.name, off=line.frequency - best.frequency)
+        off = line.frequency - best.frequency
+        return replace(line, name=best.name, off=off, fits=fits, terms=best.terms)
     near = nearest_line(line.frequency, kinematic)
     if near is None:
         return line

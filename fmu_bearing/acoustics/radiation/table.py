@@ -85,7 +85,7 @@ def read_table(path: str | File) -> Table:
             np.atleast_2d(data["positions"]).astype(float),
             data["H"].astype(complex),
         )
-    except (TypeError, ValueError):
+    except Exception:  # NumPy raises what it comes upon
         raise ValueError(f"{where}: frequencies, positions and H must be numbers, the rest names") from None
     _check(table, where)
     return table

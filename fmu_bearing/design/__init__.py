@@ -3,6 +3,7 @@
 ===================  ================================================================
 ``rating``           ratings and makers' limits of the bearing of a scene
 ``heat``             watts by where friction loses them, and by what they warm
+``temperatures``     steady temperatures by a network of conductances
 ``torque_range``     the range beside a friction torque, from what a scene assumes
 ``operating_point``  a scene's bearings at their operating point, without a run
 ``mounted``          a bearing on its seats in closed form

@@ -9,11 +9,10 @@ from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
-from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.operation import Operation
+from fmu_bearing.scene.own_bearing import Dimensions
 from fmu_bearing.scene.preload import CLASS, OFFSET, PreloadError, preload
-from fmu_bearing.scene.template import Dimensions
 from fmu_bearing.scene.values import limits
 
 _SPEED_SHARE = 0.5  # of the limiting speed
@@ -69,7 +68,7 @@ def new_scene(
     --------
     >>> from fmu_bearing import new_scene
     >>> from fmu_bearing.scene import read_scene_text
-    >>> text = new_scene("my", "NSK-7010C", sound=False)
+    >>> text = new_scene("my", "NSK-7010C", kind="hybrid", sound=False)
     >>> for line in text.splitlines():
     ...     if line.startswith(("preload_N", "speed_rpm")):
     ...         print(line)
@@ -140,7 +139,7 @@ def _preload(scene: Scene) -> tuple[float, str, bool]:
     least = _PRELOAD_SHARE * operating_point(_at(scene, force=max(force, 1.0))).bearings[0].least_preload
     if force < least:
         force, rule = _rounded(least), f"{_PRELOAD_SHARE:g} times the least preload at this speed"
-    most = limits(Mounting.model_fields["preload_N"])[1]
+    most = scene.bearing.most_preload
     first, cured = force, set[str]()
     at_first = found = _wrong(_at(scene, force=force))
     while found & _CURED.keys():

@@ -13,7 +13,7 @@ ARISES = {
     "sliding": "sliding in the contacts",
     "rolling": "rolling resistance",
     "cage": "cage: pockets and lands",
-    "drag": "drag of oil and air on the balls",
+    "drag": "drag on the balls",
 }
 GOES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "oil": "oil and balls"}
 _SHARES = {"sliding": "contacts"}  # names of the engine's shares that differ

@@ -22,10 +22,11 @@ from fmu_bearing.engine.layout import C, P, S, Y
 from fmu_bearing.formulas import iso281
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.equations.linearised import Linearised
-from fmu_bearing.modal.modes.natural_modes import self_excited
+from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.run import rates
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 from fmu_bearing.scene.fit import held_loose
@@ -54,7 +55,7 @@ class BearingPoint:
     contacts : dict
         By ``inner`` and ``outer``: the outputs ``contact.*`` there.
     frequencies : KinematicFrequencies
-        At the mean of both contact angles, Hz.
+        Hz, as cage and balls turn in the steady state.
     film : float
         Thinnest film over the composite roughness.
     viscosity : float
@@ -125,9 +126,9 @@ class BearingPoint:
         return float(self.load.displacement[0])
 
     @property
-    def ball_loads(self) -> dict[str, NDArray[np.float64]]:
-        """Loads (N) by ``inner`` and ``outer``, shape (balls,)."""
-        return dict(zip(RINGS, self.load.ball_loads, strict=True))
+    def ball_loads(self) -> NDArray[np.float64]:
+        """Loads (N) at inner and outer race, shape (2, balls), as those of `statics`."""
+        return self.load.ball_loads
 
     @property
     def life(self) -> float | None:
@@ -161,7 +162,7 @@ class BearingPoint:
             "friction_torque_N_m": self.friction_torque,
             "heat_W": self.heat.summary(),
             "gyroscopic_friction": self.gyroscopic_friction,
-            "ball_loads_N": {ring: loads.tolist() for ring, loads in self.ball_loads.items()},
+            "ball_loads_N": dict(zip(RINGS, self.ball_loads.tolist(), strict=True)),
         }
 
 
@@ -278,11 +279,10 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
 
 
 def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
-    """Frequency (Hz) and growth (1/s) of the mode that grows fastest by itself; None where none is known."""
-    if not system.steady or not may_grow(system.matrix):
+    """Frequency (Hz) and growth (1/s) of what grows fastest by itself; None where none is known."""
+    if not system.steady or (scene.spindle is not None and not may_grow(system.matrix)):
         return None
-    grows = self_excited(solved(scene, system))
-    return None if grows is None else (grows.frequency, grows.growth)
+    return self_excitation(scene, solved(scene, system))
 
 
 def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
@@ -320,10 +320,12 @@ def _figures(
 
     contacts = {ring: {key: output(f"contact.{ring}.{key}") for key in _CONTACTS} for ring in RINGS}
     b, rpm = si(scene.bearing), scene.operation.speed_rpm
-    angle = 0.5 * (contacts["inner"]["angle_mean"] + contacts["outer"]["angle_mean"])
-    frequencies = kinematic_frequencies(rpm * RPM, b.ball_count, b.ball_diameter, b.pitch_diameter, angle)
+    frequencies = rates.frequencies(rpm * RPM, *rates.ball_rates(part), b.ball_count)
     mass, _ = ball(scene)
-    centrifugal = mass * 0.5 * b.pitch_diameter * (2.0 * math.pi * frequencies.f_c) ** 2
+    # GMN's rule, fitted with balls that roll at one angle
+    angle = 0.5 * (contacts["inner"]["angle_mean"] + contacts["outer"]["angle_mean"])
+    rolling = kinematic_frequencies(rpm * RPM, b.ball_count, b.ball_diameter, b.pitch_diameter, angle)
+    centrifugal = mass * 0.5 * b.pitch_diameter * (2.0 * math.pi * rolling.f_c) ** 2
     nu = 1e6 * float(part.s[S.C + C.VISCOSITY]) / scene.lubricant.density_kg_m3
     pitch = scene.bearing.pitch_diameter_mm
     return BearingPoint(

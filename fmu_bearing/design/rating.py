@@ -23,6 +23,7 @@ class Rating(NamedTuple):
     equivalent: float | None  # N: P, where the factors for its contact angle are known
     life: float | None  # h: L10
     static_load: float | None  # N: P0, likewise
+    factors: tuple[float, float, float, float] | None = None  # e, X and Y of P, Y0 of P0
 
 
 def unrated(scene: Scene) -> str:
@@ -57,18 +58,23 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
     life = None
     if load is not None and load > 0.0 and speed_rpm != 0.0:
         life = iso281.hours(iso281.basic_life(dynamic, load), speed_rpm)
-    still = iso76.static_load(scene.bearing.contact_angle_deg, axial, radial)
-    return Rating(dynamic, static, load, life, still)
+    angle = scene.bearing.contact_angle_deg
+    still, steep = iso76.static_load(angle, axial, radial), iso76.axial_factor(angle)
+    found = iso281.factors(angle, relative)
+    return Rating(
+        dynamic, static, load, life, still, None if found is None or steep is None else (*found, steep)
+    )
 
 
 def speed_limit(scene: Scene) -> float | None:
-    """Return the n d_m (mm r/min) to which makers run such a bearing with oil.
+    """Return the n d_m (mm r/min) to which makers run such a bearing with the supply of the scene.
 
     None but for rings of steel and 15 to 25 deg.
     """
     if not scene.materials.steel_rings:
         return None
-    return makers.speed_limit(scene.bearing.contact_angle_deg, scene.materials.kind == "hybrid")
+    ceramic = scene.materials.kind == "hybrid"
+    return makers.speed_limit(scene.bearing.contact_angle_deg, ceramic, scene.lubricant.greased)
 
 
 def least_preload(scene: Scene, centrifugal: float) -> float:

@@ -5,6 +5,7 @@ limit are `not judged`: limits for steel hold for no ceramic rings, and hybrid b
 """
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
@@ -72,6 +73,11 @@ def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
     return [replace(one, bearing=bearing.load.number) for one in found]
 
 
+def shared_label(one: Verdict) -> str:
+    """Return the label of a figure for a row of several bearings, whose gravest race may differ."""
+    return one.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
+
+
 def side_by_side(found: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
     """Yield the verdicts on each figure of the bearings; None where a bearing has no such figure.
 
@@ -85,16 +91,32 @@ def side_by_side(found: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
         yield [table.get(key) for table in tables.values()]
 
 
+_NUMBER = re.compile(r"[0-9.]+")
+
+
 def cautions(point: OperatingPoint, found: Iterable[Verdict] | None = None) -> list[str]:
     """Return what a designer should look at: of the statics, of each bearing, of the whole.
+
+    What holds for several bearings of a set is said once, with the figures of the others behind.
 
     ``found``: `verdicts` of the point, where they are known.
     """
     lines = point.statics.cautions()
+    said: dict[tuple[str, ...], list[Verdict]] = {}
     for one in verdicts(point) if found is None else found:
         if one.advice:
-            several = one.bearing is not None and point.bearings[0].on_shaft
-            lines.append(f"bearing {one.bearing}: {one.advice}" if several else one.advice)
+            said.setdefault((one.key, one.judgement, _NUMBER.sub("", one.advice)), []).append(one)
+    for alike in said.values():
+        first = alike[0]
+        if first.bearing is None or not point.bearings[0].on_shaft:
+            lines.append(first.advice)
+            continue
+        numbers = [str(one.bearing) for one in alike]
+        named = f"bearing {numbers[0]}"
+        if alike[1:]:
+            named = f"bearings {', '.join(numbers[:-1])} and {numbers[-1]}"
+        others = [f"bearing {one.bearing}: {one.text}" for one in alike[1:] if one.advice != first.advice]
+        lines.append(f"{named}: {first.advice}" + (f" ({'; '.join(others)})" if others else ""))
     return lines
 
 
@@ -157,7 +179,7 @@ def _static_safety(point: BearingPoint) -> Iterator[Verdict]:
 
 def _no_factors(point: BearingPoint, load: str) -> str:
     angle = point.scene.bearing.contact_angle_deg
-    return f"factors of {load} are known for contact angles of 15 and 25 deg, not {angle:g}; see ball loads"
+    return f"factors of {load} are known for contact angles of 14 to 46 deg, not {angle:g}; see ball loads"
 
 
 def _safety(key: str, label: str, safety: float, limit: str, source: str) -> Verdict:
@@ -267,13 +289,15 @@ def _speed(point: BearingPoint) -> Verdict:
         name = makers.preload_class(point.scene.mounted.preload_N, found.loads) or "heavy"
         factor, mounted = makers.RIGID_SPEED[name], f"as a rigid {name} pair"
     limit = factor * single
-    source = f"GMN, NSK: oil, {mounted}"
+    supply, whose = ("grease", "NSK") if point.scene.lubricant.greased else ("oil", "GMN, NSK")
+    source = f"{whose}: {supply}, {mounted}"
     share = number / limit
     advice = ""
     if share > 1.0:
         advice = (
             f"speed number n d_m {1e-6 * number:.2f}e6 mm r/min: above the {1e-6 * limit:.2f}e6 of bearings "
-            f"with oil {mounted} (GMN, NSK): lower the speed, or take a smaller bearing"
+            f"with {supply} {mounted} ({whose}): lower the speed, or take a smaller bearing"
+            + (", or oil in place of grease" if supply == "grease" else "")
         )
     return Verdict(
         "speed", label, number, text, f"{1e-6 * limit:.2f}", source, "change" if advice else "good", advice

@@ -3,14 +3,15 @@
 Units N, mm, r/min, hours, millions of turns (Mrev). The standard is for rings and balls of steel; hybrid
 bearings are rated like them (ISO 20056-1), without the modified life.
 
-The rating was compared with printed ones, the factors X and Y were read in NSK's catalogue. The standard
+The rating was compared with printed ones, the factors X and Y were read in makers' catalogues. The standard
 itself was not read. Its f_c, e, Y, ranges of e_C and equations of a_ISO were compared with public copies of
 them; where copies differ (an exponent of 0.19087 or 0.019087), the laws meet with the first alone. The
-fatigue limit load and the reference viscosity were written from memory, and are checked by their own
-consistency alone.
+reference viscosity and the constants of a_ISO are those that NTN (equations 3.10 and 3.11) and IBC (5.34 to
+5.39) print in their catalogues. The fatigue limit load was written from memory.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,8 +23,16 @@ _LARGE_BALL = 25.4  # mm: beyond it the rating grows more slowly
 _RELATIVE = (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35)
 _E_15 = (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56)
 _Y_15 = (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00)
-_X_15, _E_25, _X_25, _Y_25 = 0.44, 0.68, 0.41, 0.87
-_NEAR = 1.0  # deg: how near to 15 or 25 deg these factors are used
+_X_15 = 0.44
+#: ISO 281, single rows of 20 to 45 deg, which do not hang on the load: angle, e, X, Y. LYC prints 25 and 40
+#: deg, NSK (BEA) and FGFA 40 deg. 30 deg follows from LYC's double row (its angle is not stated): e 0.80, and
+#: X, Y of 0.63, 1.24 over 1.625. 20, 35 and 45 deg are from memory. All have X = 1 - 0.5 / (1 - sin(alpha) /
+#: 2.75) by ISO/TR 1281-1, and X + Y e = 1 where both laws of P meet.
+_STEEP = (
+    (20.0, 0.57, 0.43, 1.00), (25.0, 0.68, 0.41, 0.87), (30.0, 0.80, 0.39, 0.76), (35.0, 0.95, 0.37, 0.66),
+    (40.0, 1.14, 0.35, 0.57), (45.0, 1.34, 0.33, 0.50),
+)  # fmt: skip
+_NEAR = 1.0  # deg: how far outside 15 to 45 deg these factors are used
 _SLOW = 1000.0  # r/min: below it the reference viscosity follows another law
 #: Factor e_C by cleanliness, for pitch diameters below and from 100 mm on: middle of ISO 281's ranges.
 CLEANLINESS = {
@@ -70,19 +79,37 @@ def dynamic_rating(balls: int, ball: float, pitch: float, angle: float) -> float
     return _BM * factor * math.cos(angle) ** 0.7 * balls ** (2.0 / 3.0) * growth
 
 
-def equivalent_load(angle_deg: float, relative: float, axial: float, radial: float) -> float | None:
-    """Return the dynamic equivalent load P (N) of a single row; None for other angles than 15 and 25 deg.
+class Factors(NamedTuple):
+    """Of a single row: up to Fa / Fr = e the radial load counts alone, beyond it X Fr + Y Fa."""
 
-    ``relative``: f0 Fa / C0. Factors X and Y as NSK prints them.
+    e: float
+    x: float
+    y: float
+
+
+def factors(angle_deg: float, relative: float) -> Factors | None:
+    """Return e, X and Y of a single row; None below 14 and above 46 deg.
+
+    Between the angles of the table they are linear, as the standard has it. ``relative``: f0 Fa / C0, which
+    counts below 20 deg.
     """
-    if abs(angle_deg - 15.0) <= _NEAR:
-        limit, x = float(np.interp(relative, _RELATIVE, _E_15)), _X_15
-        y = float(np.interp(relative, _RELATIVE, _Y_15))
-    elif abs(angle_deg - 25.0) <= _NEAR:
-        limit, x, y = _E_25, _X_25, _Y_25
-    else:
+    if not 15.0 - _NEAR <= angle_deg <= 45.0 + _NEAR:
         return None
-    return radial if axial <= limit * radial else x * radial + y * axial
+    slight = tuple(float(np.interp(relative, _RELATIVE, row)) for row in (_E_15, (_X_15,) * 8, _Y_15))
+    table = ((15.0, *slight), *_STEEP)
+    angles = [row[0] for row in table]
+    return Factors(*(float(np.interp(angle_deg, angles, [row[k] for row in table])) for k in (1, 2, 3)))
+
+
+def equivalent_load(angle_deg: float, relative: float, axial: float, radial: float) -> float | None:
+    """Return the dynamic equivalent load P (N) of a single row; None where `factors` has none.
+
+    ``relative``: f0 Fa / C0.
+    """
+    found = factors(angle_deg, relative)
+    if found is None:
+        return None
+    return radial if axial <= found.e * radial else found.x * radial + found.y * axial
 
 
 def basic_life(rating: float, load: float) -> float:

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.formulas.iso281 import GROOVES, relative_ball
 
@@ -9,8 +11,9 @@ from fmu_bearing.formulas.iso281 import GROOVES, relative_ball
 STATIC_PRESSURE = 4.2e9
 _STEEL = (207e9, 0.3)  # modulus of elasticity in Pa, Poisson's ratio: as the standard reckons
 _NEAR = 1.0  # deg
-# X0 0.5; Y0 of single rows by contact angle (deg): NSK
-_Y0 = {15.0: 0.46, 25.0: 0.38}
+#: X0 0.5; Y0 of single rows by contact angle (deg): LYC prints 15, 25 and 40 deg, NSK (BEA) and FGFA 40 deg.
+#: 30 deg is half of the 0.66 that LYC prints for double rows; 20, 35 and 45 deg are from memory.
+_ANGLES, _Y0 = (15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0), (0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
 #: C0 with ceramic balls in rings of steel over that with steel balls: GMN; the moduli's ratio squared.
 HYBRID = 0.70
 
@@ -35,9 +38,14 @@ def static_rating(balls: int, ball: float, pitch: float, angle: float) -> float:
     return static_factor(g) * balls * ball**2 * math.cos(angle)
 
 
+def axial_factor(angle_deg: float) -> float | None:
+    """Return Y0 of a single row, linear between the angles of the table; None below 14 and above 46 deg."""
+    if not _ANGLES[0] - _NEAR <= angle_deg <= _ANGLES[-1] + _NEAR:
+        return None
+    return float(np.interp(angle_deg, _ANGLES, _Y0))
+
+
 def static_load(angle_deg: float, axial: float, radial: float) -> float | None:
-    """Return the static equivalent load P0 (N) of a single row; None for other angles than 15 and 25 deg."""
-    for angle, y in _Y0.items():
-        if abs(angle_deg - angle) <= _NEAR:
-            return max(radial, 0.5 * radial + y * axial)
-    return None
+    """Return the static equivalent load P0 (N) of a single row; None where `axial_factor` has none."""
+    y = axial_factor(angle_deg)
+    return None if y is None else max(radial, 0.5 * radial + y * axial)

@@ -24,6 +24,8 @@ CLASS_PRESSURE = {"steel": 1.34e9, "hybrid": 1.5e9}
 # n d_m (mm r/min) of single spring-loaded bearings with oil by contact angle (deg): NSK, GMN; ceramic balls
 _SPEED = {15.0: 1.75e6, 25.0: 1.5e6}
 _CERAMIC_SPEED = 1.25
+# with grease: NSK's limiting speeds of 60 sizes times their pitch diameters, equal within 1 %
+_GREASE_SPEED = {15.0: 1.15e6, 25.0: 1.0e6}
 _NEAR = 1.0  # deg
 # Least axial force of a spring-loaded bearing over Z F_c tan(alpha): fitted to GMN's printed forces of 96
 # bearings of 15 and 25 deg (1.08 and 1.13), which scatter by 9 %
@@ -50,11 +52,15 @@ def preload_classes(angle_deg: float) -> tuple[float, float, float]:
     return light, medium, heavy
 
 
-def speed_limit(angle_deg: float, ceramic_balls: bool) -> float | None:
-    """Return the n d_m (mm r/min) of single bearings on springs with oil; None but for 15 to 25 deg."""
+def speed_limit(angle_deg: float, ceramic_balls: bool, grease: bool = False) -> float | None:
+    """Return the n d_m (mm r/min) of single bearings on springs, with oil or grease.
+
+    None but for 15 to 25 deg.
+    """
     if not at_known_angle(angle_deg):
         return None
-    limit = float(np.interp(angle_deg, list(_SPEED), list(_SPEED.values())))
+    speeds = _GREASE_SPEED if grease else _SPEED
+    limit = float(np.interp(angle_deg, list(speeds), list(speeds.values())))
     return limit * (_CERAMIC_SPEED if ceramic_balls else 1.0)
 
 

@@ -16,7 +16,6 @@ SPEED = {
     "display_unit": "r/min",
 }
 FORCE = {"unit": "N", "quantity": "Force", "nominal": 100.0}
-_LOAD = {**FORCE, "min": -3e3, "max": 3e3}
 SPRING = {
     "unit": "N/m",
     "min": 1e4,
@@ -37,20 +36,22 @@ KELVIN = {
 def inputs(scene: Scene) -> list[Variable]:
     """Return the inputs of the model, in the order of the engine's array ``u``."""
     mounting, start = si(scene.mounted), si(scene.operation)
+    most = scene.bearing.most_radial
+    load = {**FORCE, "min": -most, "max": most}
     preload = "Axial force that pushes the inner ring towards +X"
     if scene.mounted.preload_mode == "rigid":
         preload += ", at standstill and 20 degC; its displacement is then held"
     rows: tuple[tuple[str, str, dict[str, Any], float], ...] = (
         ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", SPEED, start.speed),
-        ("preload", preload, {**FORCE, "min": 0.0, "max": 1e4}, mounting.preload),
+        ("preload", preload, {**FORCE, "min": 0.0, "max": scene.bearing.most_preload}, mounting.preload),
         (
             "pedestal_stiffness",
             "Radial stiffness under the outer ring; the other directions keep their ratio to it",
             SPRING,
             mounting.pedestal_stiffness,
         ),
-        ("radial_load.y", "Horizontal load on the inner ring", _LOAD, mounting.radial_load_y),
-        ("radial_load.z", "Upward load on the inner ring", _LOAD, mounting.radial_load_z),
+        ("radial_load.y", "Horizontal load on the inner ring", load, mounting.radial_load_y),
+        ("radial_load.z", "Upward load on the inner ring", load, mounting.radial_load_z),
         ("oil_temperature", "Temperature that sets the oil's viscosity", KELVIN, start.oil_temperature),
         (
             "inner_ring_temperature",

@@ -11,6 +11,12 @@ from fmu_bearing.scene.problems import described
 __all__ = ["UnknownName", "chosen_names", "known"]
 
 _MOST = 24  # names listed in a message
+#: Variables of microphones by how standards write them (IEC 61672-1), without marks.
+_QUANTITIES = {
+    "laeq": "leq_a", "laeqdb": "leq_a", "lpaeq": "leq_a", "dba": "leq_a", "leq": "leq", "lpeq": "leq",
+    "lzeq": "leq", "laf": "spl_fast_a", "lpaf": "spl_fast_a", "lzf": "spl_fast", "las": "spl_slow_a",
+    "lpas": "spl_slow_a", "lzs": "spl_slow", "lpa": "spl_a", "lp": "spl", "spl": "spl",
+}  # fmt: skip
 _INDEX = re.compile(r"\[\d+\]")
 
 
@@ -23,12 +29,18 @@ def known(name: str, names: Sequence[str], what: str) -> str:
     if name in names:
         return name
     now = renamed.VARIABLES.get(name)
-    near = nearest(name, names)
+    near = _by_quantity(name, names) or nearest(name, names)
     if now in names:
         hint = f"it is now '{now}'"
     else:
         hint = f"did you mean '{near}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
+
+
+def _by_quantity(name: str, names: Sequence[str]) -> str:
+    """Return the first variable of a quantity that is written as in standards: LAeq; empty: none is."""
+    wanted = _QUANTITIES.get(re.sub(r"[^a-z]", "", name.lower()))
+    return "" if wanted is None else next((one for one in names if one.endswith(f".{wanted}")), "")
 
 
 def _some(names: Iterable[str]) -> str:

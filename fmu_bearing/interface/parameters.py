@@ -136,9 +136,11 @@ def _ratings(scene: Scene) -> list[Variable]:
     if not scene.materials.steel_rings:
         return []
     table = []
-    limit = makers.speed_limit(bearing.contact_angle_deg, kind == "hybrid")
+    greased = scene.lubricant.greased
+    limit = makers.speed_limit(bearing.contact_angle_deg, kind == "hybrid", greased)
     if limit is not None:
-        words = "Shaft speed up to which makers run such a bearing with oil, on springs (GMN, NSK)"
+        supply = "grease, on springs (NSK)" if greased else "oil, on springs (GMN, NSK)"
+        words = f"Shaft speed up to which makers run such a bearing with {supply}"
         speed = limit / bearing.pitch_diameter_mm * RPM
         table.append(_constant("rating.speed_limit", words, speed, "rad/s", display_unit="r/min"))
     dynamic = iso281.dynamic_rating(*bearing.for_ratings)

@@ -4,12 +4,16 @@
 ``catalogue``     files: bearings, materials, lubricants, grades, and NSK's sizes with printed ratings
 ``estimate``      a bearing from its boundary dimensions
 ``nsk``           NSK's sizes: printed figures, derived balls, entries of the catalogue
+``dimension_series`` boundary dimensions by series (ISO 15)
 ``conformity``    conformities that give a printed stiffness
-``designation``   which name a misspelt or short one may mean
+``symbols``       what the signs of makers' designations mean, with sources
+``designation``   what a designation says; which name a misspelt or short one may mean
 ``entries``       entries by name: the package's, NSK's, those of users' files
+``own_bearing``   a bearing of one's own: dimensions, what its designation says, its balls
 ``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene
 ``set_template``  its tables of a set of bearings on one shaft
+``words``         a scene in a line: materials, supply, temperatures
 ``base``          base class of all tables: frozen, strict, reports all conflicts at once; `SceneError`
 ``bearing``       geometry of rings, balls and cage
 ``material``      elastic and thermal constants; catalogue names

@@ -5,7 +5,11 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
+from fmu_bearing.formulas import iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
+
+MOST_BALLS = 32
+_MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
 
 
 class Cage(Part):
@@ -69,7 +73,7 @@ class Bearing(Part):
         ge=2, le=1500, examples=[26.0], description="Diameter of the circle of ball centres, mm."
     )
     ball_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.5], description="Diameter of a ball, mm.")
-    ball_count: int = Field(ge=3, le=32, examples=[12], description="Number of balls.")
+    ball_count: int = Field(ge=3, le=MOST_BALLS, examples=[12], description="Number of balls.")
     contact_angle_deg: float = Field(
         ge=5, le=45, examples=[15.0], description="Contact angle of the unloaded bearing, deg."
     )
@@ -110,6 +114,21 @@ class Bearing(Part):
         """Number of balls, ball and pitch diameter (mm) and contact angle (rad), as ratings take them."""
         angle = math.radians(self.contact_angle_deg)
         return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, angle
+
+    @property
+    def most_preload(self) -> float:
+        """Largest axial force (N) that may be given: twice C0 by ISO 76, 10 kN at least."""
+        return max(_MOST_PRELOAD, self._twice_static)
+
+    @property
+    def most_radial(self) -> float:
+        """Largest radial load (N) that may be given: twice C0 by ISO 76, 3 kN at least."""
+        return max(_MOST_RADIAL, self._twice_static)
+
+    @property
+    def _twice_static(self) -> float:
+        """Twice C0 (N) in two digits: steel races are pressed with 5.3 GPa, and dented well before."""
+        return float(f"{2.0 * iso76.static_rating(*self.for_ratings):.2g}")
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield dimensions that contradict each other."""

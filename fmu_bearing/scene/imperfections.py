@@ -44,7 +44,11 @@ class Imperfections(Part):
     """
 
     seed: int = Field(
-        ge=0, le=_SEEDS - 1, examples=[1], description="Seed from which phases and ball sizes are drawn."
+        default=1,
+        ge=0,
+        le=_SEEDS - 1,
+        examples=[1],
+        description="Seed from which phases and ball sizes are drawn (absent: 1).",
     )
     unbalance_um: float = Field(
         ge=0, le=100, examples=[0.5], description="Eccentricity of the rotating mass, um."

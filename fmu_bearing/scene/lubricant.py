@@ -21,6 +21,8 @@ _ROLLING_LAWS: dict[Supply, RollingLaw] = {
 # Assumed: the gaps hold ten minutes of an oil-air supply, whose mist does not fill them. Jet and bath do.
 _MIST = 0.006  # Pa s
 _LANDS: dict[Supply, float | None] = {"oil-air": _MIST, "grease": _MIST, "jet": None, "bath": None}
+_AIR = 1.2  # kg/m3
+# SKF has one constant for oil-air and grease that has settled; what fresh grease churns is in no model.
 _REPLENISHMENT: dict[Supply, float] = {"oil-air": 6e-8, "grease": 6e-8, "jet": 3e-8, "bath": 3e-8}
 
 
@@ -138,7 +140,11 @@ class Lubricant(Part):
         "resistance falls again as the oil gets thicker.",
     )
     oil_air_density_kg_m3: float = Field(
-        ge=0, le=1000, examples=[5.0], description="Density of the oil-air mixture around the balls, kg/m3."
+        ge=0,
+        le=1000,
+        examples=[5.0],
+        description="Density of the oil-air mixture around the balls; with grease no more than that of air, "
+        "1.2 counts, kg/m3.",
     )
     drag_coefficient: float = Field(
         ge=0, le=5, examples=[0.5], description="Drag coefficient of a ball in that mixture."
@@ -148,6 +154,16 @@ class Lubricant(Part):
         examples=["high"],
         description="Contamination by ISO 281, for the modified life of steel bearings (absent: high).",
     )
+
+    @property
+    def greased(self) -> bool:
+        """Whether grease holds the oil: limits of speed are lower, and no mist is round the balls."""
+        return self.supply == "grease"
+
+    @property
+    def density_round_balls(self) -> float:
+        """Density (kg/m3) of what the balls go through: with grease, which leaves their path, that of air."""
+        return min(self.oil_air_density_kg_m3, _AIR) if self.greased else self.oil_air_density_kg_m3
 
     @property
     def law_of_rolling(self) -> RollingLaw:

@@ -106,7 +106,10 @@ class Mounting(Part):
     """Preload, radial load, pedestal, and the bodies fixed to the rings."""
 
     preload_N: float = Field(
-        ge=0, le=1e4, examples=[500.0], description="Axial force on the inner ring towards +X, N."
+        ge=0,
+        le=1e6,
+        examples=[500.0],
+        description="Axial force on the inner ring towards +X; up to 2 C0, 10 kN at least, N.",
     )
     preload_mode: Literal["force", "rigid"] = Field(
         default="force",
@@ -154,10 +157,18 @@ class Mounting(Part):
         description="Damping over the critical one of the outer ring's mass (default assumed); 0: none.",
     )
     radial_load_y_N: float = Field(
-        default=0.0, ge=-3e3, le=3e3, examples=[0.0], description="Horizontal load on the inner ring, N."
+        default=0.0,
+        ge=-1e6,
+        le=1e6,
+        examples=[0.0],
+        description="Horizontal load on the inner ring; up to 2 C0, 3 kN at least, N.",
     )
     radial_load_z_N: float = Field(
-        default=0.0, ge=-3e3, le=3e3, examples=[0.0], description="Upward load on the inner ring, N."
+        default=0.0,
+        ge=-1e6,
+        le=1e6,
+        examples=[0.0],
+        description="Upward load on the inner ring; up to 2 C0, 3 kN at least, N.",
     )
     misalignment_y_mrad: float = Field(
         default=0.0,

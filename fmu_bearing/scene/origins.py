@@ -82,7 +82,9 @@ def origins(path: str | Path) -> list[Origin]:
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
     known |= _preload(document, scene)
     known |= dict(_fit(document, scene, known))
-    return [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
+    found = [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
+    ends = {key: f"{low:g} to {high:g} N" for key, (low, high) in scene.force_limits().items()}
+    return [replace(one, allowed=ends[one.key]) if one.key in ends else one for one in found]
 
 
 def with_surface(found: list[Origin], surface: Surface) -> list[Origin]:

@@ -16,9 +16,7 @@ from fmu_bearing.formulas.makers import ANGLES, CLASS_NAMES, at_known_angle, pre
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material, Materials
-from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.problems import shown
-from fmu_bearing.scene.values import limits
 
 if TYPE_CHECKING:
     from fmu_bearing.formulas.axial import Axial
@@ -206,7 +204,7 @@ def _of_offset(offset: Any, bearing: Bearing, materials: Materials, key: str) ->
     from fmu_bearing.formulas.axial import axial_load
 
     force = axial_load(_axial(bearing, materials), 1e-3 * offset)
-    most = limits(Mounting.model_fields[FORCE])[1]
+    most = bearing.most_preload
     if force > most:
         raise PreloadError(
             f"{key} = {shown(offset)} gives a preload of {force:.4g} N; allowed: up to {most:g} N"

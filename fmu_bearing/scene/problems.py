@@ -34,7 +34,7 @@ _INSTEAD = {("mounting", "preload_N"): OR_CLASS}
 _OWN = {"seed", "ball_springs", "inner_race_harmonic", "outer_race_harmonic"}
 _TEXTS = {
     LABEL: "text of 1 to 40 letters, digits, blanks and . , + - ( ) / _",
-    NAME: "text of 1 to 60 letters (a to z), digits, blanks and . _ -, a letter or digit first",
+    NAME: "text of 1 to 60 letters, digits, blanks and . _ -, a letter or digit first",
     SHAFT_CLASS: f"{', '.join(SHAFT_CLASSES)}; or give interference_um",
     HOUSING_CLASS: f"{', '.join(HOUSING_CLASSES)}; or give interference_um",
 }

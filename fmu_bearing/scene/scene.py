@@ -1,6 +1,8 @@
 """The tables of a scene: a bearing, its mounting, oil and microphones, and the fidelity of the model."""
 
 import math
+import re
+import unicodedata
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Self
@@ -23,9 +25,17 @@ from fmu_bearing.scene.seats import Fit
 from fmu_bearing.scene.sound import Place, Sound
 from fmu_bearing.scene.spindle import Spindle
 
-#: The name goes into file names and into the FMU's model name: ASCII only.
-NAME = r"^[A-Za-z0-9][A-Za-z0-9._ -]{0,59}$"
-_SLOW_RPM = 100.0  # below it waves up to 10 kHz would be of higher orders than any race is known for
+#: Letters of any script; names of FMUs' files and libraries are made of the designation, in ASCII.
+NAME = r"^[\p{L}\p{N}][\w. -]{0,59}$"
+_LONGEST_NAME = 60
+#: Below it waves up to 10 kHz would be of higher orders than any race is known for.
+SLOW_RPM = 100.0
+
+
+def scene_name(text: str) -> str:
+    """Return a text as the name of a scene: what names do not have becomes a dash, the rest is cut off."""
+    plain = re.sub(r"[^\w. -]", "-", unicodedata.normalize("NFKC", text))
+    return re.sub(r"^[\W_]+", "", plain)[:_LONGEST_NAME].strip() or "scene"
 
 
 class Tables(Part):
@@ -56,6 +66,7 @@ class Tables(Part):
         """Yield conflicts between tables."""
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
+        yield from self._forces()
         yield from self._thermal()
         yield from self._set()
         own = None if self.mounting is None else self.mounting.housing
@@ -118,18 +129,37 @@ class Tables(Part):
             if any((x - plane) * (plane - middle) > 0.0 for _, middle in self._middles()):
                 yield Conflict(key, f"is between the bearing and microphone '{place.name}' at x = {x:g} mm")
 
+    def force_limits(self) -> dict[str, tuple[float, float]]:
+        """Return the least and the largest force (N) by key, which grow with the bearing's static rating."""
+        preload, radial = (0.0, self.bearing.most_preload), self.bearing.most_radial
+        if self.mounting is not None:
+            across = dict.fromkeys(("radial_load_y_N", "radial_load_z_N"), (-radial, radial))
+            return {f"mounting.{key}": ends for key, ends in ({"preload_N": preload} | across).items()}
+        if self.spindle is not None and self.spindle.preload is not None:
+            return {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
+        return {}
+
+    def _forces(self) -> Iterator[Conflict]:
+        """Yield forces that are far beyond the static rating of the bearing."""
+        for key, (low, high) in self.force_limits().items():
+            part = self.mounting if self.mounting is not None else self.spindle and self.spindle.preload
+            value = getattr(part, key.rpartition(".")[2])
+            if value is not None and not low <= value <= high:
+                words = "twice the static rating C0 or more"
+                yield Conflict(key, f"is refused; allowed: {low:g} to {high:g} N, {words}")
+
     def _orders(self) -> Iterator[Conflict]:
         """Yield waviness whose highest order nothing decides, because the shaft does not turn."""
         flaws, operation = self.imperfections, self.operation
         if flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
             return
-        if abs(operation.speed_rpm) >= _SLOW_RPM:
+        if abs(operation.speed_rpm) >= SLOW_RPM:
             return
         by_order = flaws.highest_order is not None and not flaws.ball_form_nm
         if not by_order:
             yield Conflict(
                 "operation.lowest_speed_rpm",
-                f"is missing, for example lowest_speed_rpm = 3000: below {_SLOW_RPM:g} r/min the speed does "
+                f"is missing, for example lowest_speed_rpm = 3000: below {SLOW_RPM:g} r/min the speed does "
                 "not decide the highest order of waviness (imperfections.highest_frequency_kHz)",
             )
 

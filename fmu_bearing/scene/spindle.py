@@ -118,7 +118,7 @@ class Preload(Part):
     preload_N: float | None = Field(
         default=None,
         ge=0,
-        le=1e4,
+        le=1e6,
         examples=[500.0],
         description="Spacer: axial load of each bearing at standstill and 20 degC without stick-out and "
         "load, on the side with more bearings where the sides differ, N.",
@@ -126,7 +126,7 @@ class Preload(Part):
     force_N: float | None = Field(
         default=None,
         ge=0,
-        le=1e4,
+        le=1e6,
         examples=[300.0],
         description="Spring: force on each sliding outer ring at standstill and 20 degC, N.",
     )

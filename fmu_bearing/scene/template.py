@@ -2,19 +2,20 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.conformity import conformity_from_stiffness
+from fmu_bearing.scene.designation import Designation
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
+from fmu_bearing.scene.own_bearing import Dimensions, angle_of, balls_of, kind_of, meant, with_angle
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload, preload_key
 from fmu_bearing.scene.read import Scene, read_scene_text
-from fmu_bearing.scene.scene import Tables
+from fmu_bearing.scene.scene import SLOW_RPM, Tables
 from fmu_bearing.scene.set_template import set_parts, set_shape
 
 #: Materials of rings, balls and cage, by kind of bearing.
@@ -25,26 +26,10 @@ MATERIALS = {
 }
 #: How the rule of a conformity begins that a printed stiffness gives.
 FITTED = "fitted to the stiffness given"
+_GRADE = "P4"  # where neither a value nor a designation says
 _FAR_STIFFNESS = 3e7  # N/m: of the far bearing whose lever holds the ring against tilting
+_WAVES_RPM = 3000.0  # waves up to 20 kHz are then of orders up to 400
 _BODIES = ("inner_ring", "outer_ring", "balls", "cage")
-
-
-@dataclass(frozen=True)
-class Dimensions:
-    """Boundary dimensions (mm) and contact angle (deg) of a bearing that is not in the catalogue.
-
-    Examples
-    --------
-    >>> from fmu_bearing import Dimensions, new_scene
-    >>> text = new_scene("my-7008C", Dimensions(bore=40.0, outside=68.0, width=15.0), sound=False)
-    >>> "ball_diameter_mm = 8.12 # assumed: 0.29 of outside diameter minus bore" in text
-    True
-    """
-
-    bore: float
-    outside: float
-    width: float
-    angle: float = 15.0
 
 
 _UNKNOWN = Dimensions(10.0, 30.0, 9.0)  # any size, for a name that is refused
@@ -54,10 +39,10 @@ def new_scene(
     name: str,
     bearing: str | Dimensions,
     *,
-    kind: str = "hybrid",
+    kind: str | None = None,
     speed_rpm: float = 20_000.0,
     preload_N: float = 300.0,
-    grade: str = "P4",
+    grade: str | None = None,
     lubricant: str = "spindle-oil",
     sound: bool = True,
     designation: str | None = None,
@@ -83,15 +68,19 @@ def new_scene(
         Of the scene.
     bearing : str or Dimensions
         A bearing of the catalogue, or dimensions from which the rest is estimated.
-    kind : str
-        ``steel``, ``hybrid`` (steel rings, ceramic balls) or ``full-ceramic``.
+    kind : str, optional
+        ``steel``, ``hybrid`` (steel rings, ceramic balls) or ``full-ceramic``; default: what the designation
+        says, see `read_designation`, else hybrid, assumed.
     speed_rpm, preload_N : float
-    grade, lubricant : str
-        Names in the catalogue.
+    grade : str, optional
+        Name in the catalogue; default: what the designation says, else P4.
+    lubricant : str
+        Name in the catalogue.
     sound : bool
         With four microphones around the bare bearing, or without sound.
     designation : str, optional
-        What the bearing is called; default: its catalogue name, or the scene's.
+        What the bearing is called; default: its catalogue name, or the scene's. Contact angle, balls and
+        tolerance class follow from it.
     preload_class : str, optional
         Class of a maker's pairs, in place of ``preload_N``.
     preload_offset_um : float, optional
@@ -119,15 +108,20 @@ def new_scene(
     Raises
     ------
     SceneError
-        For names that are not in the catalogue and values outside their range.
+        For names that are not in the catalogue, values outside their range, a designation of another kind of
+        bearing or angle, and one without an angle that is known where none is given.
     """
-    if kind not in MATERIALS:
+    if kind is not None and kind not in MATERIALS:
         raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
     if sum(value is not None for value in (preload_class, preload_offset_um, spring_N)) > 1:
         raise SceneError("give one of preload_class, preload_offset_um and spring_N: each is the preload")
     if arrangement is None and (distance_mm is not None or spring_N is not None):
         raise SceneError("a distance of ball planes and springs are of a set: give its arrangement, as 'DB'")
-    materials = zip(_BODIES, MATERIALS[kind], strict=True)
+    said = meant(bearing, designation)
+    materials = _materials(kind, said)
+    kind = kind or kind_of(said)
+    tolerance = grade or (said and said.tolerance) or _GRADE
+    bearing = bearing if isinstance(bearing, str) else with_angle(bearing, said)
     size, pitch = _size(bearing)
     if (stiffness_N_um is None) != (stiffness_preload_N is None):
         raise SceneError(
@@ -139,7 +133,9 @@ def new_scene(
         fitted = _fitted(
             read_scene_text(usual, name, folder), stiffness_N_um, stiffness_preload_N, stiffness_of
         )
-    tables = _bearing(bearing, designation or (bearing if isinstance(bearing, str) else name), fitted)
+    tables = _bearing(
+        bearing, designation or (bearing if isinstance(bearing, str) else name), kind, fitted, said
+    )
     line = _preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule)
     places = [0.0]
     if arrangement is None:
@@ -166,17 +162,24 @@ def new_scene(
         f"# Made by `fmu-bearing scene new`. Values marked assumed are not from you: replace what you know.\n"
         f'name = "{name}"{_catalogues(bearing, folder or Path())}',
         *tables,
-        "[materials]\n" + "\n".join(f'{body} = "{material}"' for body, material in materials),
+        "[materials]\n" + "\n".join(materials),
         f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
         *mounted,
-        f'[imperfections] # assumed, by tolerance class\ngrade = "{grade}"\nseed = 1\n'
+        f'[imperfections] # assumed, by tolerance class\ngrade = "{tolerance}"\nseed = 1\n'
         "highest_frequency_kHz = 20.0 # assumed: the audible range",
-        _OPERATION.format(speed=f"{float(speed_rpm)}{_remark(speed_rule)}"),
+        _OPERATION.format(speed=f"{float(speed_rpm)}{_remark(speed_rule)}{_lowest(speed_rpm)}"),
         *([_sound(size.outside, places)] if sound else []),
     ]
     text = "\n\n".join(parts) + "\n"
     read_scene_text(text, name, folder)
     return text
+
+
+def _lowest(speed: float) -> str:
+    """Return the line of the speed that decides the order of waves, where a slow shaft's own does not."""
+    if abs(speed) >= SLOW_RPM:
+        return ""
+    return f"\nlowest_speed_rpm = {_WAVES_RPM} # assumed: speed at which waves reach highest_frequency_kHz"
 
 
 def _catalogues(bearing: str | Dimensions, folder: Path) -> str:
@@ -230,27 +233,54 @@ def _fitted(scene: Scene, stiffness: float, load: float, of: str) -> dict[str, s
     return {f"{race}_conformity": f"{value:.6f} # assumed: {rule}" for race, value in found._asdict().items()}
 
 
-def _bearing(bearing: str | Dimensions, designation: str, fitted: Mapping[str, str]) -> Sequence[str]:
+def _materials(kind: str | None, said: Designation | None) -> list[str]:
+    """Return the lines of the materials, with what decided on the balls."""
+    by_sign = None if said is None or said.balls is None else f"{said.why('balls')}, {said.balls} balls"
+    if kind is None:
+        remark = f" # {by_sign}" if by_sign else " # assumed: no designation says; steel ones are GCr15"
+    else:
+        differs = by_sign is not None and kind_of(said) != kind and kind != "full-ceramic"
+        remark = f" # as given; {by_sign}" if differs else ""
+    return [
+        f'{body} = "{material}"{remark if body == "balls" else ""}'
+        for body, material in zip(_BODIES, MATERIALS[kind or kind_of(said)], strict=True)
+    ]
+
+
+def _bearing(
+    bearing: str | Dimensions,
+    designation: str,
+    kind: str,
+    fitted: Mapping[str, str],
+    said: Designation | None,
+) -> Sequence[str]:
     """Return the tables of the bearing; ``fitted``: lines by key that win over catalogue and estimates."""
     if isinstance(bearing, str):
         more = "".join(f"\n{key} = {line}" for key, line in fitted.items())
         return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing in sizes()]}\n'
                 f'designation = "{designation}"{more}',)  # fmt: skip
     d = bearing
+    angle = " # assumed: no designation says" if d.angle is None else ""
+    if said is not None and said.angle == d.angle:
+        angle = f" # {said.why('angle')}"
     given = (
         f'designation = "{designation}"\nbore_mm = {float(d.bore)}\n'
         f"outside_diameter_mm = {float(d.outside)}\nwidth_mm = {float(d.width)}\n"
     )
+    balls = balls_of(d, kind)
+    found = estimates(d.bore, d.outside, d.width, angle_of(d), balls)
     return (
-        "[bearing]\n" + given + _lines(estimates(d.bore, d.outside, d.width, float(d.angle)), fitted),
-        "[bearing.cage]\n" + _lines(cage_estimates(d.bore, d.outside, d.width)),
+        "[bearing]\n" + given + _lines(found, fitted, angle),
+        "[bearing.cage]\n" + _lines(cage_estimates(d.bore, d.outside, d.width, balls.diameter, balls.number)),
     )
 
 
-def _lines(found: Iterable[Estimate], fitted: Mapping[str, str] = MappingProxyType({})) -> str:
+def _lines(
+    found: Iterable[Estimate], fitted: Mapping[str, str] = MappingProxyType({}), angle: str = ""
+) -> str:
     def remark(one: Estimate) -> str:
         if one.key == "contact_angle_deg":
-            return ""
+            return angle
         return _remark(one.rule) or " # assumed"
 
     return "\n".join(f"{one.key} = {fitted.get(one.key, f'{one.value}{remark(one)}')}" for one in found)

@@ -12,6 +12,11 @@ _PLACE = re.compile(r"\(at (?:line (\d+), column \d+|end of document)\)$")
 _HEADER = re.compile(r"\s*\[{1,2}([^\[\]]+)\]{1,2}\s*(?:#.*)?$")
 _KEY = re.compile(r"\s*([^=#]*?)\s*=")
 _QUOTED = re.compile(r'"(?:\\.|[^"\\])*"|' + r"'[^']*'|#.*")
+#: A key with a number that TOML does not have: 150,0; 1.000,5; 20,000; ,5; 50 mm; 5%.
+_NUMBER = re.compile(
+    r"(?P<key>[\w.\"-]+)\s*=\s*(?P<number>[+-]?[0-9]*(?:[.,][0-9]+)*(?:[eE][+-]?[0-9]+)?)"
+    r"(?P<rest>\s*[^\s,\]}#0-9][^\s,\]}#]*)?(?=\s*(?:$|#|[,}]))"
+)
 _INLINE = re.compile(r"Duplicate inline table key '(.*?)'")
 _TWICE = ("Cannot overwrite", "Duplicate inline table key", "Cannot declare", "Cannot mutate")
 
@@ -31,7 +36,8 @@ def parse(text: str) -> dict[str, Any]:
     except RecursionError:
         raise ValueError(_too_deep(lines)) from None
     except tomllib.TOMLDecodeError as problem:
-        raise ValueError(_twice(lines, str(problem)) or str(problem)) from None
+        words = _twice(lines, str(problem)) or _written_otherwise(lines, str(problem)) or str(problem)
+        raise ValueError(words) from None
 
 
 def _check_names(lines: list[str]) -> None:
@@ -80,6 +86,28 @@ def _twice(lines: list[str], problem: str) -> str:
         remedy = "keep one of them"
     where = f", first in line {first}" if first else ""
     return f"line {last}: {thing} is given twice{where}: {remedy}"
+
+
+def _written_otherwise(lines: list[str], problem: str) -> str:
+    """Say what a number is that TOML writes in another way: with commas, a unit, per cent; empty: none is."""
+    place = _PLACE.search(problem)
+    last = int(place[1] or len(lines)) if place is not None else 0
+    line = lines[last - 1] if 0 < last <= len(lines) else ""
+    found = _NUMBER.search(_QUOTED.sub(lambda part: "" if part[0][0] == "#" else '""', line))
+    if found is None or not found["number"]:
+        return ""
+    given, rest = found["number"], (found["rest"] or "").strip()
+    start = f"line {last}: {found['key']} = {given}{' ' * bool(rest)}{rest}"
+    if not rest and "," not in given:
+        return ""
+    if "," not in given:
+        return f"{start}: a number has no unit behind it: the key's name has the unit; write {given}"
+    plain = given.replace(".", "") if given.rfind(",") > given.rfind(".") else given.replace(",", "")
+    point = plain.replace(",", ".", 1) if plain.count(",") == 1 else plain.replace(",", "")
+    point = f"0{point}" if point.startswith(".") else point
+    thousands = f", or {given.replace(',', '')} if the comma is between thousands"
+    more = thousands if re.fullmatch(r"[+-]?[0-9]{1,3}(,[0-9]{3})+", given) else ""
+    return f"{start}: a decimal number has a point: write {point}{more}"
 
 
 def _first_header(lines: list[str], last: int) -> int:

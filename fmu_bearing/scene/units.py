@@ -3,11 +3,15 @@
 import math
 from functools import lru_cache
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel
 
 _ZERO_CELSIUS = 273.15
+#: A number, or an array of them.
+Numbers = TypeVar("Numbers", float, NDArray[np.float64])
 
 # Suffix -> (factor, offset): SI = factor * value + offset. The longest suffix that fits wins.
 UNITS: dict[str, tuple[float, float]] = {
@@ -74,11 +78,15 @@ def symbol(key: str) -> str:
 
 
 def convert(value: float, suffix: str) -> float:
-    """Return ``value`` in SI units; decimal prefixes divide.
+    """Return ``value`` in SI units."""
+    return scaled(value, *UNITS[suffix])
+
+
+def scaled(value: Numbers, factor: float, offset: float) -> Numbers:
+    """Return ``factor * value + offset`` of a number or an array; decimal prefixes divide.
 
     20 / 1e6 is the double nearest to 2e-5, 20 * 1e-6 is the one below.
     """
-    factor, offset = UNITS[suffix]
     divisor = float(round(1.0 / factor))
     decimal = divisor > 1.0 and factor == 1.0 / divisor
     return (value / divisor if decimal else value * factor) + offset

@@ -89,7 +89,7 @@ def test_a_fresh_set_is_good(bearing, kind, arrangement):
 
 def test_rules_stand_in_the_marks(tmp_path):
     path = tmp_path / "my.toml"
-    path.write_text(new_scene("my", "NSK-7010C"), "utf-8")
+    path.write_text(new_scene("my", "NSK-7010C", kind="hybrid"), "utf-8")
     found = {one.key: one for one in origins.origins(path)}
     size = sizes()["NSK-7010C"]
     assert found["operation.speed_rpm"].value == 0.5 * size.oil_speed
@@ -111,16 +111,16 @@ def test_rules_stand_in_the_marks(tmp_path):
 
 def test_what_is_given_stays_and_is_not_marked(tmp_path):
     path = tmp_path / "my.toml"
-    path.write_text(new_scene("my", "NSK-7010C", speed_rpm=9000.0, preload_N=77.0), "utf-8")
+    path.write_text(new_scene("my", "NSK-7010C", kind="hybrid", speed_rpm=9000.0, preload_N=77.0), "utf-8")
     found = {one.key: one for one in origins.origins(path)}
     for key, value in (("operation.speed_rpm", 9000.0), ("mounting.preload_N", 77.0)):
         assert found[key].value == value and not found[key].assumed
     # at a given speed the preload follows it: makers' light class suffices at a low one
-    slow = read_scene_text(new_scene("my", "NSK-7010C", speed_rpm=6000.0))
+    slow = read_scene_text(new_scene("my", "NSK-7010C", kind="hybrid", speed_rpm=6000.0))
     assert slow.operation.speed_rpm == 6000.0 and slow.mounting.preload_N == 150.0
     with pytest.raises(SceneError, match="preload_N = 77 cannot be given with preload_class: give one of"):
-        new_scene("my", "NSK-7010C", preload_N=77.0, preload_class="heavy")
-    heavy = read_scene_text(new_scene("my", "NSK-7010C", preload_class="heavy"))
+        new_scene("my", "NSK-7010C", kind="hybrid", preload_N=77.0, preload_class="heavy")
+    heavy = read_scene_text(new_scene("my", "NSK-7010C", kind="hybrid", preload_class="heavy"))
     assert heavy.mounting.preload_N == sizes()["NSK-7010C"].preload["heavy"].force
     assert heavy.operation.speed_rpm == 13_500.0
 

@@ -2,9 +2,7 @@
 
 import json
 import math
-import sys
 
-import numpy as np
 import pytest
 
 from fmu_bearing.design.heat import Heat, heat_in_all, heat_table
@@ -112,60 +110,3 @@ def test_info_prints_it_beside_the_torque(file, capsys):
     assert [one["heat_W"]["rolling"] for one in data["bearings"]] == pytest.approx(
         [one.heat.rolling for one in found.bearings]
     )
-
-
-# --- the thermal partner -----------------------------------------------------------------------------
-
-
-@pytest.fixture
-def partner(monkeypatch):
-    monkeypatch.syspath_prepend(str(EXAMPLES.parent / "spindle_cosimulation"))
-    for name in ("thermal", "steady"):
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    import steady
-    import thermal
-
-    return steady, thermal
-
-
-def test_the_network_at_rest_is_that_of_the_thermal_fmu(partner):
-    """Its own matrix without capacities gives the same rises, and as much leaves as arises."""
-    steady, thermal = partner
-    heat = operating_point(SINGLE).bearings[0].heat
-    found = steady.network([heat])
-    fmu = thermal.SpindleThermal(instance_name="it", resources="")
-    matrix = np.array(fmu._matrix(1.0, [0.0] * len(thermal.LUMPS)))
-    rises = np.array([found[0 if kind == "housing" else 1, kind] for _, kind in thermal.LUMPS])
-    rises += steady.KELVIN - thermal.AMBIENT
-    given = [getattr(heat, kind) if kind in thermal.SOURCES else 0.0 for _, kind in thermal.LUMPS]
-    assert matrix @ rises == pytest.approx(given, abs=1e-9)
-
-
-def test_a_set_gives_off_what_its_bearings_make(partner):
-    steady, thermal = partner
-    found = steady.network([one.heat for one in operating_point(SET).bearings])
-    ambient = thermal.AMBIENT - steady.KELVIN
-    links = thermal.CONDUCTANCES | thermal.SHAFT_CONDUCTANCES
-    given_off = sum(
-        links[kind, "ambient"] * (value - ambient)
-        for (_, kind), value in found.items()
-        if kind in ("oil", "housing", "shaft")
-    )
-    assert given_off == pytest.approx(operating_point(SET).heat.total, rel=1e-9)
-
-
-def test_steady_temperatures_are_those_of_their_own_heat(partner):
-    steady, _ = partner
-    found, point = steady.steady(read_scene(SINGLE))
-    again = steady.network([one.heat for one in point.bearings])
-    assert again == pytest.approx(found, abs=0.02)
-    assert point.scene.operation.oil_temperature_degC == pytest.approx(found[1, "oil"])
-
-
-def test_a_housing_without_cooling_has_no_steady_temperature(partner, monkeypatch):
-    steady, thermal = partner
-    monkeypatch.setitem(thermal.CONDUCTANCES, ("housing", "ambient"), 1e-3)
-    monkeypatch.setitem(thermal.CONDUCTANCES, ("oil", "ambient"), 1e-3)
-    monkeypatch.setitem(thermal.CONDUCTANCES, ("inner_ring", "ambient"), 1e-3)
-    with pytest.raises(ValueError, match=r"no steady temperature: .* reaches \d+ degC"):
-        steady.steady(read_scene(SINGLE))

@@ -43,7 +43,12 @@ def test_what_has_no_standard_has_no_rating(scene, hybrid):
     assert scene("7009C-full-ceramic").materials.kind == "full ceramic"
     assert hybrid.materials.kind == "hybrid"
     steep = sized(hybrid, contact_angle_deg=40.0)
-    assert rate.rating(steep, 500.0, 0.0, 1.0).life is None and rate.speed_limit(steep) is None
+    found = rate.rating(steep, 500.0, 0.0, 1.0)
+    assert rate.speed_limit(steep) is None and found.factors == (1.14, 0.35, 0.57, 0.26)
+    # an axial load alone: P = 0.57 Fa, P0 = 0.26 Fa
+    assert (found.equivalent, found.static_load) == pytest.approx((285.0, 130.0))
+    flat = rate.rating(sized(hybrid, contact_angle_deg=12.0), 500.0, 0.0, 1.0)
+    assert flat.life is None and flat.static_load is None and flat.factors is None
 
 
 def test_kinds_of_the_catalogue(hybrid):

@@ -44,7 +44,8 @@ def test_a_pushed_set_of_one_is_the_single_bearing():
     for ring in ("inner", "outer"):
         # one solves for the force within 1e-8 of it, the other for the place
         assert one.contacts[ring] == pytest.approx(other.contacts[ring], rel=1e-6)
-    assert one.rating == pytest.approx(other.rating, rel=1e-6)
+    assert one.rating.factors == pytest.approx(other.rating.factors, rel=1e-6)
+    assert one.rating[:-1] == pytest.approx(other.rating[:-1], rel=1e-6)
     ours, theirs = by_key(set_of_one, 1), by_key(alone, 1)
     assert ours.keys() == theirs.keys()
     # its name of the load differs, and no preload loads it
@@ -136,3 +137,16 @@ def test_a_bearing_without_load_has_figures_missing_and_all_are_told(tmp_path):
     assert {row[0].key for row in rows} == by_key(found, 1).keys()
     made = make(given, tmp_path / "free.html")
     assert made.sections["verdicts"] == "" and any("2194 N" in line for line in made.warnings)
+
+
+def test_what_holds_for_several_bearings_is_said_once():
+    """A pair under 3 kN of preload: its cautions name both bearings, and the figures of each."""
+    found = operating_point(pushed(0.0, preload=3000.0))
+    lines = cautions(found)
+    both = [line for line in lines if line.startswith("bearings 1 and 2: ")]
+    kinds = {line.partition(": ")[2].split()[0] for line in both}
+    assert {"contact", "static", "preload"} <= kinds
+    assert not any(line.startswith(("bearing 1: ", "bearing 2: ")) for line in lines)
+    (pressure,) = (line for line in both if "contact pressure" in line)
+    first, second = (one for one in verdicts(found) if one.key == "pressure")
+    assert first.text in pressure and f"(bearing 2: {second.text})" in pressure or first.text == second.text

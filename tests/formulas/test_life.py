@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from fmu_bearing.formulas import iso76, iso281, iso16281, makers
+from fmu_bearing.scene.nsk import sizes
 
 NOMINAL = math.radians(15.0)
 
@@ -58,14 +59,37 @@ def test_equivalent_load_of_15_deg_at_all_rows_of_the_standards_table(relative, 
 
 
 def test_equivalent_load_between_and_beyond_the_rows():
-    """Linear between two rows, the last one beyond them; 25 deg: e 0.68, X 0.41, Y 0.87; no other angle."""
+    """Linear between two rows, the last one beyond them; steeper angles have one row each."""
     assert iso281.equivalent_load(15.0, 2.855, 1000.0, 0.0) == pytest.approx(1070.0)  # of 1.12 and 1.02
     assert iso281.equivalent_load(15.0, 2.855, 524.0, 1000.0) == 1000.0  # e = 0.525
     assert iso281.equivalent_load(15.0, 0.01, 1000.0, 0.0) == pytest.approx(1470.0)
     assert iso281.equivalent_load(15.0, 20.0, 1000.0, 0.0) == pytest.approx(1000.0)
     assert iso281.equivalent_load(25.0, 1.0, 679.0, 1000.0) == 1000.0
     assert iso281.equivalent_load(25.0, 1.0, 681.0, 1000.0) == pytest.approx(410.0 + 0.87 * 681.0)
-    assert iso281.equivalent_load(40.0, 1.0, 681.0, 1000.0) is None
+    # 40 deg: NSK (BEA), FGFA and LYC print e 1.14, X 0.35, Y 0.57
+    assert iso281.equivalent_load(40.0, 1.0, 1139.0, 1000.0) == 1000.0
+    assert iso281.equivalent_load(40.0, 1.0, 2000.0, 1000.0) == pytest.approx(350.0 + 0.57 * 2000.0)
+    # 30 deg: LYC's double row has 1.625 times 0.39 and 0.76: 0.63 and 1.24, with e 0.80
+    assert iso281.equivalent_load(30.0, 1.0, 2000.0, 1000.0) == pytest.approx(390.0 + 0.76 * 2000.0)
+    two = [1.625 * value for value in iso281.factors(30.0, 1.0)[1:]]
+    assert two == pytest.approx([0.63, 1.24], abs=0.005)  # the last digit printed
+    assert iso281.equivalent_load(12.0, 1.0, 681.0, 1000.0) is None
+
+
+@pytest.mark.parametrize("angle", [20.0, 25.0, 30.0, 35.0, 40.0, 45.0])
+def test_factors_by_the_formulas_of_the_standard(angle):
+    """ISO/TR 1281-1, 7.2.1: X = 1 - 0.4 * 1.25 / eta, eta = 1 - sin(alpha) / 2.75; P is one at e."""
+    e, x, y = iso281.factors(angle, 1.0)
+    eta = 1.0 - math.sin(math.radians(angle)) / 2.75
+    assert x == pytest.approx(1.0 - 0.5 / eta, abs=0.005)  # two digits are printed
+    # half of the last digits of X, Y and e
+    assert x + y * e == pytest.approx(1.0, abs=0.005 + 0.005 * (y + e))
+
+
+def test_factors_between_the_angles():
+    assert iso281.factors(27.5, 1.0) == pytest.approx((0.74, 0.40, 0.815))
+    assert iso281.factors(17.5, 2.14) == pytest.approx((0.535, 0.435, 1.06))
+    assert iso281.factors(13.0, 1.0) is None is iso281.factors(47.0, 1.0)
 
 
 @pytest.mark.parametrize("clean", RANGES)
@@ -167,11 +191,11 @@ def test_life_modification_grows_with_film_and_cleanliness_within_its_bounds():
     assert factor(1.0, "extreme", pitch=400.0) == pytest.approx(factor(1.0, "extreme", static=5000.0))
 
 
-@pytest.mark.parametrize(("angle", "y"), [(15.0, 0.46), (25.0, 0.38)])
+@pytest.mark.parametrize(("angle", "y"), [(15.0, 0.46), (25.0, 0.38), (30.0, 0.33), (40.0, 0.26)])
 def test_static_equivalent_load(angle, y):
     assert iso76.static_load(angle, 1000.0, 100.0) == 50.0 + y * 1000.0
     assert iso76.static_load(angle, 10.0, 100.0) == 100.0
-    assert iso76.static_load(40.0, 10.0, 100.0) is None
+    assert iso76.static_load(12.0, 10.0, 100.0) is None
 
 
 def test_makers_rules():
@@ -181,3 +205,11 @@ def test_makers_rules():
     # GMN: 80, 70 and 50 % of the single bearing's speed
     assert makers.RIGID_SPEED == {"extra light": 0.8, "light": 0.8, "medium": 0.7, "heavy": 0.5}
     assert makers.least_preload(10, math.radians(45.0), -2.0) == pytest.approx(22.0)
+
+
+def test_grease_has_a_limit_of_its_own():
+    """NSK prints both for each of 60 sizes; limits by angle agree with its grease speeds within 1 %."""
+    for size in sizes().values():
+        limit = makers.speed_limit(size.angle, False, grease=True)
+        assert size.grease_speed * size.pitch == pytest.approx(limit, rel=0.01)
+        assert limit < makers.speed_limit(size.angle, False)

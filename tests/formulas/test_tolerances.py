@@ -147,3 +147,13 @@ def test_probable_values_are_three_deviations_of_drawn_parts(housing):
 def test_what_no_table_has_is_refused_with_a_way_out(call, words):
     with pytest.raises(ToleranceError, match=words):
         call()
+
+
+@pytest.mark.parametrize(
+    ("shaft", "most", "least"), [("k5", 22.0, 5.0), ("k6", 26.0, 6.0), ("m5", 29.0, 12.0), ("m6", 33.0, 13.0)]
+)
+def test_probable_interference_of_a_makers_table(shaft, most, least):
+    """SKF prints whole um; these are the figures of bores over 30 to 50 mm, class Normal (-12 to 0 um)."""
+    limits = shaft_limits(40, shaft)
+    found = [interference(limits, (-12.0, 0.0), take) for take in ("probable max", "probable min")]
+    assert found == pytest.approx([most, least], abs=0.5)

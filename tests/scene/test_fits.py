@@ -390,7 +390,7 @@ def test_a_grade_without_tolerances_asks_for_a_class(grade):
 
 def large(bore, outside):
     """A bearing of any size from its dimensions."""
-    from fmu_bearing.scene.template import Dimensions
+    from fmu_bearing.scene.own_bearing import Dimensions
 
     size = Dimensions(bore=bore, outside=outside, width=0.25 * (outside - bore) + 4.0)
     return new_scene("a", size, kind="steel", sound=False, preload_N=150.0)

@@ -98,7 +98,6 @@ def test_grade_survives_the_way_through_toml_as_values():
             "imperfections.grade = 4 is not in the catalogue; did you mean 'P4'? known: P0, P6",
         ),
         ('seed = 1\ngrad = "P4"', "imperfections.grad is not a key of a scene; did you mean 'grade'?"),
-        ('grade = "P4"', "imperfections.seed is missing, for example seed = 1"),
         ("seed = 1", "unbalance_um is missing, for example unbalance_um = 0.5 (Eccentricity of the rotating"),
         ("seed = 1", 'or take all from grade = "P4"'),
     ],
@@ -106,6 +105,12 @@ def test_grade_survives_the_way_through_toml_as_values():
 def test_grades_that_are_none(lines, expected):
     found = refused(lines)
     assert any(expected in line for line in found), found
+
+
+def test_a_grade_alone_has_the_first_seed(scene):
+    given = scene("7003C-spindle").replace({"imperfections": None})
+    alone = given.replace({"imperfections": {"grade": "P4"}})
+    assert alone == given.replace({"imperfections": {"grade": "P4", "seed": 1}})
 
 
 # --- harmonics -----------------------------------------------------------------------------------

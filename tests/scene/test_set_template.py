@@ -5,13 +5,15 @@ import pytest
 from fmu_bearing.scene import SceneError, read_scene_text
 from fmu_bearing.scene.entries import entries, entry_text, using
 from fmu_bearing.scene.origins import origins
+from fmu_bearing.scene.own_bearing import Dimensions
 from fmu_bearing.scene.spindle import DIRECTIONS
-from fmu_bearing.scene.template import Dimensions, new_scene
+from fmu_bearing.scene.template import new_scene
 
 WIDTH, OUTSIDE = 16.0, 80.0  # mm: of the 7010C
 
 
 def made(arrangement, bearing="NSK-7010C", **given):
+    given = {"kind": "hybrid"} | given
     return new_scene("a", bearing, arrangement=arrangement, **given)
 
 

@@ -14,6 +14,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.equations.bearing import BearingLinearised
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.modes.points import given
+from fmu_bearing.progress import keeping
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.member import preload_asked, still_of
@@ -184,6 +185,8 @@ def stiffness(
         For values that are refused.
     EngineError
         Where there is no equilibrium; a ``ValueError``.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
 
     Examples
     --------
@@ -215,13 +218,23 @@ def stiffness(
     points = {(speed, load): _point(scene, fixed, speed, load) for speed in rpm for load in loads}
     filling = [_Filling((len(rpm), len(loads)), hertz, spacing) for _ in scene.bearings()]
     rows: list[tuple[Statics, ...]] = []
-    for i, speed in enumerate(track(list(rpm)) if track else rpm):
-        row: list[Statics] = []
-        for k, load in enumerate(loads):
-            system = _at(points[speed, load], row)
-            for one, bearing in zip(filling, system.bearings, strict=True):
-                one.fill(i, k, bearing)
-        rows.append(tuple(row))
+    with keeping(rows, lambda: _table(scene, fixed, rpm[: len(rows)], loads, hertz, spacing, filling, rows)):
+        for i, speed in enumerate(track(list(rpm)) if track else rpm):
+            row: list[Statics] = []
+            for k, load in enumerate(loads):
+                system = _at(points[speed, load], row)
+                for one, bearing in zip(filling, system.bearings, strict=True):
+                    one.fill(i, k, bearing)
+            rows.append(tuple(row))
+    return _table(scene, fixed, rpm, loads, hertz, spacing, filling, rows)
+
+
+def _table(
+    scene: Scene, fixed: Mapping[str, float], rpm: NDArray[np.float64], loads: NDArray[np.float64],
+    hertz: NDArray[np.float64], spacing: Spacing, filling: "list[_Filling]", rows: list[tuple[Statics, ...]],
+) -> Stiffness:  # fmt: skip
+    """Return the tables of the first speeds, of which there are as many as ``rows``."""
+    n = len(rpm)
     home = scene.operation.speed_rpm
     for k, load in enumerate(loads):
         there = np.flatnonzero(rpm == home)
@@ -231,8 +244,9 @@ def stiffness(
     on_shaft = scene.spindle is not None
     tables = tuple(
         BearingStiffness(
-            bearing.scene.with_rigid_rings() if on_shaft else scene, rpm, loads, hertz, one.z.real,
-            one.z.imag / one.w[:, None, None], one.static, one.own, one.orbit, one.spread, one.steady,
+            bearing.scene.with_rigid_rings() if on_shaft else scene, rpm, loads, hertz, one.z.real[:n],
+            one.z.imag[:n] / one.w[:, None, None], one.static[:n], one.own, one.orbit[:n], one.spread[:n],
+            one.steady[:n],
             spacing, bearing.number, bearing.sign, on_shaft,
         )
         for bearing, one in zip(scene.bearings(), filling, strict=True)

@@ -7,7 +7,6 @@ the same bytes.
 
 import hashlib
 import math
-import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 from uuid import UUID
@@ -22,6 +21,7 @@ from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.parameters import RADIATORS
 from fmu_bearing.interface.set_inputs import led_inputs
+from fmu_bearing.scene.designation import ascii_word
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -113,7 +113,7 @@ def identifier(scene: "Scene") -> str:
     That of a set begins with ``Spindle``.
     """
     what = "Bearing" if scene.spindle is None else "Spindle"
-    return what + re.sub(r"\W", "_", scene.bearing.designation, flags=re.ASCII)
+    return what + ascii_word(scene.bearing.designation)
 
 
 def fmi_type(variable: Variable) -> str:

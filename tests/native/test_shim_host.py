@@ -1,11 +1,20 @@
 """The library in a host without Python: what it needs, what it shows, what it answers."""
 
+import _ctypes
+import ctypes
 import os
 import re
 import shutil
 import subprocess
+import sys
+from pathlib import Path
 
 import pytest
+
+from fmu_bearing.compiled.errors import BuildError
+from fmu_bearing.compiled.platforms import host as machine
+from fmu_bearing.fmi.native.link import compiler_for, link
+from tests.native_builds import no_native_fmu
 
 from . import toy
 
@@ -40,6 +49,24 @@ def test_library_needs_the_c_library_only(library):
     ran = subprocess.run(["ldd", str(library)], capture_output=True, text=True, check=True, timeout=600)
     names = {line.split()[0].split("/")[-1].split(".")[0] for line in ran.stdout.splitlines()}
     assert names <= {"linux-vdso", "libm", "libc", "ld-linux-x86-64", "ld-linux-aarch64"}
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
+@pytest.mark.parametrize("prefer", ["cc", pytest.param("zig", marks=pytest.mark.heavy)])
+def test_library_stays_loaded(tmp_path, prefer):
+    """ecos closes the library of an FMU that is there twice, and calls what it opened before."""
+    source, made = tmp_path / "one.c", tmp_path / "made.so"
+    source.write_text('__attribute__((visibility("default"))) int one(void) { return 1; }')
+    try:
+        compiler = compiler_for(machine(), prefer)
+    except BuildError as problem:
+        no_native_fmu(problem)
+    made.write_bytes(link(compiler, machine(), [source], [], "0"))
+    library = ctypes.CDLL(str(made))
+    one = library.one
+    _ctypes.dlclose(library._handle)
+    assert str(made) in Path("/proc/self/maps").read_text()  # else the call would be a crash
+    assert one() == 1
 
 
 def run_host(host, library, resources, *commands):

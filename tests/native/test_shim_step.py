@@ -196,6 +196,22 @@ def test_failed_step_keeps_rates(master):
     assert one.everything() == other.everything()
 
 
+@pytest.mark.parametrize(
+    ("start", "size", "status"),
+    [
+        (1e15, 1e-3, ERROR),  # doubles there are 0.125 s apart: time would not move
+        (-1e15, 0.07, ERROR),  # it would move by 0.125 s
+        (1e15, 1.0, OK),
+        (1.7e9, 1e-5, OK),  # a clock of today: 2.4e-7 s apart
+    ],
+)
+def test_a_step_that_the_time_cannot_hold_is_refused(master, start, size, status):
+    one = master()
+    assert one.setup(start) == one.enter() == one.exit() == OK
+    assert one.step(start, size) == status
+    assert ("begin the experiment at a start time nearer to 0 s" in one.messages) == (status == ERROR)
+
+
 def test_rate_set_in_initialisation_holds_for_the_first_step(master):
     one = master()
     assert one.setup() == one.enter() == OK

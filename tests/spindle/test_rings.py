@@ -8,7 +8,6 @@ from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SP, P, S, U, Z
 from fmu_bearing.engine.status import OK, OTHER_FIDELITY
-from fmu_bearing.prepare.model import pack
 from tests.conftest import GATES, ROOT
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
@@ -308,8 +307,3 @@ def test_other_sets_change_between_full_and_rings():
     assert run.try_init() == OK
     assert run.step(1e-3) == OK
     assert np.abs(velocities(run)).max() < 1e-9
-
-
-def test_a_single_bearing_carries_nothing_beside_its_rings():
-    given = read_scene(GATES / "7003C-bare.toml").model_copy(update={"sound": None})
-    assert np.all(pack(given, np.empty(0))[P.OWN_SHARE : P.OWN_SHARE + SP.DRIVEN] == 1.0)

@@ -8,7 +8,6 @@ import hashlib
 import importlib.util
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -16,6 +15,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
+from fmu_bearing import children
 from fmu_bearing.compiled import BuildError, disk_cache
 from fmu_bearing.compiled.make import folder, objects, prebuilt
 from fmu_bearing.compiled.platforms import Platform, host
@@ -41,6 +41,10 @@ __all__ = [
 LINKED = ("init", "step")
 #: Strict C; contraction of a * b + c would change bits between processors.
 FLAGS = ("-std=c99", "-O2", "-Wall", "-Wextra", "-ffp-contract=off", "-fvisibility=hidden")
+
+
+#: Some hosts close the library between two instances and call what they opened before.
+_KEPT = ("-Wl,-z,nodelete",)
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,7 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
         if command:
             return Compiler((command, *_own_flags()), _version(command))
     if prefer != "cc" and has_zig:
-        zig = (sys.executable, "-m", "ziglang", "cc", "-target", platform.zig, "-s")
+        zig = children.python("ziglang", "cc", "-target", platform.zig, "-s")
         return Compiler((*zig, *_zig_flags(platform)), f"zig {version('ziglang')}")
     if own:
         raise BuildError(
@@ -110,18 +114,18 @@ def compiler_for(platform: Platform, prefer: str = "auto") -> Compiler:
 
 def _own_flags() -> tuple[str, ...]:
     if sys.platform.startswith("linux"):
-        return ("-fPIC", "-s", "-Wl,--build-id=none", "-Wl,--no-undefined", "-Wl,-z,noexecstack")
+        return ("-fPIC", "-s", "-Wl,--build-id=none", "-Wl,--no-undefined", "-Wl,-z,noexecstack", *_KEPT)
     return ()
 
 
 def _zig_flags(platform: Platform) -> tuple[str, ...]:
     if platform.suffix == ".dylib":  # it would be named after the file, which lies in a folder of the moment
         return ("-Wl,-install_name,@rpath/bearing.dylib",)
-    return ()
+    return _KEPT if platform.suffix == ".so" else ()
 
 
 def _version(command: str) -> str:
-    ran = subprocess.run([command, "--version"], capture_output=True, text=True)
+    ran = children.run([command, "--version"], capture_output=True, text=True)
     return ran.stdout.splitlines()[0] if ran.returncode == 0 and ran.stdout else command
 
 
@@ -222,7 +226,7 @@ def link(
             *compiler.command, *FLAGS, *defines, f"-I{headers()}", "-shared",
             *map(str, sources), *map(str, files), "-o", str(made), "-lm",
         ]  # fmt: skip
-        ran = subprocess.run(command, capture_output=True, text=True)
+        ran = children.run(command, capture_output=True, text=True)
         if ran.returncode != 0:
             raise BuildError(f"{platform.name}: {compiler.name} failed: {ran.stderr.strip()[-2000:]}")
         return made.read_bytes()

@@ -42,6 +42,18 @@ static fmi2Status wrong_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
+/* Refuse a step that the time cannot hold: so far from 0 the next double is further away than the step ends. */
+static fmi2Status coarse_time(Instance *it, double time, double size)
+{
+    Text text = {0};
+    add_step(&text, time, size);
+    text_add(&text, "from ", NULL);
+    text_add_number(&text, it->time, 0);
+    text_add(&text, " s on a double holds no such step, and time would not move by it: begin the experiment at a "
+             "start time nearer to 0 s, or take longer steps", NULL);
+    return instance_fail(it, &text);
+}
+
 /* Refuse a step while an input has had no value in its range. */
 static fmi2Status still_waiting(Instance *it, double time, double size)
 {
@@ -199,6 +211,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real size, fmi2Boolean
     if (!(size > 0.0 && size <= DBL_MAX)) return no_step(it, time, size);
     /* masters count time in different ways: allow what adding up steps may lose */
     if (!(fabs(time - it->time) <= 1e-9 + 1e-12 * fabs(it->time))) return wrong_time(it, time, size);
+    if (!(fabs(it->time + size - it->time - size) <= 0.5 * size)) return coarse_time(it, time, size);
     if (it->n_waiting) return still_waiting(it, time, size);
     host = float_mode_take();
     status = it->rated ? ramped(it, time, size) : advance(it, time, size, it->u);

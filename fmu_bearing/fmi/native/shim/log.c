@@ -13,13 +13,14 @@ static int category_of(const Model *model, fmi2Status status)
 }
 
 /* Hand a message over as a format without arguments, every % doubled: hosts that cannot read arguments of
- * variable number, such as those in Python, would see no more than "%s" otherwise. */
+ * variable number, such as those in Python, would see no more than "%s" otherwise. Every # is doubled, too: a
+ * single one begins a reference to a variable (FMI 2.0, section 2.1.5). */
 static void send(const Log *log, fmi2Status status, const char *category, const char *message)
 {
     Text format = {0};
     for (; *message; message++) {
         text_add_bytes(&format, message, 1);
-        if (*message == '%') text_add_bytes(&format, message, 1);
+        if (*message == '%' || *message == '#') text_add_bytes(&format, message, 1);
     }
     log->logger(log->environment, log->name, status, category, text_string(&format));
     text_free(&format);

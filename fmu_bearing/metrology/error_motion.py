@@ -13,6 +13,7 @@ from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, Part
 from fmu_bearing.metrology.nose import FEWEST, MOST, followed
 from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.modal.modes.points import given
+from fmu_bearing.progress import keeping
 from fmu_bearing.results.picture_parts import save
 from fmu_bearing.results.table import number as digits, write_csv
 from fmu_bearing.run.choose import resolve
@@ -228,6 +229,8 @@ def error_motion(
         For a speed, place or number that is refused.
     EngineError
         Where there is no equilibrium, or a step is refused; a ``ValueError``.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
 
     Notes
     -----
@@ -240,7 +243,7 @@ def error_motion(
     >>> from fmu_bearing import error_motion, with_fidelity
     >>> found = error_motion(with_fidelity("examples/scenes/7003C-bare.toml", model="rings"), 2000.0)
     >>> [f"{one.direction} {1e6 * one.asynchronous:.2f} um" for one in found.speeds[0].values[:3]]
-    ['fixed y 0.18 um', 'fixed z 0.19 um', 'rotating 0.20 um']
+    ['fixed y 0.18 um', 'fixed z 0.20 um', 'rotating 0.20 um']
     >>> found.speeds[0].lines[0].origin.name, found.speeds[0].lines[0].origin.source
     ('2 f_b - f_c', 'ball form')
     """
@@ -259,16 +262,16 @@ def error_motion(
     resolved = resolve(found)[0]
     from_ring = found.spindle is None and against != "ground"
     scenes = {speed: resolved.replace({"operation.speed_rpm": speed}) for speed in rpm}
-    return ErrorMotion(
-        found,
-        tuple(
-            AtSpeed(followed(scenes[speed], place, count, from_ring, fixed))
-            for speed in (track(rpm) if track else rpm)
-        ),
-        place,
-        "outer ring" if from_ring else "ground",
-        next(filter(None, (doubt(one, fixed) for one in scenes.values())), ""),
-    )
+    done: list[AtSpeed] = []
+
+    def study() -> ErrorMotion:
+        doubted = next(filter(None, (doubt(one, fixed) for one in scenes.values())), "")
+        return ErrorMotion(found, tuple(done), place, "outer ring" if from_ring else "ground", doubted)
+
+    with keeping(done, study):
+        for speed in track(rpm) if track else rpm:
+            done.append(AtSpeed(followed(scenes[speed], place, count, from_ring, fixed)))
+    return study()
 
 
 def _speeds(scene: Scene, speeds: Sequence[float] | float | None) -> list[float]:

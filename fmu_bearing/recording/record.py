@@ -21,8 +21,10 @@ from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.prepare.sound import from_lines
 from fmu_bearing.progress import work
+from fmu_bearing.recording.channels.turning import WHIRL
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.rates import RatesWatch
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.sound import Microphone, Sound
@@ -82,8 +84,8 @@ def record(
         In place of the scene's ``sound.radiation_model`` (``compact`` without sound). Each radiation model of
         the papers needs its own channels and must be chosen here; all others share one set of channels.
     outputs : iterable of str
-        Variables kept at the communication points, besides ``solver.restarts``; of a set
-        ``contact.inner.load_mean`` and so on for each of its bearings.
+        Variables kept at the communication points, besides ``solver.restarts``, the cage's whirl and the
+        rates of the balls; of a set ``contact.inner.load_mean`` and so on for each of its bearings.
     microphones : bool
         Compute the scene's own microphones during the run, so that variables such as ``mic[1].leq`` can be
         kept. Without them the engine computes a single far microphone and runs faster.
@@ -94,7 +96,8 @@ def record(
         values of the state that are not variables.
     warn : bool
         Warn (``UserWarning``) where figures of fidelity rings or response are in doubt: a ring that whirls by
-        itself, weakly damped modes. It takes 0.1 s for each scene, once per process, at constant inputs.
+        itself, rings that depart from full in a short run, weakly damped modes. It takes 0.3 to 1 s for each
+        scene, of sets up to 5 s, once per process, at constant inputs.
 
     Returns
     -------
@@ -111,7 +114,7 @@ def record(
     >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
     >>> recording = record(scene, 0.05, radiation_model="compact")
     >>> [round(float(level)) for level in recording.levels(weighting="A")]  # dB(A) at the scene's microphones
-    [62, 59, 61, 68]
+    [62, 59, 61, 69]
     """
     scene = source.scene if isinstance(source, Model) else scene_of(source)
     require(scene, "recording")
@@ -141,12 +144,14 @@ def record(
     bearing.initialise()
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
-    names = variables_of(scene, dict.fromkeys((*outputs, RESTARTS)))
+    whirl = () if scene.bearing.cage is None else WHIRL
+    names = variables_of(scene, dict.fromkeys((*outputs, RESTARTS, *whirl)))
     kept = _Readings(bearing, names, first + size + TAIL, watch)
     _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
     return Recording(
         scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),
-        {name: np.array(values) for name, values in kept.outputs.items()}, kept.rows,
+        {name: np.array(values) for name, values in kept.outputs.items()} | kept.rates.outputs(scene),
+        kept.rows,
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
         harmonics=kept.histories[0].harmonics,
     )  # fmt: skip
@@ -247,6 +252,7 @@ class _Readings:
     ) -> None:
         self.bearing = bearing
         self.watch = watch
+        self.rates = RatesWatch()
         self.histories = [_History(bearing.p[at_p], at_s) for at_p, at_s in parts_of(bearing.p)]
         self.depth = min(one.depth for one in self.histories)
         self.rows = np.zeros((rows, sum(len(one.lanes) for one in self.histories)))
@@ -265,6 +271,7 @@ class _Readings:
         self.speed.append(float(self.bearing.s[S.SPEED]))
         for name, values in self.outputs.items():
             values.append(self.bearing.get(name))
+        self.rates(self.bearing)
         if self.watch is not None:
             self.watch(self.bearing)
         count = self.histories[0].count(self.bearing.s)

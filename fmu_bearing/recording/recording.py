@@ -17,7 +17,7 @@ from fmu_bearing.cautions import RESTARTS
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, absent, instead, why
-from fmu_bearing.files import read_arrays
+from fmu_bearing.files import naming, read_arrays
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure
@@ -152,10 +152,8 @@ class Recording(ChannelHistory):
 
     def within(self) -> dict[str, NDArray[np.float64]]:
         """Speed and variables at the communication points of the recording, its start left out."""
-        kept = self.output_time >= self.start - 1e-9
-        kept |= ~kept.any()  # pressures of an FMU come late: a short run may have no later point
-        columns = {"shaft_speed": self.speed_points} | self.outputs
-        return {name: values[kept] for name, values in columns.items()}
+        speed, outputs = self._kept()
+        return {"shaft_speed": speed} | outputs
 
     def spectrum(
         self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None
@@ -278,7 +276,7 @@ class Recording(ChannelHistory):
             "harmonics": self.harmonics,
         }
         arrays: dict[str, Any] = {f"output:{name}": values for name, values in self.outputs.items()}
-        with pathlib.Path(path).open("wb") as file:
+        with naming(path), pathlib.Path(path).open("wb") as file:
             np.savez(
                 file, head=np.array(json.dumps(head)), output_time=self.output_time,
                 speed_points=self.speed_points, history=self.history, recorded=self.recorded, **arrays,
@@ -313,7 +311,7 @@ class Recording(ChannelHistory):
             raise ValueError(f"{path}: {absent(path)}") from None
         except OSError as problem:
             raise ValueError(f"{path}: cannot be read: {why(problem)}") from None
-        except (ValueError, KeyError, TypeError):
+        except Exception:  # of damaged files; they raise what NumPy and JSON come upon
             mistaken = instead(path, RECORDING)
             raise ValueError(
                 f"{path}: {mistaken or 'is not a recording that this version has written, or damaged'}"

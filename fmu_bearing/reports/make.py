@@ -174,7 +174,7 @@ def make(
             "duration": (duration, DURATION), "settle": (settle, SETTLE), "radius": (radius, RADIUS),
             "run_up_time": (run_up_time, RUN_UP), "surface": (surface, None),
         }  # fmt: skip
-        return _of_set(given, path, speed, title, tell, runs)
+        return _of_set(given, path, speed, title, tell, runs, source)
     subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress)
     rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
     with python_warnings.catch_warnings(record=True) as caught:
@@ -263,15 +263,18 @@ def _set_of(source: Source) -> Scene | None:
 
 def _of_set(
     scene: Scene, path: pathlib.Path, speed: float | None, title: str, tell: Tell,
-    runs: dict[str, tuple[object, object]],
+    runs: dict[str, tuple[object, object]], source: Source,
 ) -> Report:  # fmt: skip
     """Write the page about a set; ``runs``: options that need a run, each with its default."""
+    text, whence = "", []
+    if isinstance(source, str | os.PathLike):
+        text, whence = pathlib.Path(source).read_text("utf-8-sig"), origins(pathlib.Path(source))
     for name, (value, default) in runs.items():
         if value != default:
             raise ValueError(f"{name}: {refusal(scene, 'run report')}")
     if speed is not None:
         scene = scene.replace({"operation.speed_rpm": speed / RPM})
-    page = set_page(scene, title, tell)
+    page = set_page(scene, title, tell, whence, text)
     data = page.text.encode("utf-8")
     write_whole(path, data)
     return Report(path, len(data), page.sections, page.figures, page.warnings, None, page.verdict)

@@ -1,7 +1,7 @@
 """The page about a set of bearings on one shaft: its statics, and a short run."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
 from fmu_bearing.design.verdict import Verdict, overall, shown_hours
-from fmu_bearing.design.verdicts import cautions, side_by_side, verdicts
+from fmu_bearing.design.verdicts import cautions, shared_label, side_by_side, verdicts
 from fmu_bearing.engine.layout import SP
 from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
@@ -21,12 +21,14 @@ from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.error_motion import error_motion
 from fmu_bearing.reports.sections.friction import range_table
 from fmu_bearing.reports.sections.seats import seats
+from fmu_bearing.reports.sections.set_conditions import level_range, set_assumptions, set_conditions
 from fmu_bearing.reports.sections.summary import Tile, tile
 from fmu_bearing.reports.sections.verdict_table import overall_of
 from fmu_bearing.reports.sound.set_sound import sound_of_set
 from fmu_bearing.results.table import tenths
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
+from fmu_bearing.scene.origins import Origin
 from fmu_bearing.steady.drawing import pressure_centres
 from fmu_bearing.steady.rest import forces, nose, preloads, started
 from fmu_bearing.steady.statics import Statics
@@ -60,8 +62,10 @@ class SetPage:
     verdict: str
 
 
-def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
+def set_page(scene: Scene, title: str, tell: Tell, whence: Sequence[Origin] = (), text: str = "") -> SetPage:
     """Return the page about a scene's set.
+
+    ``whence``, ``text``: origins of its values and the text of its file, where it has one.
 
     Raises
     ------
@@ -74,6 +78,7 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     warnings = cautions(point, judged)
     plan: tuple[tuple[str, str, Callable[[], list[Block]]], ...] = (
         ("verdicts", "Verdicts", lambda: [_verdicts(judged), _together(judged)]),
+        ("conditions", "Operating point", lambda: [set_conditions(scene)]),
         ("arrangement", "Arrangement", lambda: [_drawing(scene), _bearings(found)]),
         ("balls", "Ball loads", lambda: [_balls(point)]),
         ("heat", "Friction and heat", lambda: [_heat(point), range_table(point.torque_range)]),
@@ -90,10 +95,13 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             sections.append(Section(key, heading, [], str(problem)))
     loudest: list[Tile] = []
     try:
-        sounding, microphones, run = sound_of_set(scene, found, tell)
+        sounding, microphones, run = sound_of_set(scene, tell)
         sections += [*sounding, _error_motion(run, tell)]
         level = float(microphones.levels["A"]["total"][microphones.loudest])
+        sure = level_range(run, microphones, tell)
         label = f"loudest, at {microphones.names[microphones.loudest]}"
+        if sure is not None:
+            label += f"; {sure.low[0]:.0f} to {sure.high[0]:.0f} over {sure.over}"
         loudest.append(tile("laeq_dB", label, level, "dB(A)", ".1f"))
     except (Absent, ValueError) as problem:
         sections.append(Section("levels", "Levels and sources", [], str(problem)))
@@ -101,14 +109,15 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
             f"it is of the run for the sound, and there is none: {problem}; or give the command error-motion"
         )
         sections.append(Section("error-motion", "Error motion", [], why))
+    sections.append(Section("assumptions", "Assumptions", set_assumptions(scene, whence, text)))
     tiles, cards = _tiles(point) + loudest, [_card(point, k) for k in range(len(point.bearings))]
     whole = overall_of(judged, several=True)
     subtitle = (
-        f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
+        f"{len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, {scene.materials.kind}, "
         f"{scene.operation.speed_rpm:,.0f} r/min"
     )
     source = "statics of the set, perfect bearings; sound and error motion by a short run"
-    text = render(
+    page = render(
         title or scene.name, subtitle, source, sections, tiles, [], warnings, kind="Spindle report",
         overall=whole, cards=[_shown(number, card, judged) for number, card in enumerate(cards, start=1)],
     )  # fmt: skip
@@ -116,7 +125,7 @@ def set_page(scene: Scene, title: str, tell: Tell) -> SetPage:
     figures = {one["key"]: one["value"] for one in tiles}
     for number, card in enumerate(cards, start=1):
         figures |= {f"bearing[{number}].{one['key']}": one["value"] for one in card}
-    return SetPage(text, missing, figures, warnings, whole.judgement)
+    return SetPage(page, missing, figures, warnings, whole.judgement)
 
 
 def _error_motion(run: Subject, tell: Tell) -> Section:
@@ -249,7 +258,7 @@ def _balls(point: OperatingPoint) -> Chart:
     """Draw the loads at the inner race round each bearing."""
     figure = look.polar(420, {"title": {"text": "N"}})
     for number, one in enumerate(point.bearings, start=1):
-        loads = one.ball_loads["inner"]
+        loads = one.ball_loads[0]
         angles = 360.0 * np.arange(len(loads)) / len(loads)
         figure.add_scatterpolar(
             r=[*loads, loads[0]], theta=[*angles, 360.0], name=f"bearing {number}", mode="lines+markers",
@@ -364,6 +373,6 @@ def _verdicts(judged: tuple[Verdict, ...]) -> Block:
     for same in side_by_side(judged):
         first = next(one for one in same if one is not None)
         cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
-        rows.append([first.key.replace("_", " "), *cells, first.limit, first.source])
+        rows.append([shared_label(first), *cells, first.limit, first.source])
     columns = ("", *(f"bearing {k + 1}" for k in range(len(rows[0]) - 3)), "limit", "source of the limit")
     return Table("Verdicts on each bearing from its own loads", columns, rows, stacked=True)

@@ -22,7 +22,9 @@ from fmu_bearing.acoustics.analysis.origins import (
     shaft_origins,
 )
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
-from fmu_bearing.scene import Scene, si
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.run.rates import by_cage
+from fmu_bearing.scene import Scene
 from fmu_bearing.vibration_test.reading import Reading, share
 from fmu_bearing.vibration_test.rig import BANDS, BENDING, bands
 
@@ -85,13 +87,7 @@ class VibrationLine:
 
 def frequencies(scene: Scene, found: Reading) -> KinematicFrequencies:
     """Return the kinematic frequencies (Hz) of a test, from the speed at which its balls orbited."""
-    b = si(scene.bearing)
-    shaft = abs(scene.operation.speed_rpm) / 60.0
-    cage = found.orbit * shaft
-    # rolling without sliding: the orbit gives the share of the pitch that the balls' circles take
-    share = 1.0 - 2.0 * found.orbit
-    spin = 0.5 * shaft * b.pitch_diameter / b.ball_diameter * (1.0 - share**2)
-    return KinematicFrequencies(shaft, cage, spin, b.ball_count * (shaft - cage), b.ball_count * cage)
+    return by_cage(scene, scene.operation.speed_rpm * RPM, found.orbit)
 
 
 def waves(scene: Scene, rates: KinematicFrequencies, source: str) -> list[Origin]:

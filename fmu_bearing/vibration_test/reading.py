@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import power_spectral_density
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.run.simulate import simulate
+from fmu_bearing.run.simulate import part_of_study
 from fmu_bearing.scene import Scene
 from fmu_bearing.vibration_test.rig import STEP, bands
 
@@ -74,7 +74,7 @@ def reading(scene: Scene) -> Reading:
     names += [f"outer_ring.flexure.n{order}.{part}" for order in orders for part in ("cosine", "sine")]
     ball = ("ball[1].velocity.y", "ball[1].velocity.z")
     begun = time.process_time()
-    run = simulate(scene, _SETTLE + _LENGTH, step=STEP, outputs=[*names, *ball], progress=False)
+    run = part_of_study(scene, _SETTLE + _LENGTH, step=STEP, outputs=[*names, *ball], progress=False)
     first, count = round(_SETTLE / STEP), round(_LENGTH / STEP)
     if len(run) <= first + count - 1:
         raise ValueError(f"{scene.name}: the run of the vibration test ended early: {run.note}")

@@ -9,7 +9,6 @@ from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import entries
 from fmu_bearing.scene.template import new_scene
 
-_KIND, _GRADE = "hybrid", "P4"  # as new scenes have them
 _SEED = 1
 
 
@@ -21,9 +20,11 @@ def subject(source: SceneSource, kind: str | None = None, grade: str | None = No
     source : Scene, path or str
         A scene, its file (``.toml``), or a bearing of the catalogue by name.
     kind : str, optional
-        Materials of a bearing by name, as `new_scene` has them; default: ``hybrid``.
+        Materials of a bearing by name, as `new_scene` has them; default: by its
+        designation.
     grade : str, optional
-        Tolerance class of the imperfections; default: the scene's own, of a bearing by name P4.
+        Tolerance class of the imperfections; default: the scene's own, of a bearing by name
+        what the designation says, else P4.
 
     Raises
     ------
@@ -31,7 +32,7 @@ def subject(source: SceneSource, kind: str | None = None, grade: str | None = No
         For what is neither a scene nor a bearing, a kind beside a scene, and a scene without imperfections.
     """
     if isinstance(source, str) and not _is_file(source):
-        return _by_name(source, kind or _KIND, grade or _GRADE)
+        return _by_name(source, kind, grade)
     if kind is not None:
         raise SceneError(f"--kind {kind} (kind=) is of a bearing by name: a scene has its own materials")
     scene = scene_of(source)
@@ -58,7 +59,7 @@ def _is_file(source: str) -> bool:
     return Path(source).suffix == ".toml" or os.path.exists(source)
 
 
-def _by_name(name: str, kind: str, grade: str) -> Scene:
+def _by_name(name: str, kind: str | None, grade: str | None) -> Scene:
     known = entries("bearings")
     if name not in known:
         raise SceneError(

@@ -63,9 +63,10 @@ def by_direction(one):
 def test_without_surfaces_nothing_moves_in_rings(bare):
     still = error_motion(bare.replace({"imperfections": None}), revolutions=FEW)
     for values in still.speeds[0].values[:4]:
-        # rounding of displacements of 20 um: 1e-8 nm measured
-        assert values.asynchronous < 1e-6 * NM
-        assert values.synchronous < 1e-6 * NM and values.synchronous_by_line < 1e-6 * NM
+        # The rest of balls and cage is that of the linear operator within 3e-4 nm, and comes in by and by;
+        # waves of the scene are 60 nm.
+        assert values.asynchronous < 1e-3 * NM
+        assert values.synchronous < 1e-3 * NM and values.synchronous_by_line < 1e-3 * NM
     assert any("no imperfections" in line for line in still.remarks())
     assert not any("nearer to a whole order" in line for line in still.remarks())
 

@@ -6,6 +6,7 @@ import pytest
 
 from fmu_bearing import compare
 from fmu_bearing.recording.record import record
+from fmu_bearing.recording.studies import finding
 from fmu_bearing.recording.studies.finding import Finding
 from fmu_bearing.scene.read import with_fidelity
 
@@ -39,7 +40,7 @@ def pair(scene):
     one = with_fidelity(scene("7003C-bare"), model="response")
     return [
         record(each, 0.05, settle=0.03, radiation_model="compact")
-        for each in (one, one.replace({"mounting.preload_N": 200}))
+        for each in (one, one.replace({"mounting.preload_N": 300}))
     ]
 
 
@@ -86,3 +87,19 @@ def test_a_perfect_bearing_and_no_seeds_are_not_judged(both):
     assert "no seeds were requested" in both.finding(seeds=0).reason
     perfect = replace(both.a, scene=both.a.scene.replace({"imperfections": None}))
     assert "A has no imperfections" in replace(both, a=perfect).finding().reason
+
+
+def test_draws_that_go_the_other_way_are_no_judgement(both, monkeypatch):
+    """Two bearings whose cages are loud, of which draws in response know nothing."""
+    sides = [
+        replace(side, fidelity="full", levels={"P1": (0.0, level)})
+        for side, level in ((both.a, 60.0), (both.b, 55.0))
+    ]
+    monkeypatch.setattr(finding, "_estimator", lambda *_: None)
+    monkeypatch.setattr(finding, "_obstacle", lambda *_: "")
+    for drawn, contradicts in ((7.0, True), (-3.0, False)):
+        levels = iter([50.0, 50.0 + drawn] * 2)
+        monkeypatch.setattr(finding, "_level", lambda *_, levels=levels: next(levels))
+        found = finding.judged(*sides, "P1", seeds=2)
+        assert ("full and response contradict each other" in found.reason) == contradicts
+        assert found.drawn == (drawn, drawn) and (found.is_finding is None) == contradicts

@@ -11,7 +11,7 @@ from fmu_bearing.acoustics.analysis.lines import Line, kinematic_lines, nearest_
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.recording.measurements import pictures, tables
 from fmu_bearing.recording.measurements.measure import Round, Sweep
-from fmu_bearing.recording.measurements.sound_analysis import SoundAnalysis
+from fmu_bearing.recording.measurements.sound_analysis import SoundAnalysis, _loudest
 from fmu_bearing.results.levels import SILENCE
 from fmu_bearing.results.picture_parts import OTHERS, coincident, free_heights, series
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
@@ -53,6 +53,9 @@ def test_lines_are_named_without_one_name_on_another():
     assert not any(overlap(a, b) for a, b in itertools.combinations(every, 2))
     assert all(box.x0 >= inside.x0 - 1.0 and box.x1 <= inside.x1 + 1.0 for box in named.values())
     assert len(marks) >= 9  # of 15 frequencies; lines of all are drawn
+    (leaders,) = (one for one in ax.collections if one.get_gid() == "line-leader")
+    begun = {tuple(way.vertices[0]) for way in leaders.get_paths()}
+    assert len(begun) == len(named) and begun <= {(line.frequency, line.level) for line in lines}
 
 
 def test_what_nothing_explains_has_the_nearest_line_and_its_distance():
@@ -144,3 +147,19 @@ def test_silent_sources_are_a_dash():
         FREQUENCY, {}, np.empty(0), np.empty((1, 0)), {}, [], ((0.0, 0.0, 0.0),),
     )  # fmt: skip
     assert found.rows()[1] == [["P", "60.0", "55.0", "-", "31.2"]]
+
+
+def test_planes_have_one_scale_and_many_microphones_have_room():
+    low, high = (Round(np.linspace(0.0, 6.0, 12), np.full(12, v), Sized(v), "A") for v in (40.0, 60.0))
+    axes = pictures.planes_picture({"YZ": low, "XY": high}).axes
+    assert len({ax.get_ylim() for ax in axes}) == 1 and axes[0].get_ylim() == (35.0, 61.0)
+    names = tuple(f"m{k}" for k in range(60))
+    levels = np.column_stack([np.arange(60.0), np.arange(60.0)])
+    found = SoundAnalysis(
+        names, levels, {}, FREQUENCY, {}, np.array([500.0]), np.empty((60, 1)), {}, [],
+        ((0.0, 0.0, 0.0),) * 60,
+    )  # fmt: skip
+    shown, title = _loudest(found, {name: np.array([50.0]) for name in names})
+    assert list(shown) == [f"m{k}" for k in range(52, 60)] and title == "the 8 loudest of 60 microphones"
+    few = {name: np.array([50.0]) for name in names[:8]}
+    assert _loudest(found, few) == (few, "")

@@ -83,7 +83,7 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
     assert f"the {part.replace('_', ' ')} is loudest (" in summary and "dB(A) alone), then the" in summary
     assert "Its strongest line is at" in summary and "ka = 0.5" in summary
     assert "None" not in conditions and "waviness orders from 2 to " in conditions
-    assert "5 strips per contact" in conditions and "% from rolling." in conditions
+    assert "5 strips per contact" in conditions and "% from the balls." in conditions
     assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
 
 

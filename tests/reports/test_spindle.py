@@ -5,6 +5,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import operating_point, statics, with_fidelity
+from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.torque_range import CAPTION
@@ -14,13 +15,16 @@ from fmu_bearing.metrology.at_speed import AtSpeed
 from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.metrology.nose import resampled
 from fmu_bearing.progress import silent
+from fmu_bearing.recording.record import record
 from fmu_bearing.recording.recording import Recording
+from fmu_bearing.recording.studies.spread import spread
 from fmu_bearing.reports import make
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.set_page import _warmth
 from fmu_bearing.reports.sound import set_sound
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.words import materials_words
 from tests.conftest import ROOT
 from tests.reports.reading import Page
 from tests.spindle.sets import scene, tables
@@ -32,6 +36,7 @@ def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
     made = make(PAIR, tmp_path / "pair.html")
     assert list(made.sections) == [
         "verdicts",
+        "conditions",
         "arrangement",
         "balls",
         "heat",
@@ -39,6 +44,7 @@ def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
         "warmth",
         "levels",
         "error-motion",
+        "assumptions",
     ]
     # it has no microphones, and so no run
     assert [key for key, why in made.sections.items() if why] == ["levels", "error-motion"]
@@ -106,25 +112,46 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
     })  # fmt: skip
     made = make(given, tmp_path / "set.html")
     page = Page(made.path)
-    assert [key for key, why in made.sections.items() if not why][-3:] == ["levels", "spectra", "audio"]
+    assert [key for key, why in made.sections.items() if not why][-4:] == [
+        "levels",
+        "spectra",
+        "audio",
+        "assumptions",
+    ]
     # 0.06 s are 15 revolutions
     assert "error motion needs 20" in made.sections["error-motion"]
     assert "the command error-motion does" in made.sections["error-motion"]
-    run = simulate(given, 0.08, step=Recording.PRESSURE_STEP, outputs=["mic[*].pressure", "mic[*].spl_*"])
+    kept = record(given, 0.06, settle=0.02, step=Recording.PRESSURE_STEP, progress=False, warn=False)
     head, *rows = page.tables["Equivalent levels re 20 uPa"]
-    first = int(np.searchsorted(run.time, 0.02 - 1e-9))
-    for k, row in enumerate(rows, start=1):
-        square = np.mean(run[f"mic[{k}].pressure"][first:] ** 2)
-        assert float(row[head.index("Leq, dB")]) == pytest.approx(10.0 * np.log10(square / 4e-10), abs=0.06)
-    assert made.figures["laeq_dB"] == pytest.approx(max(float(row[3]) for row in rows), abs=0.06)
-    head, *rows = page.tables["Levels of parts alone at the end of the run, dB"]
-    for k, row in enumerate(rows, start=1):
-        for name, part in (("bearing 1", "bearing[1]"), ("bearing 2", "bearing[2]"), ("balls", "balls")):
-            wanted = run[f"mic[{k}].spl_{part}"][-1]
-            assert float(row[head.index(name)]) == pytest.approx(wanted, abs=0.051)
+    for weighting, column in (("Z", "Leq, dB"), ("A", "LAeq, dB(A)")):
+        wanted = kept.levels(weighting=weighting)
+        assert [float(row[head.index(column)]) for row in rows] == pytest.approx(wanted, abs=0.051)
+    assert made.figures["laeq_dB"] == pytest.approx(max(kept.levels(weighting="A")), abs=0.06)
+    # its range is beside it, of the same draws as the function's
+    sure = spread(kept, [page_loudest(kept)])
+    assert f"{sure.low[0]:.0f} to {sure.high[0]:.0f} over" in page.sections["summary"]
+    alone = page.tables["Levels of each bearing alone"]
+    assert alone[0] == ["microphone", "bearing 1, dB(A)", "bearing 2, dB(A)"]
+    parts = kept.partial(by="bearing")
+    for k, row in enumerate(alone[1:]):
+        wanted = [level(kept.mean_square(part[k], "A")) for part in parts.values()]
+        assert [float(cell) for cell in row[1:]] == pytest.approx(wanted, abs=0.051)
+    lines = next(rows for title, rows in page.tables.items() if title.startswith("Strongest lines at"))
+    assert lines[0][-1] == "loudest component" and all(row[-1] for row in lines[1:])
+    # what was assumed is said, and of what the bearings are
+    assert "values that the papers leave open" in page.sections["assumptions"]
+    assert materials_words(given) in page.sections["conditions"]
+    # units and names for people in the verdicts
+    labels = [row[0] for row in page.tables["Verdicts on each bearing from its own loads"][1:]]
+    assert "pressure, GPa" in labels and "n d_m, 1e6 mm r/min" in labels
     # outer rings in a housing at rest make no sound
-    assert {row[head.index("outer ring")] for row in rows} == {"-"}
+    assert {row[head.index("outer ring, dB(A)")] for row in rows} == {"-"}
     assert len(page.sounds) == 2 and made.size < 2.5e6
+
+
+def page_loudest(recording):
+    """Name of the loudest microphone."""
+    return recording.microphones[int(np.argmax(recording.levels(weighting="A")))][0]
 
 
 @pytest.mark.heavy  # statics and two runs

@@ -42,7 +42,7 @@ def played(monkeypatch):
                 found[f"ball[1].velocity.{part}"] = wave(2.0 * np.pi * 12.0 * time)
             return Played(found)
 
-        monkeypatch.setattr(module, "simulate", run)
+        monkeypatch.setattr(module, "part_of_study", run)
         return reading(rig(subject("7003C")))
 
     return read

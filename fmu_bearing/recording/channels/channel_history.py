@@ -16,16 +16,15 @@ from numpy.typing import NDArray
 
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, form_of, joined, kind_of
-from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.radiators import Path
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare.imperfections import excitation_end
 from fmu_bearing.recording.channels.microphone_places import Places, named_places
 from fmu_bearing.recording.channels.sources import air_of, sources_of
-from fmu_bearing.scene import Scene, si
+from fmu_bearing.recording.channels.turning import Turning
+from fmu_bearing.scene import Scene
 
-_ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
 _FLIGHT = 0.1  # s: room for microphones to 34 m without another transform
 _TOGETHER = 32  # microphones evaluated at once by `Recording.levels`
 _SPLIT: dict[str, Callable[[Path], str]] = {
@@ -37,7 +36,7 @@ _NO_WEIGHTING = 'weighting = "{}": only "A" and "Z" (none) are known'
 
 
 @dataclass(repr=False)
-class ChannelHistory:
+class ChannelHistory(Turning):
     """Channels of a run, and the sound they give at any place; `Recording` adds files.
 
     Attributes
@@ -128,37 +127,6 @@ class ChannelHistory:
     def excitation_end(self) -> float | None:
         """Frequency (Hz) up to which the scene's surfaces excite it at the mean speed; None: not known."""
         return None if self.scene is None else excitation_end(self.scene, float(np.mean(self.speed)))
-
-    def kinematics(
-        self, speed: float | None = None, contact_angle: float | None = None
-    ) -> KinematicFrequencies:
-        """Kinematic frequencies (`KinematicFrequencies`, Hz) of the scene's bearing.
-
-        Parameters
-        ----------
-        speed : float, optional
-            Shaft speed (rad/s); default: mean of the recording.
-        contact_angle : float, optional
-            In rad; default: mean over the run of the computed angles at both races, of all bearings of a set,
-            where these were kept among the outputs, else the nominal one.
-
-        Raises
-        ------
-        ValueError
-            When the recording has no scene, and so no bearing.
-        """
-        if self.scene is None:
-            raise ValueError(
-                "this recording has no scene: give one to Recording.from_fmu, or the frequencies"
-            )
-        bearing = si(self.scene.bearing)
-        if contact_angle is None:
-            kept = [values for name, values in self.outputs.items() if name.endswith(_ANGLES)]
-            contact_angle = float(np.mean(kept)) if kept else float(bearing.contact_angle)
-        w = float(np.mean(self.speed)) if speed is None else speed
-        return kinematic_frequencies(
-            w, int(bearing.ball_count), bearing.ball_diameter, bearing.pitch_diameter, contact_angle
-        )
 
     @renamed.arguments
     def pressure(self, positions: Places = None, radiation_model: str | None = None) -> NDArray[np.float64]:

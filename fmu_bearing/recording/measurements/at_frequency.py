@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, kinematic_lines, nearest_line
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line
 from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.measurements.measure import strongest
+from fmu_bearing.recording.measurements.measure import known_lines, strongest
 from fmu_bearing.recording.measurements.sound_analysis import SoundAnalysis
 
 #: What a kinematic frequency arises from, by its carrier.
@@ -19,6 +19,7 @@ _ARISES = {
     "f_o": "waves of the outer race, and the balls passing",
     "f_b": "form of the balls",
     "f_c": "the cage, or one ball larger than the others",
+    "f_w": "the whirl of the cage",
 }
 
 
@@ -82,7 +83,14 @@ class NoiseAt:
             found.append(f"the strongest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
             place = self.line.frequency
         if self.line is not None and self.line.name:
-            found.append(f"it is {self.line.name}: {_source(self.line.name)}")
+            source = _source(self.line.name)
+            if self.line.words == self.line.name:
+                found.append(f"it is {self.line.name}: {source}")
+            else:
+                found.append(
+                    f"the simplest of {self.line.fits} sums of kinematic frequencies that fit is "
+                    f"{self.line.name}: {source}"
+                )
         elif self.nearest is not None:
             away = place - self.nearest.frequency
             found.append(
@@ -102,7 +110,7 @@ class NoiseAt:
             },
             "line": None if self.line is None else {
                 "frequency_Hz": self.line.frequency, "level_dB": self.line.level,
-                "explained_by": self.line.name,
+                "explained_by": self.line.name, "fits": self.line.fits,
             },
             "nearest": None if self.nearest is None else {
                 "frequency_Hz": self.nearest.frequency, "name": self.nearest.name,
@@ -139,8 +147,7 @@ def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) 
         lines = strongest(recording, found.frequency, spectrum, len(found.frequency))
         line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)
         about = frequency if line is None else line.frequency
-        known = kinematic_lines(recording.kinematics(), float(found.frequency[-1]))
-        nearest = nearest_line(about, known)
+        nearest = nearest_line(about, known_lines(recording, float(found.frequency[-1])))
     return NoiseAt(
         frequency, nominal_frequency(centre), found.names, levels, line, nearest, recording.excitation_end
     )

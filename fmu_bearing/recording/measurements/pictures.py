@@ -18,6 +18,7 @@ from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
+from fmu_bearing.extras import need
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.levels import sounding
 from fmu_bearing.results.picture_parts import (
@@ -36,6 +37,7 @@ from fmu_bearing.results.picture_parts import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.collections import LineCollection
     from matplotlib.figure import Figure
 
 __all__ = [
@@ -174,11 +176,15 @@ def circle_picture(circles: Mapping[str, Round], title: str = "") -> "Figure":
 
 
 def planes_picture(found: Mapping[str, Round], title: str = "") -> "Figure":
-    """Draw levels in three planes in their unit; 0 deg is 12 o'clock in YZ and +X in the others."""
+    """Draw levels in three planes in their unit, on one scale.
+
+    0 deg is 12 o'clock in YZ and +X in the others.
+    """
     figure = empty((13.0, 4.8))
+    ends = _scale(found)
     for k, (name, each) in enumerate(found.items()):
         ax = figure.add_subplot(1, len(found), k + 1, projection="polar")
-        _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}, {each.unit}")
+        _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}, {each.unit}", ends=ends)
     figure.suptitle(title)
     return figure
 
@@ -271,12 +277,24 @@ def _name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
         [[x] for x in middles], [y + _GAP for _, y in peaks], [box.width + _GAP for box in boxes], high, top
     )
     back = ax.transData.inverted()
-    for text, x, height in zip(texts, middles, heights, strict=True):
+    leaders = []
+    for text, line, x, height in zip(texts, named, middles, heights, strict=True):
         if height is None:
             text.remove()
         else:
-            across, level = back.transform((x, height))
-            text.set_position((float(across), float(level)))
+            across, level = map(float, back.transform((x, height)))
+            text.set_position((across, level))
+            leaders.append([(line.frequency, line.level), (across, level)])
+    ax.add_collection(_leaders(leaders), autolim=False)
+
+
+def _leaders(ways: Sequence[Sequence[tuple[float, float]]]) -> "LineCollection":
+    """Thin lines from peaks to their names."""
+    collections = need("matplotlib.collections", "a picture")
+    found: LineCollection = collections.LineCollection(
+        ways, colors="0.5", linewidths=0.6, zorder=1.5, gid="line-leader"
+    )
+    return found
 
 
 def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
@@ -319,10 +337,18 @@ def _colour_map(
     figure.colorbar(drawn, ax=ax, label="level, dB re 20 uPa")
 
 
-def _polar(ax: "Axes", circles: Mapping[str, Round], zero: str, title: str, unit: str = "") -> None:
-    """Levels round a circle; the largest one's direction is marked."""
+def _scale(circles: Mapping[str, Round]) -> tuple[float, float]:
+    """Return the ends of a radial axis (dB) for levels round circles."""
     low = min(float(each.levels.min()) for each in circles.values())
     high = max(float(each.levels.max()) for each in circles.values())
+    return 5.0 * math.floor((low - 3.0) / 5.0), high + 1.0
+
+
+def _polar(
+    ax: "Axes", circles: Mapping[str, Round], zero: str, title: str, unit: str = "",
+    ends: tuple[float, float] | None = None,
+) -> None:  # fmt: skip
+    """Levels round a circle; the largest one's direction is marked. ``ends``: of the radial axis."""
     for k, (name, each) in enumerate(circles.items()):
         colour = OTHERS[k % len(OTHERS)]
         angles, levels = np.append(each.angles, each.angles[0]), np.append(each.levels, each.levels[0])
@@ -333,7 +359,7 @@ def _polar(ax: "Axes", circles: Mapping[str, Round], zero: str, title: str, unit
         ax.plot([each.directivity.da], [each.directivity.highest], color=colour, marker="*", markersize=10)
     # seen from +X, positive rotation runs anticlockwise: as polar axes do
     ax.set_theta_zero_location(zero)  # type: ignore[attr-defined]
-    ax.set_ylim(5.0 * math.floor((low - 3.0) / 5.0), high + 1.0)
+    ax.set_ylim(*(ends or _scale(circles)))
     ax.set_title(", ".join(filter(None, (title, unit))))
     if len(circles) > 1:
         ax.legend(frameon=False, loc="lower right", bbox_to_anchor=(1.1, -0.05))

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
+_BARS = 8  # microphones side by side in a picture
 
 
 @dataclass(frozen=True)
@@ -181,6 +182,7 @@ def write_all(
     wav: bool = True,
     directivity: bool = True,
     tell: Tell = silent,
+    wav_format: str = "float",
 ) -> list[pathlib.Path]:
     """Write tables (CSV) and sounds (WAV), and as far as installed pictures (PNG) and spectra (netCDF).
 
@@ -196,6 +198,8 @@ def write_all(
         Whether to write these; a recording of pressures has no directivity.
     tell : callable
         Takes a line about each file that is left out.
+    wav_format : str
+        Of the samples, as of `write_wav`.
 
     Returns
     -------
@@ -219,14 +223,16 @@ def write_all(
     drawn = available("matplotlib", "a picture", "pictures", tell)
     if drawn:
         pictures.save(spectra_picture(recording, found), folder / "spectrum.png")
-        bars = pictures.third_octave_picture(found.bands, thirds, excitation_end=recording.excitation_end)
+        drawn_of, title = _loudest(found, thirds)
+        bars = pictures.third_octave_picture(found.bands, drawn_of, title, recording.excitation_end)
         pictures.save(bars, folder / "third-octaves.png")
         files += ["spectrum.png", "third-octaves.png"]
     if found.lines:
-        (folder / "lines.md").write_text(markdown(*tables.lines_table(found.lines)), "utf-8")
+        head = f"Strongest lines at {found.names[0]}\n\n"
+        (folder / "lines.md").write_text(head + markdown(*tables.lines_table(found.lines)), "utf-8")
         files.append("lines.md")
     if wav:
-        files += _sounds(recording, found, folder, radiation_model)
+        files += _sounds(recording, found, folder, radiation_model, wav_format)
     if directivity and recording.history.size:
         files += _directivity(recording, found, folder, radiation_model, drawn, tell)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
@@ -234,6 +240,17 @@ def write_all(
         found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
         files.append("spectra.nc")
     return [folder / file for file in files]
+
+
+def _loudest(
+    found: SoundAnalysis, thirds: dict[str, NDArray[np.float64]]
+) -> tuple[dict[str, NDArray[np.float64]], str]:
+    """Return the microphones whose bars have room in a picture, and what it says of the others."""
+    if len(thirds) <= _BARS:
+        return thirds, ""
+    loud = sorted(np.argsort(-found.levels[:, 1])[:_BARS].tolist())
+    names = [found.names[k] for k in loud]
+    return {name: thirds[name] for name in names}, f"the {_BARS} loudest of {len(thirds)} microphones"
 
 
 def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure":
@@ -248,7 +265,11 @@ def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure"
 
 
 def _sounds(
-    recording: ChannelHistory, found: SoundAnalysis, folder: pathlib.Path, radiation_model: str | None
+    recording: ChannelHistory,
+    found: SoundAnalysis,
+    folder: pathlib.Path,
+    radiation_model: str | None,
+    wav_format: str,
 ) -> list[str]:
     """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
     known = dict(recording.microphones)
@@ -259,7 +280,7 @@ def _sounds(
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
     files = [f"{stem}.wav" for stem in _stems(found.names)]
     for file, pressure in zip(files, pressures, strict=True):
-        write_wav(folder / file, pressure, recording.rate, full_scale=scale)
+        write_wav(folder / file, pressure, recording.rate, scale, wav_format)
     return files
 
 

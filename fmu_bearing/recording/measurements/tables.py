@@ -46,9 +46,9 @@ def lines_table(lines: Sequence[Line]) -> Table:
     """Strongest lines and what explains them; of one that nothing explains, what is nearest."""
     rows = []
     for line in lines:
-        name, off = (line.name, line.off) if line.name else ("none", line.nearest_off)
+        name, off = (line.words, line.off) if line.name else ("none", line.nearest_off)
         words = f"{name}; nearest {line.nearest}" if line.nearest else name
-        distance = "" if math.isnan(off) else f"{off:+.1f}"
+        distance = "" if math.isnan(off) else f"{round(off, 1) + 0.0:+.1f}"
         rows.append([f"{line.frequency:.1f}", f"{line.level:.1f}", words, distance])
     return ["frequency, Hz", "level, dB", "explained by", "off by, Hz"], rows
 

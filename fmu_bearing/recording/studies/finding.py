@@ -97,7 +97,20 @@ def judged(
             drawn.append(high - low)
     except ValueError as problem:
         return Finding(microphone, measured, reason=str(problem))
-    return Finding(microphone, measured, tuple(drawn))
+    return Finding(microphone, measured, tuple(drawn), _contradiction(a, b, measured, drawn[0]))
+
+
+def _contradiction(a: ComparisonData, b: ComparisonData, measured: float, drawn: float) -> str:
+    """Return that draws with the scenes' own surfaces go the other way than the runs, or ""."""
+    assert a.scene is not None and b.scene is not None
+    accuracy = a.scene.fidelity.accuracy.level_dB + b.scene.fidelity.accuracy.level_dB
+    if a.fidelity == _FIDELITY or measured * drawn >= 0.0 or abs(measured - drawn) <= accuracy:
+        return ""
+    return (
+        f"fidelities {a.fidelity} and {_FIDELITY} contradict each other, as where a cage is loud: the runs "
+        f"differ by {measured:+.1f} dB(A), with the same surfaces in {_FIDELITY} by {drawn:+.1f}; "
+        "`fmu-bearing sound` gives the range of each"
+    )
 
 
 def _obstacle(a: ComparisonData, b: ComparisonData, seeds: int) -> str:
@@ -109,11 +122,9 @@ def _obstacle(a: ComparisonData, b: ComparisonData, seeds: int) -> str:
             return f"{letter} has no imperfections, and a perfect bearing has no level that scatters"
         if side.radiation_model.startswith("paper"):
             return f"radiation model {side.radiation_model} needs channels of its own for each draw"
-        if not Setting(_FIDELITY).carries(side.scene) or weakness(side.scene):
-            return (
-                f"draws of {letter} need fidelity full, as rings that bend and weakly damped modes do; "
-                "`fmu-bearing sound` gives the range of each"
-            )
+        why = weakness(side.scene) if Setting(_FIDELITY).carries(side.scene) else "its rings bend"
+        if why:
+            return f"draws of {letter} need fidelity full: {why}; `fmu-bearing sound` gives the range of each"
     for what, one, other in (
         ("fidelity", a.fidelity, b.fidelity), ("radiation model", a.radiation_model, b.radiation_model),
     ):  # fmt: skip

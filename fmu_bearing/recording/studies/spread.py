@@ -106,8 +106,8 @@ class Spread:
             )
         return (
             f"Range over {self.drawn} seeds and, where waviness follows the law, over its exponent and a "
-            "factor of two in its amplitude either way, that of the balls too. Both are assumed: two "
-            "published spindles lie 15 and 18 dB above grade P4." + self._with_full()
+            "factor of two in its amplitude either way, that of the balls too. Both are assumed. It is "
+            "the range of what surfaces make, not of what a machine makes besides." + self._with_full()
         )
 
     def _with_full(self) -> str:

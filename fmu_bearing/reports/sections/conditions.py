@@ -104,24 +104,25 @@ def _kinematics(subject: Subject) -> Table:
     for name, value in kinematics._asdict().items():
         order = f"{value / kinematics.f_r:.4f}" if kinematics.f_r else ""
         rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], f"{value:.2f}", order])
-    angle = (
-        math.degrees(subject.mean("contact.outer.angle_mean"))
-        if subject.has("contact.outer.angle_mean")
-        else None
-    )
-    words = (
-        "at the mean of the computed contact angles" if angle is not None else "at the nominal contact angle"
-    )
-    ratio = ""
-    if subject.has("cage.speed_ratio") and subject.fidelity == "full":
-        found = subject.mean("cage.speed_ratio")
-        rolling = kinematics.f_c / kinematics.f_r if kinematics.f_r else math.nan
-        slip = 100.0 * (found / rolling - 1.0)
-        ratio = f" The cage turned at {found:.5f} of the shaft's speed, {slip:+.2f} % from rolling."
+    rows += [
+        ["f_w", "", "turns of the cage about the middle of the inner ring", f"{whirl:.2f}", ""]
+        for whirl in subject.recording.whirls()
+        if not math.isnan(whirl)
+    ]
+    recording = subject.recording
+    if not recording.turning_known:
+        kept = subject.has("contact.outer.angle_mean")
+        angle = "the mean of the computed contact angles" if kept else "the nominal contact angle"
+        note = f"Rolling without sliding at {angle}: the run kept no rates of cage and balls."
+    else:
+        note = "As cage and balls turned in the mean of the run."
+        if kinematics.f_r and subject.fidelity == "full" and subject.has("cage.speed_ratio"):
+            turned = subject.mean("cage.speed_ratio")
+            slip = 100.0 * (turned * kinematics.f_r / kinematics.f_c - 1.0)
+            note += f" The cage turned at {turned:.5f} of the shaft's speed, {slip:+.2f} % from the balls."
     return Table(
-        "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows,
-        note=f"Rolling without sliding, {words}.{ratio}",
-    )  # fmt: skip
+        "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows, note=note
+    )
 
 
 def assumptions(subject: Subject) -> Section:

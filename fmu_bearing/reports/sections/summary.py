@@ -102,7 +102,7 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
         lines = strongest(subject.recording, frequency, values, 1)
         if lines:
             line = lines[0]
-            why = f", {line.name}" if line.name else ", which no kinematic frequency explains"
+            why = f", {line.words}" if line.name else ", which no kinematic frequency explains"
             if line.nearest:
                 why += f" (the nearest, {line.nearest}, is {abs(line.nearest_off):.0f} Hz off)"
             text = f"Its strongest line is at {line.frequency:.0f} Hz with {line.level:.1f} dB{why}"

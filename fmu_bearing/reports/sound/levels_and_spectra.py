@@ -184,7 +184,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
         (choice, reach()),
         note=f"{microphones.resolution:.3g} Hz between lines, flat-top window: a line's level is right "
         f"within 0.1 dB. Dotted: "
-        "kinematic frequencies of rolling without sliding and harmonics to the fifth; click a legend entry "
+        "kinematic frequencies, as cage and balls turned, and harmonics to the fifth; click a legend entry "
         "to show or hide. The strongest lines are named as far as there is room, one that nothing explains "
         "by the nearest kinematic line with a question mark and its distance." + end_words(subject),
     )  # fmt: skip
@@ -252,9 +252,9 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
         f"Strongest lines at {microphones.names[microphones.shown[place]]}",
         [*columns, "loudest component"],
         rows,
-        note="The simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o near a line explains it, 0.15 % "
-        "of sliding and at "
-        "least one spectral line allowed; where none fits, the nearest is named with its distance.",
+        note="Explained by the simplest harmonic or sideband of f_r, f_c, f_b, f_i, f_o, or of the cage's "
+        "whirl f_w, that fits; a sum of many is named with how many fit as well. Where none fits, the "
+        "nearest is named with its distance.",
     )
 
 

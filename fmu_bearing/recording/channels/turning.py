@@ -1,0 +1,157 @@
+"""How fast cage and balls turned in a recorded run, and how the cage whirled."""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.run.rates import by_cage, frequencies, rates_of
+from fmu_bearing.scene import Scene, si
+
+#: Variables that are kept of a cage that moves by itself.
+WHIRL = ("cage.whirl_radius", "cage.whirl_speed")
+_ANGLES = ("contact.inner.angle_mean", "contact.outer.angle_mean")
+_RATIO = "cage.speed_ratio"
+_STILL = 1e-6  # rad/s
+_OFF_CENTRE = 1e-7  # m: nearer to the middle a cage does not whirl, it trembles
+_ROUND = 0.5  # share of the radius by which a whirl may vary; of chance motion in the plane it is 0.52
+
+
+def turned(
+    scene: Scene, speed: NDArray[np.float64], outputs: Mapping[str, NDArray[np.float64]]
+) -> tuple[KinematicFrequencies, ...] | None:
+    """Return the frequencies (Hz) at which each bearing turned in a run; None where it does not say.
+
+    ``speed``: of the shaft (rad/s); ``outputs``: other variables at the same points, by name. Cage and balls
+    as they turned in the mean; where only the cage's speed was kept, balls that roll on circles of the size
+    that this speed gives.
+    """
+    mean = float(np.mean(np.abs(speed)))
+    if mean < _STILL:
+        return None
+    balls = scene.bearing.ball_count
+    rates = rates_of(outputs, scene)
+    if rates is not None:
+        return tuple(frequencies(mean, orbit, spin, balls) for orbit, spin in rates.mean(axis=0).tolist())
+    ratios = [outputs.get(one.prefix + _RATIO) for one in scene.bearings()]
+    kept = [values for values in ratios if values is not None]
+    if len(kept) < len(ratios):
+        return None
+    return tuple(
+        by_cage(scene, mean, float(np.sum(values * np.abs(speed)) / np.sum(np.abs(speed)))) for values in kept
+    )
+
+
+def rolling(
+    scene: Scene, speed: float, outputs: Mapping[str, NDArray[np.float64]], contact_angle: float | None
+) -> KinematicFrequencies:
+    """Return the frequencies (Hz) of rolling without sliding at one contact angle (rad) at both races.
+
+    Default: the mean of the computed angles where they were kept, else the nominal one.
+    """
+    b = si(scene.bearing)
+    if contact_angle is None:
+        kept = [values for name, values in outputs.items() if name.endswith(_ANGLES)]
+        contact_angle = float(np.mean(kept)) if kept else float(b.contact_angle)
+    return kinematic_frequencies(speed, int(b.ball_count), b.ball_diameter, b.pitch_diameter, contact_angle)
+
+
+def whirls(scene: Scene, outputs: Mapping[str, NDArray[np.float64]]) -> tuple[float, ...]:
+    """Return how often (Hz) the cage of each bearing went round off its middle; NaN where it did not.
+
+    In a whirl the cage's centre goes round on a circle, whose radius varies less than that of motion by
+    chance.
+    """
+    found = []
+    for one in scene.bearings():
+        radius, speed = (outputs.get(one.prefix + name, np.zeros(1)) for name in WHIRL)
+        middle = float(np.mean(radius))
+        steady = middle > _OFF_CENTRE and float(np.std(radius)) < _ROUND * middle
+        found.append(abs(float(np.mean(speed))) / (2.0 * math.pi) if steady else math.nan)
+    return tuple(found)
+
+
+class Turning(ABC):
+    """What a recording says of turning: its part of `ChannelHistory`."""
+
+    scene: Scene | None
+    start: float
+    output_time: NDArray[np.float64]
+    speed_points: NDArray[np.float64]
+    outputs: dict[str, NDArray[np.float64]]
+
+    @property
+    @abstractmethod
+    def speed(self) -> NDArray[np.float64]:
+        """Shaft speed at each sample (rad/s)."""
+
+    def kinematics(
+        self, speed: float | None = None, contact_angle: float | None = None
+    ) -> KinematicFrequencies:
+        """Return frequencies (Hz) of the scene's bearing as it turned, of a set the mean of its bearings.
+
+        Parameters
+        ----------
+        speed : float, optional
+            Shaft speed (rad/s); default: mean of the recording.
+        contact_angle : float, optional
+            In rad: frequencies of rolling at that angle instead of the run's.
+
+        Notes
+        -----
+        Cage and balls turn as they did in the mean of the run. Of pressures whose run kept neither the rates
+        of the balls nor ``cage.speed_ratio`` they are those of rolling at the mean of the contact angles that
+        were kept, else at the nominal one.
+
+        Raises
+        ------
+        ValueError
+            When the recording has no scene, and so no bearing.
+        """
+        every = self.bearing_kinematics(speed, contact_angle)
+        return KinematicFrequencies(*np.mean(every, axis=0).tolist())
+
+    def bearing_kinematics(
+        self, speed: float | None = None, contact_angle: float | None = None
+    ) -> tuple[KinematicFrequencies, ...]:
+        """Return frequencies (Hz) of each bearing; parameters and errors as for `kinematics`."""
+        scene, mean = self._known(), float(np.mean(self.speed))
+        w = mean if speed is None else speed
+        found = None if contact_angle is not None else self._turned
+        if found is None:
+            one = rolling(scene, w, self.outputs, contact_angle)
+            return (one,) * len(scene.bearings())
+        return tuple(
+            KinematicFrequencies(*(abs(w) / (2.0 * math.pi) * f / each.f_r for f in each)) for each in found
+        )
+
+    @property
+    def turning_known(self) -> bool:
+        """Whether `kinematics` are those of the run, not of rolling at a contact angle."""
+        return self.scene is not None and self._turned is not None
+
+    def whirls(self) -> tuple[float, ...]:
+        """Return how often (Hz) the cage of each bearing whirled; NaN: it did not, or was not watched."""
+        scene = self._known()
+        return whirls(scene, self._kept()[1])
+
+    @property
+    def _turned(self) -> tuple[KinematicFrequencies, ...] | None:
+        """Frequencies (Hz) of each bearing in the run; None where it does not say."""
+        return turned(self._known(), *self._kept())
+
+    def _kept(self) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+        """Return speed and variables at the communication points of the recording, its start left out."""
+        kept = self.output_time >= self.start - 1e-9
+        kept |= ~kept.any()  # pressures of an FMU come late: a short run may have no later point
+        return self.speed_points[kept], {name: values[kept] for name, values in self.outputs.items()}
+
+    def _known(self) -> Scene:
+        if self.scene is None:
+            raise ValueError(
+                "this recording has no scene: give one to Recording.from_fmu, or the frequencies"
+            )
+        return self.scene

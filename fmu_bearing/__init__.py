@@ -10,6 +10,7 @@ Data flow in one direction::
 ``files``           reading files that users name, writing those that other processes may read, the cache
 ``file_words``      why a file cannot be read, and what it holds where another kind is due
 ``likeness``        the name that a misspelt one was meant to be
+``children``        processes that the program starts
 ``threads``         linear algebra on one thread
 ``extras``          optional packages, imported where they are used
 ``formulas``        closed formulas on plain numbers: Hertz contact, ratings, makers' rules
@@ -78,9 +79,9 @@ if TYPE_CHECKING:
     from fmu_bearing.run.simulate import simulate
     from fmu_bearing.scene import Scene, SceneError, read_scene
     from fmu_bearing.scene.conformity import conformity_from_stiffness
+    from fmu_bearing.scene.own_bearing import Dimensions
     from fmu_bearing.scene.read import with_fidelity
     from fmu_bearing.scene.surface import Surface
-    from fmu_bearing.scene.template import Dimensions
     from fmu_bearing.steady.statics import Statics, statics
     from fmu_bearing.steady.stiffness.scene_stiffness import Stiffness, stiffness
     from fmu_bearing.sweeps import sweep
@@ -94,7 +95,7 @@ __version__ = "0.1.0"
 _PLACES = {
     "Bearing": "run.bearing",
     "Campbell": "modal.campbell.over_speed",
-    "Dimensions": "scene.template",
+    "Dimensions": "scene.own_bearing",
     "ErrorMotion": "metrology.error_motion",
     "Modes": "modal.modes.natural_modes",
     "Recording": "recording.recording",

@@ -74,10 +74,10 @@ _RESTARTS = Caution(
     Z.BEARING_OUTPUTS.index(RESTARTS),
     0.0,
     1.0,
-    "no step was possible from the state reached: balls had left their races, or inputs changed too much; ",
+    "the model of this fidelity had no step from the state reached, as where balls leave both races; ",
     " times so far (solver.restarts) rings and balls were restarted from rest at the present inputs; clock, "
-    "angles, heats and sound go on, but vibration and levels just after are meaningless; change inputs by "
-    "less at a time, over longer steps, give more preload, or fidelity full",
+    "angles, heats and sound go on, but vibration and levels just after are meaningless; fidelity full steps "
+    "through it, and with more preload no ball leaves its races",
     decimals=0,
     above=True,
 )

@@ -146,7 +146,9 @@ def _classes():
 
 def made(arrangement, **given):
     """A new scene of 7010C on one shaft."""
-    return read_scene_text(new_scene("set", "NSK-7010C", arrangement=arrangement, **given))
+    return read_scene_text(
+        new_scene("set", "NSK-7010C", arrangement=arrangement, **{"kind": "hybrid"} | given)
+    )
 
 
 def motor_spindle():

@@ -8,7 +8,20 @@ import numpy as np
 import pytest
 import typer
 
-from benchmarks import commands, memory, ours, peers, realtime, scenes, sets, sound, stale, table, terms
+from benchmarks import (
+    commands,
+    memory,
+    ours,
+    peers,
+    quick_fidelities,
+    realtime,
+    scenes,
+    sets,
+    sound,
+    stale,
+    table,
+    terms,
+)
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.fmu import calls, whole
 from fmu_bearing.accuracy.first_order import FirstOrder
@@ -149,6 +162,42 @@ def test_a_set_of_one_is_timed_beside_the_single_bearing():
     assert (length, diameter, bore) == (rotor.length_mm, rotor.diameter_mm, 0.0)
     assert volume * one.materials.inner_ring.density_kg_m3 == pytest.approx(rotor.mass_kg, rel=0.01)
     assert one.spindle.load.force_x_N == single.mounted.preload_N
+
+
+def test_quick_fidelities_go_on_where_they_were_interrupted(tmp_path, capsys):
+    """Two scenes of the grid; then the last line is cut, as by a process that was ended while it wrote."""
+    words = ["--what", "grid", "--share", "0.004", "--output", str(tmp_path)]  # of 540 scenes
+
+    def rows():
+        quick_fidelities.main(words)
+        with (tmp_path / "grid.csv").open(encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    first = rows()
+    assert capsys.readouterr().out.count("of 2") == len(first) == 2
+    for row in first:
+        assert tuple(row) == quick_fidelities.COLUMNS
+        for cell in ("growth, 1/s", "rings y, mm/s", "response x, mm/s", "rings/response z"):
+            assert math.isfinite(float(row[cell])), (row["scene"], cell)
+        assert row["full x, mm/s"] == "" and row["remark"] == ""
+    assert "2 scenes, 0 with a refusal" in (tmp_path / "grid.md").read_text("utf-8")
+    text = (tmp_path / "grid.csv").read_text("utf-8")
+    (tmp_path / "grid.csv").write_text(text[:-20], "utf-8")
+    again = rows()
+    assert capsys.readouterr().out.count("of 1") == 1
+    seconds = [key for key in first[0] if key.endswith("CPU s")]
+    assert [row | dict.fromkeys(seconds) for row in again] == [row | dict.fromkeys(seconds) for row in first]
+    (tmp_path / "grid.csv").write_text(text.replace(first[0]["engine"], "0" * 16), "utf-8")
+    with pytest.raises(SystemExit, match="give another --output"):
+        rows()
+
+
+def test_bad_scenes_are_those_that_restart_or_move_far_more():
+    row = dict.fromkeys(quick_fidelities.COLUMNS, "") | {"restarts of rings": "0", "rings/response y": "2.9"}
+    assert quick_fidelities.faults(row) == []
+    assert quick_fidelities.faults(row | {"rings/response y": "3.1"}) == ["rings/response 3.1"]
+    assert quick_fidelities.faults(row | {"rings/full z": "nan"}) == ["rings/full nan"]
+    assert quick_fidelities.faults(row | {"restarts of rings": "4"}) == ["rings restarts 4"]
 
 
 def test_tables_of_another_engine_are_named(tmp_path):

@@ -9,6 +9,7 @@ import pytest
 from fmu_bearing.design.fits import fits
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import preload_classes
+from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.design.verdicts import GYROSCOPIC, HIGH_PRESSURE, verdicts
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.prepare.fits import seats
@@ -90,16 +91,11 @@ SET = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 @functools.cache
 def settled(scene, preload=None, speed=None, water=None):
-    """Steady temperatures and operating point by the example's thermal network."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(EXAMPLES.parent / "spindle_cosimulation"))
-        import steady
-
-        if water is not None:
-            patch.setitem(steady.CONDUCTANCES, ("housing", "ambient"), water)
-        values = {"mounting.preload_N": preload, "operation.speed_rpm": speed}
-        given = {key: value for key, value in values.items() if value is not None}
-        return steady.steady(read_scene(scene).replace(given))
+    """Steady temperatures and operating point by the package's network."""
+    values = {"mounting.preload_N": preload, "operation.speed_rpm": speed}
+    given = {key: value for key, value in values.items() if value is not None}
+    found = temperatures(read_scene(scene).replace(given), cooling=water)
+    return found.places, operating_point(found.scene)
 
 
 CERAMIC_ON_SHAFT = EXAMPLES.parent / "fits" / "7003C-ceramic.toml"
@@ -160,10 +156,10 @@ FIGURES = {
         "100.8 |": lambda: radial(point(100.0)),
         "57.5 | 24.1": lambda: 1e-6 * point().stiffness[0, 0],
         "24.1 |": lambda: 1e-6 * point(100.0).stiffness[0, 0],
-        "1988 Hz": lambda: point().frequencies.f_i - point().frequencies.f_r,
+        "1987 Hz": lambda: point().frequencies.f_i - point().frequencies.f_r,
         "1672 Hz": lambda: point(100.0).frequencies.f_o,
-        "1735 Hz": lambda: 2.0 * point(100.0).frequencies.f_b - point(100.0).frequencies.f_c,
-        "1995 Hz": lambda: point(100.0).frequencies.f_i - point(100.0).frequencies.f_r,
+        "1738 Hz": lambda: 2.0 * point(100.0).frequencies.f_b - point(100.0).frequencies.f_c,
+        "1994 Hz": lambda: point(100.0).frequencies.f_i - point(100.0).frequencies.f_r,
         "1986 Hz": lambda: resonance(point()),
         "1579 Hz": lambda: resonance(point(100.0)),
         "1720 Hz": lambda: resonance(point(175.0)),
@@ -220,7 +216,7 @@ FIGURES = {
         "9.9 K.": lambda: settled(SET)[0][0, "shaft"] - settled(SET)[0][0, "housing"],
         "211 N instead": lambda: settled(SET)[1].bearings[0].axial,
         "167 N, and": lambda: operating_point(SET).bearings[0].axial,
-        "10529 h instead": lambda: settled(SET)[1].bearings[0].life,
+        "10537 h instead": lambda: settled(SET)[1].bearings[0].life,
         "21553 h.": lambda: operating_point(SET).bearings[0].life,
         "15.8 K warmer": lambda: settled(SPINDLE)[0][1, "inner_ring"] - settled(SPINDLE)[0][1, "outer_ring"],
         "32.1 degC instead": lambda: settled(SPINDLE, water=2.0)[0][1, "outer_ring"],
@@ -247,7 +243,7 @@ FIGURES = {
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),
         "1986 Hz": lambda: resonance(point()),
-        "1988 Hz": lambda: point().frequencies.f_i - point().frequencies.f_r,
+        "1987 Hz": lambda: point().frequencies.f_i - point().frequencies.f_r,
     },
 }
 
@@ -322,7 +318,7 @@ def test_table_of_temperatures():
         assert reached == pytest.approx((heat, oil, ring), abs=0.06)
         (one,) = at.bearings
         assert one.viscosity_ratio == pytest.approx(ratio, abs=6e-3)
-        assert one.life == pytest.approx(life, rel=1e-3)  # 0.01 K of the last round
+        assert one.life == pytest.approx(life, rel=1e-3, abs=0.51)  # whole hours, 0.001 K of the last round
 
 
 def test_shares_of_makers():

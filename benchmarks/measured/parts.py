@@ -112,7 +112,7 @@ def table_fresh() -> tuple[Sequence[str], list[list[str]]]:
 
 def fresh(name: str) -> Scene:
     """Return the scene that `scene new` writes for a bearing of the catalogue."""
-    return read_scene_text(new_scene(name, name, sound=False))
+    return read_scene_text(new_scene(name, name, kind="hybrid", sound=False))
 
 
 def radii_over_ellipticity(scene: Scene) -> list[float]:

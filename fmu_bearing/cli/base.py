@@ -9,13 +9,15 @@ Commands import their modules when they run, so that help and completion answer 
 import json
 import math
 import os
+import re
 import sys
+import tempfile
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
 from rich.console import Console
@@ -23,9 +25,12 @@ from typer.core import TyperGroup
 
 from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.progress import lines, work
+from fmu_bearing.progress import Stopped, lines, work
 
+Result = TypeVar("Result")
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
+#: A number with a decimal comma, which no option takes.
+DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]+)?")
 #: What Typer raises for words that are no command, option or value; it names only the kind for values.
 _Usage: Any = typer.BadParameter.__base__
 
@@ -71,6 +76,9 @@ def _one_line() -> Iterator[None]:
         path = error.ctx.command_path if error.ctx else "fmu-bearing"
         message = " ".join(error.format_message().split()).rstrip(".")
         more = "" if message.endswith("?") else f"; `{path} --help` lists what there is"
+        if "valid number" in message or "valid float" in message:
+            message = message.partition(", unable to")[0]
+            more = ", with a point where it is decimal, as 0.5" + more
         typer.echo(f"error: {message[0].lower()}{message[1:]}{more}", err=True)
         raise typer.Exit(REFUSED) from None
 
@@ -173,6 +181,42 @@ def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
 
 class Refusal(ValueError):
     """A command cannot work with its arguments; the message says why and what to do."""
+
+
+def so_far(study: Callable[[], Result]) -> tuple[Result, int]:
+    """Return a study and 0, or after Ctrl-C what of it is finished and the exit code of that."""
+    try:
+        return study(), 0
+    except Stopped as stop:
+        tell("interrupted: these are the results up to that point")
+        return stop.found, INTERRUPTED
+
+
+def rescued(write: Callable[[Path], Any], path: Path) -> None:
+    """Write what took long to compute; where its place does not take it, among the temporary files.
+
+    Raises
+    ------
+    OSError
+        That names the other place.
+    """
+    try:
+        write(path)
+    except OSError as problem:
+        from fmu_bearing.file_words import why
+
+        other = Path(tempfile.mkdtemp(prefix="fmu-bearing-")) / path.name
+        try:
+            write(other)
+        except OSError:
+            raise problem from None
+        raise OSError(f"{path}: {why(problem)}; what was computed is in {other}") from None
+
+
+def end(code: int) -> None:
+    """End a command with a code that is not 0."""
+    if code:
+        raise typer.Exit(code)
 
 
 def check_new(force: bool, *paths: Path | None) -> None:

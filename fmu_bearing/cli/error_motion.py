@@ -11,9 +11,11 @@ from fmu_bearing.cli.base import (
     app,
     check_new,
     check_new_in,
+    end,
     print_json,
     refusals,
     shaft_speed,
+    so_far,
     tell,
 )
 from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Plot, SceneFile, Settings
@@ -82,10 +84,10 @@ def error_motion(
         check_new(force, plot)
         chosen, inputs = changed(given, settings)
         chosen = chosen if fidelity is None else with_fidelity(chosen, model=fidelity)
-        found = computed(
-            chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
+        found, code = so_far(partial(
+            computed, chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
             track=partial(steps, what="error motion", unit="speeds"),
-        )  # fmt: skip
+        ))  # fmt: skip
         drawn = available("matplotlib", "a picture", "no polar.png", tell)
         files = found.save(output, direction, picture=drawn)
         if plot is not None:
@@ -93,7 +95,7 @@ def error_motion(
             files.append(plot)
     if as_json:
         print_json(found.summary() | {"files": files})
-        return
+        return end(code)
     place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
     show(f"error motion, {place}", *found.table())
     show("largest lines, amplitudes", *found.lines())
@@ -108,3 +110,4 @@ def error_motion(
     for line in found.remarks():
         tell(f"remark: {line}")
     tell(f"written: {', '.join(map(str, files))}")
+    end(code)

@@ -1,22 +1,28 @@
 """``fmu-bearing info``: a bearing or a set at its operating point, without a run."""
 
 import math
-from typing import TYPE_CHECKING
+import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import app, print_json, refusals, tell
+from fmu_bearing.cli.base import Refusal, app, print_json, refusals, tell
 from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
 from fmu_bearing.cli.settings import at_speed, source_of
+from fmu_bearing.scene.words import conditions_words, materials_words
 
 if TYPE_CHECKING:
     from fmu_bearing.design.fits import Column
     from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint
+    from fmu_bearing.design.temperatures import Temperatures
     from fmu_bearing.design.verdict import Verdict
+    from fmu_bearing.scene import Scene
     from fmu_bearing.steady.statics import Statics
 
 _FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
 _PLACES = 3  # of them are displacements
+_WIDTH = 80
 _WORDS = {
     "f_r": "shaft", "f_c": "cage", "f_b": "ball about itself", "f_i": "balls past the inner race",
     "f_o": "balls past the outer race",
@@ -28,6 +34,23 @@ def info(
     scene: SceneFile,
     speed: Speed = None,
     settings: Settings = None,
+    temperatures: Annotated[
+        bool,
+        typer.Option(
+            "--temperatures", help="At the temperatures at which heat leaves as it arises, with a range."
+        ),
+    ] = False,
+    ambient: Annotated[
+        float | None,
+        typer.Option(metavar="DEGC", help="With --temperatures: around the spindle; default: 22."),
+    ] = None,
+    cooling: Annotated[
+        float | None,
+        typer.Option(
+            metavar="W/K",
+            help="With --temperatures: from the housing outwards; default: cooling water by the size.",
+        ),
+    ] = None,
     catalogue: Catalogues = None,
     as_json: Json = False,
 ) -> None:
@@ -40,14 +63,17 @@ def info(
     from fmu_bearing.design.verdicts import cautions, verdicts
 
     with refusals():
-        point = operating_point(source_of(scene, at_speed(speed, settings)))
+        given = source_of(scene, at_speed(speed, settings))
+        warm = _warm(given, temperatures, ambient, cooling)
+        point = operating_point(given if warm is None else warm.scene)
     found = verdicts(point)
     lines = cautions(point, found)
     if as_json:
         judged = {"verdicts": [one.as_dict() for one in found], "cautions": lines}
         judged["measured_elsewhere"] = measured_elsewhere()
         seats = {} if point.scene.fit is None else {"fits": _seats(point).summary()}
-        print_json(point.summary() | judged | seats)
+        steady = {} if warm is None else {"temperatures": warm.summary()}
+        print_json(point.summary() | judged | seats | steady)
         return
     if point.scene.spindle is None:
         _show_bearing(point.bearings[0])
@@ -56,6 +82,8 @@ def info(
     if point.scene.fit is not None:
         _show_fits(point)
     _show_heat(point)
+    if warm is not None:
+        _show_temperatures(warm)
     _show_verdicts(found, len(point.bearings))
     typer.echo("computed figures over what others measured or print:")
     for figure, words in measured_elsewhere().items():
@@ -64,16 +92,47 @@ def info(
         tell(f"caution: {line}")
 
 
+def _warm(
+    given: "Path | Scene", wanted: bool, ambient: float | None, cooling: float | None
+) -> "Temperatures | None":
+    """Return the steady temperatures where they are wanted."""
+    from fmu_bearing.design.temperatures import AMBIENT, temperatures
+    from fmu_bearing.scene import scene_of
+
+    if not wanted:
+        if ambient is not None or cooling is not None:
+            raise Refusal("--ambient and --cooling are of steady temperatures: give --temperatures")
+        return None
+    if ambient is not None and not -40.0 <= ambient <= 100.0:
+        raise Refusal(f"--ambient {ambient:g} is refused; allowed: -40 to 100 degC")
+    if cooling is not None and not 0.0 < cooling <= 1e6:
+        raise Refusal(f"--cooling {cooling:g} is refused; allowed: above 0 to 1e6 W/K")
+    return temperatures(scene_of(given), AMBIENT if ambient is None else ambient, cooling)
+
+
+def _show_temperatures(warm: "Temperatures") -> None:
+    """Print the steady temperatures and what they rest on."""
+    from fmu_bearing.results.table import show
+
+    show(f"steady temperatures in {warm.ambient:g} degC", *warm.rows())
+    show("what flows off, scaled from a 7003C", *warm.rules())
+
+
+def _show_heading(text: str) -> None:
+    """Print what the figures are of, within the width of a narrow terminal."""
+    typer.echo(textwrap.fill(text, _WIDTH, subsequent_indent="  ", break_on_hyphens=False))
+
+
 def _show_bearing(point: "BearingPoint") -> None:
     """Print contacts, stiffness, frequencies and ratings of a single bearing."""
     from fmu_bearing.results.table import show
 
     scene = point.scene
-    operation, mounting = scene.operation, scene.mounted
-    typer.echo(
-        f"{scene.name}: {scene.bearing.designation}, {operation.speed_rpm:g} r/min, preload "
-        f"{mounting.preload_N:g} N ({mounting.preload_mode}), oil {operation.oil_temperature_degC:g} degC; "
-        "perfect bearing, rigid rings"
+    mounting = scene.mounted
+    _show_heading(
+        f"{scene.name}: {scene.bearing.designation}, {materials_words(scene)}; "
+        f"{scene.operation.speed_rpm:g} r/min, preload {mounting.preload_N:g} N ({mounting.preload_mode}); "
+        f"{conditions_words(scene)}; perfect bearing, rigid rings"
     )
     show("contacts", ("", "inner race", "outer race"), _contacts(point))
     show("stiffness at rest: N and N m per um and mrad", ("", *_FREEDOMS), _matrix(point))
@@ -82,7 +141,7 @@ def _show_bearing(point: "BearingPoint") -> None:
         [name, _WORDS[name], f"{value:.1f}", f"{value / shaft:.3f}" if shaft else ""]
         for name, value in point.frequencies._asdict().items()
     ]
-    show("kinematic frequencies", ("", "of", "Hz", "orders"), rows)
+    show("frequencies, as cage and balls turn", ("", "of", "Hz", "orders"), rows)
     show("oil and ratings", ("", "value", "source"), _ratings(point))
 
 
@@ -91,9 +150,9 @@ def _show_set(found: "Statics") -> None:
     from fmu_bearing.results.table import show
 
     scene = found.scene
-    typer.echo(
+    _show_heading(
         f"{scene.name}: {len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
-        f"{scene.operation.speed_rpm:g} r/min; statics, "
+        f"{materials_words(scene)}; {scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
     columns = (
@@ -134,7 +193,7 @@ def _show_heat(point: "OperatingPoint") -> None:
 
 def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
     """Print the verdicts: of several bearings side by side, what is not good marked, then on the whole."""
-    from fmu_bearing.design.verdicts import side_by_side
+    from fmu_bearing.design.verdicts import shared_label, side_by_side
     from fmu_bearing.results.table import show
 
     one_by_one = ("figure", "value", "verdict", "limit (source)")
@@ -149,8 +208,7 @@ def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
         cells = [
             "" if one is None else one.text + (f" {one.judgement}" if one.advice else "") for one in same
         ]
-        label = first.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
-        rows.append([label, *cells, first.limit])
+        rows.append([shared_label(first), *cells, first.limit])
     show("verdicts", ("figure", *(f"bearing {k + 1}" for k in range(bearings)), "limit"), rows)
     show("verdicts on the set", one_by_one, together)
 
@@ -244,5 +302,8 @@ def _ratings(point: "BearingPoint") -> list[list[str]]:
     words = "ISO 76; ceramic balls 0.7 of it (GMN)" if ceramic else "ISO 76"
     rows.append(["C0, N", f"{found.static:.0f}", words])
     if found.equivalent is not None:
-        rows.append(["P, N", f"{found.equivalent:.0f}", "ISO 281, factors of NSK"])
+        rows.append(["P, N", f"{found.equivalent:.0f}", "ISO 281"])
+    if found.factors is not None:
+        e, x, y, y0 = found.factors
+        rows.append(["e, X, Y, Y0", f"{e:.2f}, {x:.2f}, {y:.2f}, {y0:.2f}", "ISO 281, ISO 76; single row"])
     return rows

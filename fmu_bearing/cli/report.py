@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, shaft_speed, tell
+from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, rescued, shaft_speed, tell
 from fmu_bearing.cli.options import (
     DURATION,
     SETTLE,
@@ -103,7 +103,7 @@ def report(
         )  # fmt: skip
         if keep is not None and made.recording is not None:
             keep.parent.mkdir(parents=True, exist_ok=True)
-            made.recording.save(keep)
+            rescued(made.recording.save, keep)
     missing = {key: reason for key, reason in made.sections.items() if reason}
     if as_json:
         print_json({

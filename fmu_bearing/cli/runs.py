@@ -15,6 +15,7 @@ from fmu_bearing.cli.base import (
     check_new,
     print_json,
     refusals,
+    rescued,
     shaft_speed,
 )
 from fmu_bearing.cli.options import (
@@ -30,7 +31,7 @@ from fmu_bearing.cli.options import (
     output as target,
     settle as time_left_out,
 )
-from fmu_bearing.cli.settings import changed, number, pair
+from fmu_bearing.cli.settings import changed, start_of
 from fmu_bearing.files import check_file
 
 if TYPE_CHECKING:
@@ -58,6 +59,10 @@ def simulate(
             help="CSV with time (s) and inputs, SI units, or shaft_speed_rpm, oil_temperature_degC.",
         ),
     ] = None,
+    input_from_start: Annotated[
+        bool,
+        typer.Option("--input-from-start", help="Shift the times of --input so that the first is 0."),
+    ] = False,
     settings: Settings = None,
     variables: Variables = None,
     plot: Plot = None,
@@ -80,15 +85,18 @@ def simulate(
         check_new(force, output, plot)
         if settle and not 0.0 < settle < stop_time:
             raise Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
+        if input_from_start and inputs is None:
+            raise Refusal("--input-from-start is refused: it shifts the times of --input, which is not given")
         turning = shaft_speed(speed)
         chosen, start = _begun(source, settings, fidelity)
         start |= {} if turning is None else {"shaft_speed": turning}
         run = run_it(
-            chosen, stop_time, step=step, inputs=inputs, start_values=start, outputs=split(variables)
-        )
+            chosen, stop_time, step=step, inputs=inputs, input_from_start=input_from_start,
+            start_values=start, outputs=split(variables),
+        )  # fmt: skip
         if settle and run.time[-1] >= settle:
             run = replace(run, table=run.table[run.time >= settle])
-        run.save(output)
+        rescued(run.save, output)
         files = [output]
         if plot is not None:
             draw(run, plot, split(variables))
@@ -137,15 +145,16 @@ def plot(
 
 
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
-    """Return why a run's figures are in doubt: levels, or all where a ring whirls by itself at its start."""
+    """Return why a run's figures are in doubt: those that it has of levels and velocities, or all of them."""
     from fmu_bearing.cautions import RESTARTS, restarted
-    from fmu_bearing.modal.campbell.weak import doubt, is_of_levels
+    from fmu_bearing.modal.campbell.weak import doubt, is_of_levels, is_of_motion
 
     assert run.scene is not None
     if RESTARTS in run.names and (again := restarted(run[RESTARTS].max(initial=0.0))):
         return again
     found = doubt(run.scene, start)
-    if is_of_levels(found) and not any(unit == "dB" for unit in run.units.values()):
+    units = set(run.units.values())
+    if is_of_levels(found) and "dB" not in units or is_of_motion(found) and not units & {"dB", "m/s"}:
         return ""
     return f"at the values of the start, {found}" if table and found else found
 
@@ -162,12 +171,17 @@ def _begun(
 ) -> tuple["Path | Scene", dict[str, float]]:
     """Return what is run, with keys and fidelity of the command line, and the values it starts with."""
     from fmu_bearing.interface.parameters import parameters
+    from fmu_bearing.run.simulate_fmu import open_fmu
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     if source.suffix == ".fmu":
         if fidelity is not None:
             raise Refusal(f"--fidelity is refused: that of {source} was settled when it was built")
-        return source, {name: number(name, text) for name, text in map(pair, settings or ())}
+        if not settings:
+            return source, {}
+        player = open_fmu(source)
+        units = {name: one.unit for name, one in player.inputs.items()}
+        return source, start_of(settings, units, player.settable)
     if not settings and fidelity is None:
         return source, {}
     scene = read_scene(source)

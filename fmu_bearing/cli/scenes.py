@@ -18,7 +18,9 @@ from fmu_bearing.scene.entries import Entry, entries, entry_text
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
-from fmu_bearing.scene.template import FITTED, MATERIALS, Dimensions
+from fmu_bearing.scene.own_bearing import Dimensions, balls_of
+from fmu_bearing.scene.scene import scene_name
+from fmu_bearing.scene.template import FITTED, MATERIALS
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -30,7 +32,7 @@ KINDS = ("bearings", "materials", "lubricants", "grades")
 #: What of the assumed values `new` prints: those that decide most, and what radiates.
 _SAID = (
     "mounting.preload_N", "spindle.preload.preload_N", "spindle.load.force_x_N", "spindle.shaft.sections_mm",
-    "operation.speed_rpm", "sound.radiator",
+    "operation.speed_rpm", "sound.radiator", "materials.balls", "bearing.contact_angle_deg",
 )  # fmt: skip
 
 
@@ -49,9 +51,25 @@ def new(
     bore: Annotated[float | None, _own("Bore, mm.")] = None,
     outside_diameter: Annotated[float | None, _own("mm.", "--outside-diameter", "--outside")] = None,
     width: Annotated[float | None, _own("mm.")] = None,
-    contact_angle: Annotated[float, typer.Option(help="deg; with --bore.")] = 15.0,
+    contact_angle: Annotated[
+        float | None,
+        typer.Option(help="deg; with --bore; default: what --designation says, else 15, assumed."),
+    ] = None,
+    dynamic_rating: Annotated[
+        float | None,
+        typer.Option(help="N, C as the maker prints it; with C0 the balls follow; with --bore."),
+    ] = None,
+    static_rating: Annotated[
+        float | None, typer.Option(help="N, C0 as the maker prints it; with --dynamic-rating.")
+    ] = None,
     designation: Annotated[str | None, typer.Option(help="Designation of the bearing.")] = None,
-    kind: Annotated[str, typer.Option(metavar="|".join(MATERIALS), help="Materials.")] = "hybrid",
+    kind: Annotated[
+        str | None,
+        typer.Option(
+            metavar="|".join(MATERIALS),
+            help="Materials; default: what the designation says, else hybrid, assumed.",
+        ),
+    ] = None,
     speed: Annotated[
         float | None, typer.Option(help="r/min; default: half of the limit with oil, assumed.")
     ] = None,
@@ -60,7 +78,8 @@ def new(
         typer.Option(help="N; default: light class or more, as verdicts and modes ask; assumed."),
     ] = None,
     preload_class: Annotated[
-        str | None, typer.Option(metavar="light|medium|heavy", help="Class of makers' pairs instead of N.")
+        str | None,
+        typer.Option(metavar="extra light|light|medium|heavy", help="Class of makers' pairs instead of N."),
     ] = None,
     preload_offset: Annotated[
         float | None, typer.Option(help="Offset of the ring faces instead of N, um.")
@@ -89,7 +108,12 @@ def new(
     stiffness_of: Annotated[
         str, typer.Option(metavar="pair|bearing", help="What --stiffness is of.")
     ] = "pair",
-    grade: Annotated[str, typer.Option(help="Tolerance class of the imperfections.")] = "P4",
+    grade: Annotated[
+        str | None,
+        typer.Option(
+            help="Tolerance class of the imperfections; default: what the designation says, else P4."
+        ),
+    ] = None,
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
     catalogue: Catalogues = None,
@@ -112,6 +136,9 @@ def new(
         dimensions = (bore, outside_diameter, width)
         if bearing is not None and any(value is not None for value in dimensions):
             raise Refusal("give --bearing or dimensions, not both")
+        rated = dynamic_rating is not None or static_rating is not None
+        if rated and bearing is not None:
+            raise Refusal("--dynamic-rating and --static-rating are for --bore: the catalogue has balls")
         if sum(value is not None for value in (preload, preload_class, preload_offset, spring)) > 1:
             raise Refusal("give one of --preload, --preload-class, --preload-offset and --spring")
         if arrangement is None and (distance is not None or spring is not None):
@@ -123,7 +150,7 @@ def new(
         if bearing is not None:
             chosen: str | Dimensions = bearing
         elif bore is not None and outside_diameter is not None and width is not None:
-            chosen = Dimensions(bore, outside_diameter, width, contact_angle)
+            chosen = Dimensions(bore, outside_diameter, width, contact_angle, dynamic_rating, static_rating)
         elif any(value is not None for value in dimensions):
             raise Refusal("a bearing of your own needs --bore, --outside-diameter and --width")
         else:
@@ -134,8 +161,8 @@ def new(
         path = path or _named(bearing or designation or "bearing", arrangement)
         check_new(force, path)
         text = new_scene(
-            path.stem, chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant, sound=sound,
-            designation=designation, preload_N=preload, preload_class=preload_class,
+            scene_name(path.stem), chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant,
+            sound=sound, designation=designation, preload_N=preload, preload_class=preload_class,
             preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
             distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
             stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
@@ -143,6 +170,8 @@ def new(
         write_whole(path, text.encode("utf-8"))
         found = [one for one in origins(path) if one.assumed]
     cautions = _findings(path)[1]
+    if isinstance(chosen, Dimensions) and (doubt := balls_of(chosen, kind, designation).doubt):
+        cautions = [doubt, *cautions]
     if as_json:
         print_json({"file": path, "assumed": [asdict(one) for one in found], "cautions": cautions})
         return
@@ -157,7 +186,7 @@ def new(
 def _named(bearing: str, arrangement: str | None) -> Path:
     """Return the name of a new scene's file, in letters that names of scenes may have."""
     name = bearing if arrangement is None else f"{bearing}-{arrangement}"
-    return Path(re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.") + ".toml")
+    return Path((re.sub(r"[^\w.-]+", "-", name).strip("-.") or "bearing") + ".toml")
 
 
 @scene_app.command()

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fmu_bearing.cli.base import Refusal, shaft_speed
+from fmu_bearing.cli.base import DECIMAL_COMMA, Refusal, shaft_speed
 
 if TYPE_CHECKING:
     from fmu_bearing.scene import Scene
@@ -51,26 +51,70 @@ def changed(
         For text that is not a setting, an unknown key, and a value that is refused.
     """
     from fmu_bearing.interface.table import inputs_of
-    from fmu_bearing.run.input_file import SUFFIXES
-    from fmu_bearing.scene.units import convert
     from fmu_bearing.sweeps.axes import plain_value
 
     units = {one.name: one.unit for one in inputs_of(scene)}
-    named = {
-        name + suffix: (name, suffix) for name, unit in units.items() for suffix in SUFFIXES.get(unit, ())
-    } | {name: (name, "") for name in (*units, *parameters)}
+    named = _with_units(units, parameters)
     keys: dict[str, Any] = {}
     inputs: dict[str, float] = {}
     for setting in settings or ():
         key, text = pair(setting)
         if key in named:
-            name, suffix = named[key]
-            value = number(setting, text)
-            inputs[name] = convert(value, suffix) if suffix else value
+            name, value = _in_si(setting, named[key], units)
+            inputs[name] = value
         else:
             _check_key(scene, setting, key, named, units)
             keys[key] = plain_value(text.strip("\"'"))
     return (scene.replace(keys) if keys else scene), inputs
+
+
+def start_of(
+    settings: list[str] | None, units: Mapping[str, str], parameters: Collection[str]
+) -> dict[str, float]:
+    """Return start values of an FMU, in SI units; ``units``: of its inputs by name.
+
+    Raises
+    ------
+    Refusal
+        For text that is not a setting, and a speed without its unit.
+    UnknownName
+        For an unknown name.
+    """
+    from fmu_bearing.interface.names import known
+
+    named = _with_units(units, parameters)
+    found = {}
+    for setting in settings or ():
+        key, text = pair(setting)
+        if key in named:
+            name, value = _in_si(setting, named[key], units)
+            found[name] = value
+        else:
+            of_speeds = {name for name, unit in units.items() if unit == "rad/s"}
+            known(key, [one for one in named if one not in of_speeds], "input or parameter")
+    return found
+
+
+def _with_units(units: Mapping[str, str], parameters: Collection[str]) -> dict[str, tuple[str, str]]:
+    """Return input and suffix by each name under which an input may be set."""
+    from fmu_bearing.run.input_file import SUFFIXES
+
+    return {
+        name + suffix: (name, suffix) for name, unit in units.items() for suffix in SUFFIXES.get(unit, ())
+    } | {name: (name, "") for name in (*units, *parameters)}
+
+
+def _in_si(setting: str, named: tuple[str, str], units: Mapping[str, str]) -> tuple[str, float]:
+    """Return an input with its value in SI units; `Refusal` for a speed that does not say r/min."""
+    from fmu_bearing.scene.units import convert
+
+    name, suffix = named
+    _, text = pair(setting)
+    if units.get(name) == "rad/s" and not suffix:
+        option = f" or --speed {text}" if name == "shaft_speed" else ""
+        raise Refusal(f"--set {setting}: speeds are given in r/min here: {name}_rpm={text}{option}")
+    value = number(setting, text)
+    return name, convert(value, suffix) if suffix else value
 
 
 def pair(setting: str) -> tuple[str, str]:
@@ -84,6 +128,8 @@ def pair(setting: str) -> tuple[str, str]:
     name, equals, text = (part.strip() for part in setting.partition("="))
     if not (name and equals and text):
         raise Refusal(f"--set {setting}: write KEY=VALUE, as mounting.preload_N=300 or preload=300")
+    if DECIMAL_COMMA.fullmatch(text):
+        raise Refusal(f"--set {setting}: a decimal number has a point: write {name}={text.replace(',', '.')}")
     return name, text
 
 
@@ -92,7 +138,7 @@ def number(setting: str, text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise Refusal(f"--set {setting}: write a number, in SI units, as preload=300") from None
+        raise Refusal(f"--set {setting}: write a number, as preload=300") from None
 
 
 def numbers(name: str, text: str | None) -> list[float] | None:
@@ -179,6 +225,7 @@ def _check_key(
 ) -> None:
     """Refuse a name that is in no table of scenes, with the input or key that was meant."""
     from fmu_bearing.likeness import nearest
+    from fmu_bearing.scene.preload import CLASS, OFFSET
     from fmu_bearing.scene.values import fields_of
 
     if _table(key) in type(scene).model_fields:
@@ -186,8 +233,12 @@ def _check_key(
     keys = [one for one in fields_of(scene) if getattr(scene, _table(one)) is not None]
     if scene.fit is None:  # whose keys have names of other tables, as preload
         keys = [one for one in keys if ".fit." not in one]
-    known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in inputs}
-    near = known.get(nearest(key, known), "")
+    preload = "mounting" if scene.spindle is None else "spindle.preload"
+    if scene.spindle is None or scene.spindle.preload is not None:  # in place of the force that the scene has
+        keys += [f"{preload}.{CLASS}", f"{preload}.{OFFSET}"]
+    named = [one for one in inputs if units.get(one) != "rad/s"]
+    known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in named}
+    near = known[key] if key in known else known.get(nearest(key, known), "")
     unit = f" ({units[near]})" if units.get(near) else ""
     hint = f"; did you mean {near}{unit}?" if near else ": keys have their table, as mounting.preload_N"
     raise Refusal(f"--set {setting}: there is no such key or input{hint}")

@@ -13,6 +13,7 @@ from fmu_bearing.cli.base import (
     check_new_in,
     print_json,
     refusals,
+    rescued,
     shaft_speed,
     tell,
 )
@@ -37,13 +38,16 @@ from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps, work
 
 if TYPE_CHECKING:
+    from fmu_bearing.acoustics.analysis.field import Position
+    from fmu_bearing.recording.channels.microphone_places import Places
     from fmu_bearing.recording.recording import Recording
     from fmu_bearing.recording.studies.spread import Spread
     from fmu_bearing.scene.surface import Surface
 
+_RECORDING = "recording.npz"
 #: What may be written into the folder.
 _FILES = (
-    "recording.npz", "levels.csv", "spectrum.csv", "third-octaves.csv", "planes.csv", "spectrum.png",
+    _RECORDING, "levels.csv", "spectrum.csv", "third-octaves.csv", "planes.csv", "spectrum.png",
     "third-octaves.png", "planes.png", "lines.md", "spectra.nc", "*.wav",
 )  # fmt: skip
 
@@ -66,6 +70,15 @@ def sound(
     microphone: Annotated[
         list[str] | None, typer.Option("--microphone", "-m", help="Only these microphones, by name.")
     ] = None,
+    microphone_at: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--microphone-at",
+            metavar="X,Y,Z",
+            help="A place in mm, from the bearing's centre, of a set from the nose; once per place. Without "
+            "--microphone the scene's are left out.",
+        ),
+    ] = None,
     scene: Annotated[
         Path | None, typer.Option(help="With a result (.csv): the scene of the FMU that was run.")
     ] = None,
@@ -79,6 +92,9 @@ def sound(
         ),
     ] = None,
     wav: Annotated[bool, typer.Option(help="Write WAV files.")] = True,
+    wav_format: Annotated[
+        str, typer.Option(metavar="16|24|float", help="Samples of WAV files: PCM of 16 or 24 bits, or float.")
+    ] = "float",
     directivity: Annotated[bool, typer.Option(help="Measure three planes.")] = True,
     spread: Annotated[
         bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
@@ -94,6 +110,7 @@ def sound(
 
     --plot writes the picture of the spectra, as spectrum.png in the folder, to a file.
     """
+    from fmu_bearing.acoustics.analysis.audio import check_format
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.measurements.at_frequency import noise_at
     from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, spectra_picture, write_all
@@ -108,11 +125,13 @@ def sound(
     with refusals():
         check_folder(output)  # refused before the run
         check_new_in(force, output, *_FILES)
+        check_format(wav_format)
         if plot is not None:
             check_new(force, check_picture(plot))
         chosen = source_of(source, settings, fidelity)
         turning = shaft_speed(speed)
         rough = None if surface is None else read_surface(surface)
+        places = _places(microphone, microphone_at)
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
@@ -126,22 +145,25 @@ def sound(
             found = scene_of(chosen)
             found = found if rough is None else rough.scene(found)
             require(found, "measurement")
-            named_places(found.microphones, microphone)
+            named_places(found.microphones, places)
             recording = record(
                 found, duration, speed=turning, settle=settle,
                 radiation_model=radiation_model, warn=False,
             )  # fmt: skip
             output.mkdir(parents=True, exist_ok=True)
-            recording.save(output / "recording.npz")
+            rescued(recording.save, output / _RECORDING)
         with work("sound at the microphones"):
-            analysis = analyse_sound(recording, microphone, radiation_model, resolution)
+            analysis = analyse_sound(recording, places, radiation_model, resolution)
             sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
         with work("directivity, tables and pictures"):
-            files = write_all(recording, analysis, output, radiation_model, wav, directivity, tell)
+            files = [output / _RECORDING] if source.suffix not in (".npz", ".csv") else []
+            files += write_all(
+                recording, analysis, output, radiation_model, wav, directivity, tell, wav_format
+            )
             if plot is not None:
                 save(spectra_picture(recording, analysis), plot)
                 files.append(plot)
-        sure = _spread(recording, microphone, radiation_model, rough, as_json) if spread else None
+        sure = _spread(recording, places, radiation_model, rough, as_json) if spread else None
         doubted = doubt_of(recording)
     if as_json:
         print_json(
@@ -163,6 +185,22 @@ def sound(
         tell(f"written: {output}: {', '.join(path.name for path in files)}")
 
 
+def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Position] | None":
+    """Return microphones by name and places (m) from text (mm); None: those of the scene."""
+    if not at:
+        return None if names is None else list(names)
+    found: list[str | Position] = list(names or ())
+    for text in at:
+        try:
+            x, y, z = (1e-3 * float(part) for part in text.split(","))
+        except ValueError:
+            raise Refusal(
+                f"--microphone-at {text} is refused: write three numbers in mm, as 0,1000,0"
+            ) from None
+        found.append((x, y, z))
+    return found
+
+
 def _heading(recording: "Recording") -> str:
     """Return "levels", what radiates, and how far the surfaces excite it."""
     scene, end = recording.scene, recording.excitation_end
@@ -174,7 +212,7 @@ def _heading(recording: "Recording") -> str:
 
 def _spread(
     recording: "Recording",
-    microphones: list[str] | None,
+    microphones: "Places",
     radiation_model: str | None,
     surface: "Surface | None",
     quiet: bool,

@@ -12,9 +12,11 @@ from fmu_bearing.cli.base import (
     app,
     check_new,
     check_new_in,
+    end,
     print_json,
     refusals,
     shaft_speed,
+    so_far,
     tell,
 )
 from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
@@ -92,18 +94,17 @@ def stiffness(
             raise Refusal(
                 "--mirrored is for one bearing: of a set the scene gives the direction of each bearing"
             )
-        found = table_of(
-            chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"], inputs=inputs,
-            spacing=_spacing(spacing),
-            track=partial(steps, what="stiffness", unit="speeds"),
-        )  # fmt: skip
+        found, code = so_far(partial(
+            table_of, chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"],
+            inputs=inputs, spacing=_spacing(spacing), track=partial(steps, what="stiffness", unit="speeds"),
+        ))  # fmt: skip
         files = [*found.save(target)] if form != "ross" else _elements(found, target, mirrored)
         if plot is not None:
             save(found.picture(), plot)
             files.append(plot)
     if as_json:
         print_json(_document(found, form, mirrored) | {"files": files})
-        return
+        return end(code)
     if found.nose is not None:
         _show_nose(found.nose)
     _show(found)
@@ -113,6 +114,7 @@ def stiffness(
     for line in found.cautions():
         tell(f"caution: {line}")
     tell(f"written: {', '.join(map(str, files))}")
+    end(code)
 
 
 def _spacing(text: str) -> "Spacing":

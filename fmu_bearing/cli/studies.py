@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, check_new_in, named, print_json, refusals, tell
+from fmu_bearing.cli.base import (
+    Refusal,
+    app,
+    check_new,
+    check_new_in,
+    end,
+    named,
+    print_json,
+    refusals,
+    so_far,
+    tell,
+)
 from fmu_bearing.cli.options import (
     SEEDS,
     Catalogues,
@@ -103,10 +114,10 @@ def tradeoff(
         times: dict[str, float] = {"warm_up": _QUICK, "window": _QUICK, "budget": 0.01} if quick else {}
         times |= {} if settle is None else {"warm_up": settle}
         with work(f"tradeoff of {scene.stem}"):
-            study = trading.tradeoff(
-                source, trading.QUICK if quick else trading.SETTINGS, track=partial(steps, what="variants"),
-                **times,
-            )  # fmt: skip
+            study, code = so_far(partial(
+                trading.tradeoff, source, trading.QUICK if quick else trading.SETTINGS,
+                track=partial(steps, what="variants"), **times,
+            ))  # fmt: skip
         trading.write(study, output)
         draw(study, chart)
     files = [output / "tradeoff.md", output / "tradeoff.csv", chart]
@@ -115,6 +126,7 @@ def tradeoff(
     else:
         show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
         typer.echo(f"written: {', '.join(map(str, files))}")
+    end(code)
 
 
 @app.command()
@@ -209,7 +221,9 @@ def _each_alone(
     keys = moving.QUICK if quick else tuple(moving.ASSUMED)
     spans = {"warm_up" if one == "settle" else one: value for one, value in times.items()}
     with work(f"sensitivity of {name}"):
-        study = moving.sensitivity(source, keys, track=partial(steps, what="moves"), **spans)
+        study, code = so_far(
+            partial(moving.sensitivity, source, keys, track=partial(steps, what="moves"), **spans)
+        )
     moving.write(study, output)
     files = [output / "sensitivity.md", output / "sensitivity.csv"]
     if as_json:
@@ -217,6 +231,7 @@ def _each_alone(
     else:
         show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
         typer.echo(f"written: {', '.join(map(str, files))}")
+    end(code)
 
 
 @app.command()
@@ -243,11 +258,14 @@ def changes(
 
     with refusals(), work(f"changes of {scene.stem}"):
         source = source_of(scene, at_speed(speed, settings), fidelity)
-        found = changing(source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell)
+        found, code = so_far(partial(
+            changing, source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell
+        ))  # fmt: skip
     if as_json:
         print_json(found.summary())
-        return
+        return end(code)
     show(f"{found.scene.name}: what to change", *found.table())
     for line in (f"unchanged: {found.unchanged()}", found.resonance(), found.conditions(), *found.remarks()):
         if line:
             typer.echo(textwrap.fill(line, 80))
+    end(code)

@@ -38,11 +38,16 @@ def vibration(
     ],
     kind: Annotated[
         str | None,
-        typer.Option(metavar="|".join(MATERIALS), help="Materials of a bearing by name; default: hybrid."),
+        typer.Option(
+            metavar="|".join(MATERIALS),
+            help="Materials of a bearing by name; default: what its designation says.",
+        ),
     ] = None,
     grade: Annotated[
         str | None,
-        typer.Option(help="Tolerance class of the surfaces; default: the scene's own, of a bearing P4."),
+        typer.Option(
+            help="Tolerance class of the surfaces; default: the scene's own, of a bearing by name P4."
+        ),
     ] = None,
     seeds: Annotated[int, typer.Option(help="Draws of the surfaces, the first one the scene's own.")] = SEEDS,
     limits: Annotated[

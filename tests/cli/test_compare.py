@@ -13,7 +13,7 @@ SHORT = ("-t", 0.05, "--settle", 0.02)
 @pytest.fixture(scope="module")
 def light_file(rings_file, tmp_path_factory):
     path = tmp_path_factory.mktemp("scene") / "light.toml"
-    path.write_text(read_scene(rings_file).replace({"mounting.preload_N": 200}).to_toml(), "utf-8")
+    path.write_text(read_scene(rings_file).replace({"mounting.preload_N": 300}).to_toml(), "utf-8")
     return path
 
 
@@ -51,7 +51,7 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
         assert total == pytest.approx(float(levels[1][column]), abs=0.5)
     _, *means = cells(tmp_path / "tables" / "loads-angles-torque.csv")
     by_name = {row[0]: [float(cell) for cell in row[2:5]] for row in means}
-    for k, preload in enumerate((500.0, 200.0)):  # twelve balls carry the preload at their contact angle
+    for k, preload in enumerate((500.0, 300.0)):  # twelve balls carry the preload at their contact angle
         angle = math.radians(by_name["contact.inner.angle_mean"][k])
         load = by_name["contact.inner.load_mean"][k]
         assert load == pytest.approx(preload / (12.0 * math.sin(angle)), rel=5e-3)
@@ -60,7 +60,7 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
 def test_machines(run, rings_file, light_file):
     done = run("compare", rings_file, light_file, *SHORT, "--fidelity", "response", "--seeds", 2, "--json")
     assert done.exit_code == 0, done.output
-    assert done.data["keys"] == {"mounting.preload_N": {"a": 500.0, "b": 200.0, "unit": "N"}}
+    assert done.data["keys"] == {"mounting.preload_N": {"a": 500.0, "b": 300.0, "unit": "N"}}
     assert set(done.data["a"]["levels"]) == {"P1", "P2", "P3", "P4"} and done.data["files"] == []
     assert "fidelity response" in done.stderr
     model = read_scene(rings_file).sound.radiation_model

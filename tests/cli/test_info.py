@@ -136,7 +136,9 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
     assert found["preloads_N"]["cold"] == pytest.approx([150.0, 150.0], rel=1e-6)
     assert set(found["lift_off"]) == {"+x", "-x"}
     result = run("info", SET)
-    assert result.exit_code == 0 and "2 x 7003C, DB (O), 15000 r/min" in result.stdout
+    assert result.exit_code == 0
+    assert result.stdout.startswith("7003C-DB: 2 x 7003C, DB (O), hybrid: rings GCr15, balls Si3N4")
+    assert "15000 r/min; supply oil-air; oil 40, inner ring " in " ".join(result.stdout.split())
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 

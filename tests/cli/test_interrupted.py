@@ -1,5 +1,8 @@
 """Ctrl-C ends a command with code 130 and one line, whatever it does at that moment."""
 
+import errno
+import importlib
+import itertools
 import os
 import signal
 import subprocess
@@ -8,7 +11,23 @@ import time
 
 import pytest
 
+from fmu_bearing import Run, files
 from tests.conftest import EXAMPLES
+
+# of these names the packages also have functions
+changes, error_motion, scene_stiffness, sensitivity, tradeoff = (
+    importlib.import_module(f"fmu_bearing.{name}")
+    for name in (
+        "accuracy.changes", "metrology.error_motion", "steady.stiffness.scene_stiffness",
+        "accuracy.sensitivity", "accuracy.tradeoff",
+    )
+)  # fmt: skip
+
+
+def reacting():
+    """Let a child react to Ctrl-C; what a shell starts in the background, or nohup, ignores it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 SCENE = str(EXAMPLES / "7003C-bare.toml")
 
@@ -32,14 +51,15 @@ sys.meta_path.insert(0, Interrupting())
     [
         (("simulate", "{scene}", "-t", "10000", "-o", "{folder}/a.csv"), 3.0),
         (("sensitivity", "{scene}", "-o", "{folder}"), 3.0),
+        (("vibration", "{scene}", "-o", "{folder}"), 9.0),  # within a run
     ],
-    ids=["running", "studying"],
+    ids=["running", "studying", "in a run of a study"],
 )
 def test_ctrl_c_is_one_line(tmp_path, words, seconds):
     filled = [word.format(scene=SCENE, folder=tmp_path) for word in words]
     with subprocess.Popen(
         [sys.executable, "-m", "fmu_bearing", *filled], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        text=True, start_new_session=True,
+        text=True, start_new_session=True, preexec_fn=reacting,
     ) as program:  # fmt: skip
         time.sleep(seconds)
         os.killpg(program.pid, signal.SIGINT)
@@ -57,6 +77,80 @@ def test_ctrl_c_while_modules_are_loaded(tmp_path):
     (tmp_path / "sitecustomize.py").write_text(WHILE_LOADING, encoding="utf-8")
     ended = subprocess.run(
         [sys.executable, "-m", "fmu_bearing", "--version"], capture_output=True, text=True, timeout=60,
+        preexec_fn=reacting,
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])},
     )  # fmt: skip
     assert (ended.returncode, ended.stderr, ended.stdout) == (130, "interrupted\n", "")
+
+
+#: What each study calls once a row, and the number of the call that makes the first row.
+PER_ROW = {
+    "tradeoff": (tradeoff, "measure", 3),
+    "sensitivity": (sensitivity, "measure", 2),
+    "changes": (changes, "_changed", 1),
+    "stiffness": (scene_stiffness, "_at", 1),
+    "error-motion": (error_motion, "followed", 1),
+}
+
+
+@pytest.mark.parametrize(
+    ("words", "files"),
+    [
+        (["tradeoff", "--quick"], ["tradeoff.csv", "tradeoff.md", "tradeoff.png"]),
+        (["sensitivity", "--quick"], ["sensitivity.csv", "sensitivity.md"]),
+        (["changes", "--no-levels"], []),
+        (["stiffness", "--speeds", "9000,12000,15000", "--frequencies", "100"], ["stiffness.csv"]),
+        (["error-motion", "--speeds", "2000,3000,4000", "--revolutions", "20"], ["lines.csv"]),
+    ],
+    ids=lambda words: words[0] if words else "",
+)
+def test_a_study_keeps_what_is_finished(words, files, run, silent_file, tmp_path, monkeypatch):
+    """Interrupted within the third of its rows: two are printed and written."""
+    calls = itertools.count(1)
+    module, name, first = PER_ROW[words[0]]
+    whole = getattr(module, name)
+
+    def row(*given, **more):
+        if next(calls) == first + 2:
+            raise KeyboardInterrupt
+        return whole(*given, **more)
+
+    monkeypatch.setattr(module, name, row)
+    target = tmp_path / "stiffness.csv" if words[0] == "stiffness" else tmp_path
+    where = [] if words[0] == "changes" else ["-o", target]
+    done = run(words[0], silent_file, *words[1:], *where)
+    assert done.exit_code == 130
+    assert done.stderr.count("interrupted") == 1
+    for file in files:
+        assert (tmp_path / file).stat().st_size > 0
+
+
+def test_a_run_that_its_place_does_not_take_is_not_lost(run, silent_file, tmp_path, monkeypatch):
+    """The disk of the result is full, that of temporary files is not."""
+    whole = files.os.replace
+
+    def full(source, target):
+        if str(target).startswith(str(tmp_path / "full")):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        whole(source, target)
+
+    monkeypatch.setattr(files.os, "replace", full)
+    done = run("simulate", silent_file, "-t", "0.002", "-o", tmp_path / "full" / "a.csv")
+    assert done.exit_code == 2
+    (line,) = done.stderr.splitlines()
+    assert line.startswith(f"error: {tmp_path}/full/a.csv: no space left on device; what was computed is in ")
+    assert len(Run.load(line.rpartition(" ")[2]).time) == 3
+
+
+def test_files_follow_the_users_mask(run, silent_file, tmp_path):
+    before = os.umask(0o077)
+    try:
+        assert run("simulate", silent_file, "-t", "0.002", "-o", tmp_path / "a.csv").exit_code == 0
+        files.write_whole(tmp_path / "b", b"")
+        os.umask(0o002)
+        files.write_whole(tmp_path / "c", b"")
+    finally:
+        os.umask(before)
+    modes = {path.name: path.stat().st_mode & 0o777 for path in tmp_path.iterdir()}
+    # that others write to what the cache keeps would be refused
+    assert modes == {"a.csv": 0o600, "b": 0o600, "c": 0o644}

@@ -142,7 +142,7 @@ def test_a_misspelt_column_of_inputs_keeps_its_unit(run, folder, column, name):
         (
             "preload_N = 500.0",
             'preload_N = "300"',
-            "mounting.preload_N = '300' is refused; allowed: 0 to 10000 N; it is text, as it is in quotes: "
+            "mounting.preload_N = '300' is refused; allowed: 0 to 1e+06 N; it is text, as it is in quotes: "
             "write preload_N = 300",
         ),
         (
@@ -160,7 +160,7 @@ def test_a_misspelt_column_of_inputs_keeps_its_unit(run, folder, column, name):
         (
             "preload_N = 500.0",
             'preload_N = "300 N"',
-            "mounting.preload_N = '300 N' is refused; allowed: 0 to 10000 N; it is text, no number",
+            "mounting.preload_N = '300 N' is refused; allowed: 0 to 1e+06 N; it is text, no number",
         ),
         (
             'radiator = "bare"',

@@ -75,7 +75,7 @@ def test_instability_is_told(run):
         (["--speeds", "0:100:2"], "at least 3 different ones"),
         (["--speed", "1e9"], "--speed"),
         (["--set", "preload"], "write KEY=VALUE"),
-        (["--set", "preload=much"], "write a number, in SI units"),
+        (["--set", "preload=much"], "write a number, as preload=300"),
         (["--set", "mounting.preload_N=-1"], "preload_N"),
         (["--set", "mounting.preloud_N=1"], "preload_N"),
         (["--highest", "-1", "--speeds", "1e4,2e4,3e4"], "positive number of hertz"),

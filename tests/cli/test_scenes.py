@@ -84,7 +84,7 @@ def test_a_set_from_one_line_is_ready(run, tmp_path, monkeypatch, arrangement):
     """From an empty folder: written, checked, its figures those of the library, run, built."""
     monkeypatch.chdir(tmp_path)
     asked = ("--bearing", "NSK-7010C", "--arrangement", arrangement, "--preload-class", "medium")
-    made = run("scene", "new", *asked, "--speed", 18_000, "--no-sound")
+    made = run("scene", "new", *asked, "--kind", "hybrid", "--speed", 18_000, "--no-sound")
     path = tmp_path / f"NSK-7010C-{arrangement}.toml"
     assert made.exit_code == 0 and f"written: {path.name}; " in made.stdout, made.output
     assert "assumed: spindle.shaft.sections_mm = [[16.0, 60.0, 0.0], " in made.stdout
@@ -139,7 +139,7 @@ def test_new_fits_conformities_to_a_printed_stiffness(run, tmp_path):
     for wrong, reason in (
         (("--stiffness", 53), "give --stiffness and --stiffness-preload together"),
         (("--stiffness-preload", 125), "give --stiffness and --stiffness-preload together"),
-        (("--stiffness", 530, "--stiffness-preload", 125), "conformities of 0.505 to 0.6 give 32."),
+        (("--stiffness", 530, "--stiffness-preload", 125), "conformities of 0.505 to 0.6 give 34."),
         ((*printed[:-1], "trio"), "a stiffness is of a pair or a bearing, not of 'trio'"),
     ):
         refused = run("scene", "new", tmp_path / "no.toml", *size, *wrong)
@@ -369,3 +369,57 @@ def test_check_reads_the_table_of_transfer_functions(run, scene_file, tmp_path):
         assert said in done.output
     table.write_text("root:x:0:0")
     assert "is not a NumPy archive" in run("scene", "check", file).output
+
+
+@pytest.mark.parametrize(
+    ("designation", "file"), [("轴承/1", "轴承-1.toml"), ("...", "bearing.toml"), ("Öl", "Öl.toml")]
+)
+def test_new_names_the_file_after_a_designation_in_any_letters(run, tmp_path, monkeypatch, designation, file):
+    monkeypatch.chdir(tmp_path)
+    size = ("--bore", 17, "--outside", 35, "--width", 10, "--designation", designation)
+    found = run("scene", "new", *size, "--speed", 20000, "--preload", 100)
+    assert found.exit_code == 0, found.stderr
+    assert read_scene(file).bearing.designation == designation
+
+
+def test_new_takes_any_name_of_a_file(run, tmp_path):
+    """What a scene's name cannot have becomes a dash."""
+    file = tmp_path / "_my+scene (2).toml"
+    options = ("--bearing", "7003C", "--speed", 20000, "--preload", 200)
+    assert run("scene", "new", file, *options).exit_code == 0
+    assert read_scene(file).name == "my-scene -2-"
+
+
+@pytest.mark.parametrize("speed", [0, 50, -50, 99.9, 100])
+@pytest.mark.parametrize(
+    "more", [(), ("--arrangement", "DB"), ("--no-sound",)], ids=["one", "pair", "silent"]
+)
+def test_a_slow_scene_that_new_writes_passes_the_check(run, tmp_path, speed, more):
+    """Where the speed does not decide the order of waves, the file says which one does."""
+    path = tmp_path / "slow.toml"
+    made = run("scene", "new", path, *KNOWN, f"--speed={speed}", "--preload", 200, *more)
+    assert made.exit_code == 0, made.output
+    found = run("scene", "check", path)
+    assert found.exit_code == 0, found.output
+    assert ("lowest_speed_rpm = 3000.0 # assumed" in path.read_text("utf-8")) == (abs(speed) < 100.0)
+
+
+def test_new_from_ratings(run, tmp_path):
+    """NSK's 7205BEA: 12 balls of 8.731 mm; by its dimensions alone 12 of 8.64 mm."""
+    path = tmp_path / "my-7205B.toml"
+    size = ("--bore", 25, "--outside-diameter", 52, "--width", 15, "--contact-angle", 40, "--kind", "steel")
+    operation = ("--speed", 5000, "--preload", 300, "--json")
+    made = run("scene", "new", path, *size, "--dynamic-rating", 16_700, "--static-rating", 10_200, *operation)
+    assert made.exit_code == 0, made.output
+    bearing = read_scene(path).bearing
+    assert (bearing.ball_count, bearing.ball_diameter_mm) == (12, 8.731)
+    refused = run("scene", "new", tmp_path / "b.toml", *size, "--dynamic-rating", 16_700, *operation)
+    assert refused.exit_code == 2 and "--static-rating" in refused.stderr
+    refused = run("scene", "new", tmp_path / "b.toml", *KNOWN, "--dynamic-rating", 16_700)
+    assert refused.exit_code == 2 and "are for --bore" in refused.stderr
+
+
+def test_new_outside_the_data_of_its_rule(run, tmp_path):
+    size = ("--bore", 40, "--outside-diameter", 52, "--width", 7)
+    made = run("scene", "new", tmp_path / "a.toml", *size, "--speed", 5000, "--preload", 100)
+    assert made.exit_code == 0 and "caution: the balls of a bearing of dimension series 18" in made.stderr

@@ -1,6 +1,8 @@
 """--set, --speed and --fidelity: keys and inputs of the model, in every command that takes a scene."""
 
 import json
+import math
+import re
 
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ from typer.testing import CliRunner
 
 from fmu_bearing import cli, operating_point, read_scene
 from fmu_bearing.cli.base import Refusal
-from fmu_bearing.cli.settings import changed, source_of
+from fmu_bearing.cli.settings import changed, source_of, start_of
 from fmu_bearing.interface.table import input_values, inputs_of
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import SceneError
@@ -29,7 +31,10 @@ WITHOUT_KEY = {
 def test_an_input_becomes_the_key_behind_it(kind):
     scene = read_scene(FILES[kind])
     for one in inputs_of(scene):
-        setting = [f"{one.name}={VALUES.get(one.unit, 0.0)!r}"]
+        value, name = VALUES.get(one.unit, 0.0), one.name
+        if one.unit == "rad/s":  # speeds are given in r/min
+            value, name = value * 30.0 / math.pi, f"{name}_rpm"
+        setting = [f"{name}={value!r}"]
         if one.name in WITHOUT_KEY:
             with pytest.raises(Refusal, match="no key of the scene holds this input; simulate, modes"):
                 source_of(FILES[kind], setting)
@@ -66,12 +71,14 @@ def test_without_any_the_file_is_taken_as_it_is():
     ("setting", "words"),
     [
         ("shaft_speed_rmp=9000", "did you mean shaft_speed_rpm?"),
-        ("shaft_spede=900", "did you mean shaft_speed (rad/s)?"),
+        ("shaft_spede=900", "did you mean shaft_speed_rpm?"),
+        ("shaft_speed=900", "speeds are given in r/min here: shaft_speed_rpm=900 or --speed 900"),
+        ("preload_class=light", "did you mean mounting.preload_class?"),
         ("prelaod=3", "did you mean preload (N)?"),
         ("radial_laod.z=3", "did you mean radial_load.z (N)?"),
         ("speed_rpm=3", "did you mean operation.speed_rpm?"),
         ("xyz=3", "keys have their table, as mounting.preload_N"),
-        ("preload=much", "write a number, in SI units"),
+        ("preload=much", "write a number, as preload=300"),
         ("preload", "write KEY=VALUE"),
         ("=3", "write KEY=VALUE"),
     ],
@@ -86,6 +93,18 @@ def test_the_nearest_is_of_such_a_scene():
     """A set has no mounting: its preload is in another table."""
     with pytest.raises(Refusal, match=r"did you mean spindle\.preload\.preload_N\?"):
         source_of(FILES["set"], ["preload=300"])
+    with pytest.raises(Refusal, match=r"did you mean spindle\.preload\.preload_class\?"):
+        source_of(FILES["set"], ["preload_class=light"])
+
+
+def test_an_fmu_takes_the_names_that_its_scene_takes():
+    units = {"shaft_speed": "rad/s", "preload": "N"}
+    found = start_of(["shaft_speed_rpm=9000", "preload=300", "rough=2"], units, ["rough"])
+    assert found == pytest.approx({"shaft_speed": 9000.0 * math.pi / 30.0, "preload": 300.0, "rough": 2.0})
+    with pytest.raises(Refusal, match=r"shaft_speed_rpm=9000 or --speed 9000"):
+        start_of(["shaft_speed=9000"], units, [])
+    with pytest.raises(ValueError, match="did you mean 'shaft_speed_rpm'"):
+        start_of(["shaft_spede=9000"], units, [])
 
 
 def test_a_key_that_is_none_is_refused_by_the_scene():
@@ -173,3 +192,25 @@ def test_what_is_computed_of_a_scene_is_of_what_was_set(run, rings_file, tmp_pat
         assert refused.stderr == "error: seen\n", (command, refused.output)
         assert seen.pop() == scene, command
     assert {path.name for path in tmp_path.iterdir()} == {"measured.csv"}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            ("--set", "mounting.preload_N=150,5"),
+            "--set mounting.preload_N=150,5: .* write mounting.preload_N=150.5",
+        ),
+        (
+            ("--stop-time", "0,5"),
+            "'--stop-time' / '-t': .*valid number, with a point where it is decimal, as 0.5",
+        ),
+        (
+            ("--speed", "20000,0"),
+            "'--speed': .*valid number, with a point where it is decimal, as 0.5",
+        ),
+    ],
+)
+def test_decimal_commas_are_named(run, rings_file, words, said):
+    found = run("simulate", rings_file, *words)
+    assert found.exit_code == 2 and re.search(said, found.stderr)

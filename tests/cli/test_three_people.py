@@ -56,7 +56,9 @@ def answered(run, tmp_path, monkeypatch):
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory):
     """The same pair by the library alone."""
-    text = new_scene("NSK-7010C-DB", "NSK-7010C", arrangement="DB", preload_class="medium", speed_rpm=18e3)
+    text = new_scene(
+        "NSK-7010C-DB", "NSK-7010C", kind="hybrid", arrangement="DB", preload_class="medium", speed_rpm=18e3
+    )
     path = tmp_path_factory.mktemp("library") / "pair.toml"
     path.write_text(text, "utf-8")
     return read_scene(path)

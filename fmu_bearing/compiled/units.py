@@ -52,7 +52,6 @@ ENTRIES = {
     "runge_kutta": Entry("study", "pcywk", 4),
     "first_order": Entry("study", "pcxwfyd", 3),
     "first_order_jacobian": Entry("study", "pcxwbyd", 3),
-    "contacts": Entry("study", "psz"),
     "held": Entry("study", "pucdgqw"),
     "answer_set": Entry("study", "psw", 1),
     "play": Entry("study", "pswmzr", 7),
@@ -143,11 +142,10 @@ def _study() -> dict[str, Callable[..., Any]]:
     from fmu_bearing.engine.layout import U
     from fmu_bearing.engine.mechanics import conditions as oil, equations
     from fmu_bearing.engine.newton import jacobian as newton
-    from fmu_bearing.engine.readout import outputs
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
     from fmu_bearing.engine.statics import held as statics
 
-    rhs, observe = equations.right_hand_side, outputs.contacts
+    rhs = equations.right_hand_side
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
     speed, newton_of_set = U.SPEED, full.solve_at_state
@@ -182,10 +180,6 @@ def _study() -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
         return 0
 
-    def contacts(p, s, z, n):
-        observe(carray(p, (n[0],)), carray(s, (n[1],)), carray(z, (n[2],)))
-        return 0
-
     def held(p, u, c, d, g, q, w, n):
         of_bearing, inputs, held_values = carray(p, (n[0],)), carray(u, (n[1],)), carray(c, (n[2],))
         conditions(of_bearing, inputs, inputs[speed], held_values)
@@ -213,7 +207,6 @@ def _study() -> dict[str, Callable[..., Any]]:
         "runge_kutta": runge_kutta,
         "first_order": first_order,
         "first_order_jacobian": first_order_jacobian,
-        "contacts": contacts,
         "held": held,
         "answer_set": answer_set,
         "play": play,

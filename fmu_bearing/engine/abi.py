@@ -7,6 +7,7 @@ that a step which fails to converge leaves it at the time it reached: the caller
 import math
 
 from fmu_bearing.engine.choices import FULL, RESPONSE, RINGS
+from fmu_bearing.engine.fidelities.condensed.publish import find_contacts
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.port_derivative import port_derivative
 from fmu_bearing.engine.fidelities.full.start import start
@@ -15,6 +16,7 @@ from fmu_bearing.engine.fidelities.rings.restart import march_rings
 from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
+from fmu_bearing.engine.readout.contacts import keep_contacts
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
@@ -95,6 +97,16 @@ def bends(p):
 
 
 @kernel
+def keep(p, s, w):
+    """Keep in the state what outputs need of the contacts, whose rows are in ``w`` after steps of `full`."""
+    for b in range(members.count(p)):
+        pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+        if p[P.FIDELITY] != FULL:
+            find_contacts(pb, sb, wb)
+        keep_contacts(pb, sb, wb)
+
+
+@kernel
 def outputs(p, s, z):
     """Fill the outputs ``z`` from the state ``s``."""
     if members.has_shaft(p):
@@ -120,6 +132,7 @@ def init(p, u, s, z, w, t):
     else:
         status = start(p, u, s, w, t)
     if status == OK:
+        keep(p, s, w)
         outputs(p, s, z)
     return status
 
@@ -140,6 +153,7 @@ def step(p, u, s, z, w, h):
     else:
         status = march(p, u, s, w, h)
     if status == OK:
+        keep(p, s, w)
         outputs(p, s, z)
     return status
 

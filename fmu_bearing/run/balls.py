@@ -1,8 +1,7 @@
 """Place, load and contact angle of every ball, and the cage's place, read from the state.
 
-The table of variables has means and extremes over the balls. The engine computes those in one kernel from
-each ball's place. Here the same kernel is applied to a bearing with one ball, so that no formula is written
-twice.
+The table of variables has means and extremes over the balls. The engine makes those of rows that the state
+keeps of each ball's contacts, and the same rows are read here.
 """
 
 import math
@@ -11,8 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.compiled import bound
-from fmu_bearing.engine.layout import STRIDE, P, Q, S, Y, Z
+from fmu_bearing.engine.layout import P, Q, R, S, Y
 from fmu_bearing.instance import Instance
 
 
@@ -28,7 +26,6 @@ class Readable(Protocol):
         """State."""
 
 
-_ROWS = 9  # of the state, per ball
 _CAGE = S.Y + Y.Q0 + Q.CAGE
 RACES = ("inner", "outer")
 
@@ -41,7 +38,7 @@ def name_of(ball: int, what: str, race: str = "") -> str:
 class Watch:
     """Reads balls and cage at each call, for ``fmu_bearing.record(watch=...)``.
 
-    Loads are the elastic ones, without waviness of the races, as ``contact.inner.load_mean`` is.
+    Loads are those that the balls feel, as ``contact.inner.load_mean`` is.
     """
 
     def __init__(self) -> None:
@@ -72,43 +69,38 @@ class Watch:
 
 
 class Reader:
-    """Reads the balls of one initialised bearing.
+    """Reads the balls of one initialised bearing, of a set one at a time."""
 
-    Parameters
-    ----------
-    bearing : Readable
-    what : tuple of int
-        What is read at each race, of the four numbers at ``Z.CONTACT``.
-    """
+    def __init__(self, bearing: Readable) -> None:
+        self.balls = int(bearing.p[P.BALLS])
+        self.has_cage = bool(bearing.p[P.CAGE])
+        numbers = P.RACES + P.RACE_SIZE * np.arange(len(RACES))
+        self._stiffness: NDArray[np.float64] = bearing.p[numbers + P.RACE_PRESSURE]  # Pa/m^0.5
 
-    def __init__(self, bearing: Readable, what: tuple[int, ...] = (Z.LOAD_MEAN, Z.ANGLE_MEAN)) -> None:
-        self._read = [Z.CONTACT + race * Z.CONTACT_SIZE + k for race in range(len(RACES)) for k in what]
-        # without the sound block behind the tables, which is large
-        end = int(bearing.p[P.AT_SOUND]) or len(bearing.p)
-        self._p: NDArray[np.float64] = bearing.p[:end].copy()
-        self._oversize = int(self._p[P.AT_OVERSIZE])
-        self.balls = int(self._p[P.BALLS])
-        self.has_cage = bool(self._p[P.CAGE])
-        self._diameters = self._p[self._oversize : self._oversize + self.balls].copy()
-        self._p[P.BALLS] = 1.0
-        self._rows = S.Y + STRIDE * np.arange(_ROWS)
-        self._z: NDArray[np.float64] = np.zeros(len(Z.BEARING_OUTPUTS))
-        # a copy, for every ball is put in the first one's place; the kernel reads nothing behind
-        self._s: NDArray[np.float64] = bearing.s[: S.AXES].copy()
-        self._contacts = bound("contacts", self._p, self._s, self._z)
+    def _row(self, bearing: Readable, row: int) -> NDArray[np.float64]:
+        kept = bearing.s[S.CONTACTS : S.CONTACTS + len(RACES) * R.KEPT].reshape(len(RACES), R.KEPT)
+        return kept[:, row : row + self.balls]
+
+    def loads(self, bearing: Readable) -> NDArray[np.float64]:
+        """Return the balls' loads (N), shape (2, balls)."""
+        return self._row(bearing, R.KEPT_LOAD).copy()
+
+    def angles(self, bearing: Readable) -> NDArray[np.float64]:
+        """Return the contact angles (rad), shape (2, balls)."""
+        sides = np.array([[-1.0], [1.0]])
+        sine, cosine = self._row(bearing, R.KEPT_SINA), self._row(bearing, R.KEPT_COSA)
+        return np.asarray(np.arctan2(sides * sine, sides * cosine))
+
+    def pressures(self, bearing: Readable) -> NDArray[np.float64]:
+        """Return the largest contact pressures (Pa), shape (2, balls)."""
+        approach = np.maximum(self._row(bearing, R.KEPT_APPROACH), 0.0)
+        return np.asarray(self._stiffness[:, None] * np.sqrt(approach))
 
     def read(self, bearing: Readable) -> NDArray[np.float64]:
-        """Return azimuth (rad, from 12 o'clock about +X), then what is read at inner and outer race.
+        """Return azimuth (rad, from 12 o'clock about +X), load (N) and angle (rad) at inner, then outer race.
 
-        By default load (N) and angle (rad): shape (balls, 5).
+        Shape (balls, 5).
         """
-        self._s[:] = bearing.s[: S.AXES]
-        places = self._s[self._rows[:, None] + np.arange(self.balls)]
-        found = np.empty((self.balls, 1 + len(self._read)))
-        for j in range(self.balls):
-            self._s[self._rows] = places[:, j]
-            self._p[self._oversize] = self._diameters[j]
-            self._contacts()
-            found[j, 0] = places[Y.TH // STRIDE, j] % (2.0 * math.pi)
-            found[j, 1:] = self._z[self._read]
-        return found
+        azimuth = bearing.s[S.Y + Y.TH : S.Y + Y.TH + self.balls] % (2.0 * math.pi)
+        (load_i, load_o), (angle_i, angle_o) = self.loads(bearing), self.angles(bearing)
+        return np.column_stack([azimuth, load_i, angle_i, load_o, angle_o])

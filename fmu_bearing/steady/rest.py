@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import GRAVITY, REFERENCE_TEMPERATURE
-from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y, Z
+from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import prepare
@@ -40,9 +40,8 @@ class Part:
 
     def balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Return loads (N), contact angles (rad) and pressures (Pa), each of shape (2, balls)."""
-        found = Reader(self, (Z.LOAD_MEAN, Z.ANGLE_MEAN, Z.PRESSURE_MAX)).read(self)[:, 1:]
-        loads, angles, pressures = found.reshape(-1, 2, 3).transpose(2, 1, 0)
-        return loads, angles, pressures
+        reader = Reader(self)
+        return reader.loads(self), reader.angles(self), reader.pressures(self)
 
 
 def pedestal(state: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -221,4 +221,4 @@ def test_arrays_of_another_kind_are_refused():
     z = np.zeros(400)
     for wrong in (np.zeros(800)[::2], np.zeros(400, dtype=np.float32)):
         with pytest.raises(TypeError, match="float64 arrays without gaps"):
-            call("contacts", wrong, z, z)
+            call("outputs", wrong, z, z)

@@ -187,13 +187,19 @@ def closed_form(p, c, out):
 
     From the contacts of one ball in series at the equilibrium ``out`` of `quasistatic`.
     """
-    inner, outer = C.RACES, C.RACES + C.RACE_SIZE
+    inner = C.RACES
     radius = p[P.PITCH_RADIUS] + out[ST.AXIAL_R]
-    kxx, kxr, krr = series_stiffness(
-        p, c, out[ST.AXIAL_X] - out[ST.AXIAL_SHIFT] - c[inner + C.GROOVE_X],
-        radius - c[inner + C.GROOVE_RADIUS], out[ST.AXIAL_X] - c[outer + C.GROOVE_X],
-        radius - c[outer + C.GROOVE_RADIUS],
-    )  # fmt: skip
+    shifts = out[ST.AXIAL_SHIFT], 0.0
+
+    def contact(race):
+        held = C.RACES + race * C.RACE_SIZE
+        x = out[ST.AXIAL_X] - shifts[race] - c[held + C.GROOVE_X]
+        r = radius - c[held + C.GROOVE_RADIUS]
+        distance = np.hypot(x, r)
+        hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+        return hertz, distance - c[held + C.FREE], distance, x / distance, r / distance
+
+    kxx, kxr, krr = series_stiffness(contact(0), contact(1))
     # a tilt b about the tangent moves the groove centre by (-b R_c, b x_c)
     gx, gr = -c[inner + C.GROOVE_RADIUS], c[inner + C.GROOVE_X]
     half = 0.5 * p[P.BALLS]

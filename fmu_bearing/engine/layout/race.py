@@ -31,3 +31,11 @@ COSA = _at(STRIDE)
 BUMP_T = _at(STRIDE)  # slope of the ball's own waviness towards e_t and e_m
 BUMP_M = _at(STRIDE)
 SIZE = _at.next
+
+# rows of a race that the state keeps for outputs
+_at = Places()
+KEPT_APPROACH = _at(STRIDE)
+KEPT_LOAD = _at(STRIDE)
+KEPT_SINA = _at(STRIDE)
+KEPT_COSA = _at(STRIDE)
+KEPT = _at.next

@@ -50,6 +50,34 @@ def react(lanes, balls, body, first, spin, last, w):
 
 
 @kernel
+def inner_pose(p, c, y, speed, w):
+    """Evaluate where the balls are in the inner ring."""
+    lanes = int(p[P.LANES])
+    q = Y.Q0
+    v = Y.V0
+    relative_pose(
+        p, y, lanes, 0, y[q], y[q + Q.Y], y[q + Q.Z], y[q + Q.INNER_BY], y[q + Q.INNER_BZ],
+        y[v], y[v + Q.Y], y[v + Q.Z], speed, y[v + Q.INNER_BY], y[v + Q.INNER_BZ], w,
+    )  # fmt: skip
+    if bends(p, 0):
+        move_groove(p, c, lanes, 0, speed, w)
+
+
+@kernel
+def outer_pose(p, c, y, w):
+    """Evaluate where the balls are in the outer ring."""
+    lanes = int(p[P.LANES])
+    q = Y.Q0 + Q.OUTER
+    v = Y.V0 + Q.OUTER
+    relative_pose(
+        p, y, lanes, 1, y[q], y[q + Q.Y], y[q + Q.Z], y[q + Q.BY], y[q + Q.BZ],
+        y[v], y[v + Q.Y], y[v + Q.Z], y[v + Q.TURN], y[v + Q.BY], y[v + Q.BZ], w,
+    )  # fmt: skip
+    if bends(p, 1):
+        move_groove(p, c, lanes, 1, y[v + Q.TURN], w)
+
+
+@kernel
 def race_forces(p, c, y, lanes, race, turned, w):
     """Evaluate the forces between balls and one race, whose poses are in ``w``; ``turned``: its angle (rad).
 
@@ -80,14 +108,7 @@ def race_forces(p, c, y, lanes, race, turned, w):
 def inner_forces(p, c, y, angle, speed, w):
     """Evaluate what the balls feel from the inner ring and give back to it."""
     lanes = int(p[P.LANES])
-    q = Y.Q0
-    v = Y.V0
-    relative_pose(
-        p, y, lanes, 0, y[q], y[q + Q.Y], y[q + Q.Z], y[q + Q.INNER_BY], y[q + Q.INNER_BZ],
-        y[v], y[v + Q.Y], y[v + Q.Z], speed, y[v + Q.INNER_BY], y[v + Q.INNER_BZ], w,
-    )  # fmt: skip
-    if bends(p, 0):
-        move_groove(p, c, lanes, 0, speed, w)
+    inner_pose(p, c, y, speed, w)
     race_forces(p, c, y, lanes, 0, angle, w)
     react(lanes, p[P.BALLS], 0, W.BODY, W.SHAFT, W.BODY + Q.INNER_BY * STRIDE, w)
 
@@ -96,15 +117,8 @@ def inner_forces(p, c, y, angle, speed, w):
 def outer_forces(p, c, y, w):
     """Evaluate what the balls feel from the outer ring and give back to it."""
     lanes = int(p[P.LANES])
-    q = Y.Q0 + Q.OUTER
-    v = Y.V0 + Q.OUTER
-    relative_pose(
-        p, y, lanes, 1, y[q], y[q + Q.Y], y[q + Q.Z], y[q + Q.BY], y[q + Q.BZ],
-        y[v], y[v + Q.Y], y[v + Q.Z], y[v + Q.TURN], y[v + Q.BY], y[v + Q.BZ], w,
-    )  # fmt: skip
-    if bends(p, 1):
-        move_groove(p, c, lanes, 1, y[v + Q.TURN], w)
-    race_forces(p, c, y, lanes, 1, y[q + Q.TURN], w)
+    outer_pose(p, c, y, w)
+    race_forces(p, c, y, lanes, 1, y[Y.Q0 + Q.OUTER + Q.TURN], w)
     rows = W.BODY + Q.OUTER * STRIDE
     react(lanes, p[P.BALLS], 1, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
 

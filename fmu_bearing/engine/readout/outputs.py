@@ -6,11 +6,10 @@ from fmu_bearing.engine.constants import STANDSTILL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
-from fmu_bearing.engine.mechanics.pose import axis_cosine, resolved
 from fmu_bearing.engine.mechanics.race import wave_time
+from fmu_bearing.engine.readout.contacts import contacts
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound.meter import levels
-from fmu_bearing.engine.statics.stiffness import series_stiffness
 
 LITTLE_LOST = 1e-6  # of the stored energy: dissipation below it says nothing about a balance
 _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle says nothing
@@ -68,84 +67,6 @@ def losses(s, z):
         z[Z.SLIP + i] = s[S.SLIP + i]
     for i in range(S.LOSSES):
         z[Z.TORQUE_CONTACTS + i] = s[S.LOSS + i] / s[S.SPEED] if speed > STANDSTILL else 0.0
-
-
-@kernel
-def place_in(s, ring, tilt, x, radius, co, si):
-    """Axial and radial place (m) of a ball in a ring's frame; ``ring``, ``tilt``: of ``s``."""
-    by = s[tilt]
-    bz = s[tilt + 1]
-    nx = axis_cosine(by, bz)
-    qx, qr, qt, _, _, axial = resolved(co, si, x, radius, s[ring], s[ring + Q.Y], s[ring + Q.Z], by, bz, nx)
-    return axial, math.sqrt(max(qx * qx + qr * qr + qt * qt - axial * axial, 0.0))
-
-
-@kernel
-def contacts(p, s, z):
-    """Write loads, angles, pressures, shoulder margins, film over roughness and stiffness between the rings.
-
-    The margin is the angle (rad) by which the ellipse of the most loaded contact ends before its shoulder.
-    Loads are the elastic ones without the waviness of the races. Film: Hamrock and Dowson (1977), minimum
-    film, with the rolling speed of a ball that does not slip.
-    """
-    c = s[S.C : S.C + C.SIZE]
-    pitch = p[P.PITCH_RADIUS]
-    balls = int(p[P.BALLS])
-    ball = c[C.BALL_RADIUS]
-    oversize = int(p[P.AT_OVERSIZE])
-    thinnest = 1e30
-    one = C.RACES
-    other = C.RACES + C.RACE_SIZE
-    inner = S.Y + Y.Q0
-    outer = inner + Q.OUTER
-    for i in range(2 * Z.CONTACT_SIZE):
-        z[Z.CONTACT + i] = 0.0
-    z[Z.AXIAL_STIFFNESS] = 0.0
-    z[Z.RADIAL_STIFFNESS] = 0.0
-    for j in range(balls):
-        angle = s[S.Y + Y.TH + j]
-        co = math.cos(angle)
-        si = math.sin(angle)
-        x = s[S.Y + Y.X + j]
-        r = s[S.Y + Y.R + j]
-        ax, ar = place_in(s, inner, inner + Q.INNER_BY, x, pitch + r, co, si)
-        bx, br = place_in(s, outer, outer + Q.BY, x, pitch + r, co, si)
-        om = s[S.Y + Y.OM + j]
-        for race in range(2):
-            held = C.RACES + race * C.RACE_SIZE
-            numbers = P.RACES + race * P.RACE_SIZE
-            sx = (ax if race == 0 else bx) - c[held + C.GROOVE_X]
-            sr = (ar if race == 0 else br) - c[held + C.GROOVE_RADIUS]
-            distance = math.sqrt(sx * sx + sr * sr)
-            approach = max(distance - c[held + C.FREE] + 0.5 * p[oversize + j], 0.0)
-            load = p[numbers + P.RACE_STIFFNESS] * approach * math.sqrt(approach)
-            side = -1.0 if race == 0 else 1.0
-            at = Z.CONTACT + Z.CONTACT_SIZE * race
-            z[at + Z.LOAD_MEAN] += load / balls
-            z[at + Z.LOAD_MAX] = max(z[at + Z.LOAD_MAX], load)
-            z[at + Z.ANGLE_MEAN] += math.atan2(side * sx, side * sr) / balls
-            pressure = p[numbers + P.RACE_PRESSURE] * math.sqrt(approach)
-            z[at + Z.PRESSURE_MAX] = max(z[at + Z.PRESSURE_MAX], pressure)
-            rolling = om if race == 1 else s[S.SPEED] - om
-            speed = abs(rolling) * (pitch + ball * sr / distance)
-            film = p[numbers + P.RACE_FILM] * math.exp(
-                0.68 * math.log(c[C.VISCOSITY] * speed + 1e-12) - 0.073 * math.log(load + 1e-3)
-            )
-            thinnest = min(thinnest, film)
-        kxx, _, krr = series_stiffness(
-            p, c, ax - c[one + C.GROOVE_X], ar - c[one + C.GROOVE_RADIUS],
-            bx - c[other + C.GROOVE_X], br - c[other + C.GROOVE_RADIUS],
-        )  # fmt: skip
-        z[Z.AXIAL_STIFFNESS] += kxx
-        z[Z.RADIAL_STIFFNESS] += 0.5 * krr
-    z[Z.LAMBDA] = thinnest / p[P.ROUGHNESS]
-    for race in range(2):
-        numbers = P.RACES + race * P.RACE_SIZE
-        at = Z.CONTACT + Z.CONTACT_SIZE * race
-        root = (z[at + Z.LOAD_MAX] / p[numbers + P.RACE_STIFFNESS]) ** (1.0 / 3.0)
-        half = p[numbers + P.RACE_HALF_LENGTH] * root
-        reach = math.asin(min(1.0, half / p[numbers + P.RACE_PROFILE_RADIUS]))
-        z[Z.SHOULDER + race] = p[numbers + P.RACE_SHOULDER] - z[at + Z.ANGLE_MEAN] - reach
 
 
 @kernel

@@ -6,27 +6,15 @@ The ball is massless and free in its axial plane; centrifugal and friction force
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, ST, C, P
+from fmu_bearing.engine.layout import EQ, ST, P
 from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat
 
 
 @kernel
-def contact(p, c, race, sx, sr):
-    """Load (N), sine and cosine of the contact angle, approach (m) and distance for a ball in one race.
-
-    ``sx``, ``sr``: the ball's centre from the race's groove centre, axial and radial (m).
-    """
-    distance = math.sqrt(sx * sx + sr * sr)
-    approach = max(distance - c[C.RACES + race * C.RACE_SIZE + C.FREE], 0.0)
-    load = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS] * approach * math.sqrt(approach)
-    return load, sx / distance, sr / distance, approach, distance
-
-
-@kernel
-def contact_stiffness(hertz, load, approach, distance, sine, cosine):
+def contact_stiffness(hertz, approach, distance, sine, cosine):
     """In-plane stiffness (N/m) of one contact: xx, xr, rr, with the turning of the load's direction."""
     kn = 1.5 * hertz * math.sqrt(approach)
-    kt = load / distance
+    kt = kn * approach / (1.5 * distance)
     return (
         kn * sine * sine + kt * cosine * cosine,
         (kn - kt) * sine * cosine,
@@ -35,17 +23,18 @@ def contact_stiffness(hertz, load, approach, distance, sine, cosine):
 
 
 @kernel
-def series_stiffness(p, c, x_i, r_i, x_o, r_o):
+def series_stiffness(inner, outer):
     """In-plane stiffness (xx, xr, rr in N/m) of inner and outer contact in series, ball massless.
 
-    ``x``, ``r``: the ball's centre from each groove centre (m). Zero when a contact is open.
+    Of each contact: stiffness constant (N/m^1.5), approach (m), distance of the ball's centre from that of
+    the groove (m), sine and cosine of the contact angle. Zero when a contact is open.
     """
-    qi, si, ci, di, li = contact(p, c, 0, x_i, r_i)
-    qo, so, co, do, lo = contact(p, c, 1, x_o, r_o)
-    if qi <= 0.0 or qo <= 0.0:
+    hertz_i, approach_i, distance_i, sine_i, cosine_i = inner
+    hertz_o, approach_o, distance_o, sine_o, cosine_o = outer
+    if approach_i <= 0.0 or approach_o <= 0.0:
         return 0.0, 0.0, 0.0
-    ixx, ixr, irr = contact_stiffness(p[P.RACES + P.RACE_STIFFNESS], qi, di, li, si, ci)
-    oxx, oxr, orr = contact_stiffness(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], qo, do, lo, so, co)
+    ixx, ixr, irr = contact_stiffness(hertz_i, approach_i, distance_i, sine_i, cosine_i)
+    oxx, oxr, orr = contact_stiffness(hertz_o, approach_o, distance_o, sine_o, cosine_o)
     sxx = ixx + oxx
     sxr = ixr + oxr
     srr = irr + orr

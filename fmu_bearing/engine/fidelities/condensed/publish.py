@@ -1,10 +1,15 @@
 """From the rings' own state to the one that outputs and sound are made of."""
 
 from fmu_bearing.engine.constants import PI
+from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.ball_motion import show_moving
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, F, L, P, Q, Y
-from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, R, S, T, W, Y
+from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
+from fmu_bearing.engine.mechanics.equations import inner_pose, outer_pose
+from fmu_bearing.engine.mechanics.race import normal, waves
+from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 
 # What a ball in its races can do: its place varies by 0.3 mm per radian of turning at most (ten times what a
@@ -87,3 +92,32 @@ def publish(p, lv, speed, speed_rate, y, f):
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)
     publish_losses(lv, speed, f)
+
+
+@kernel
+def find_contacts(p, s, w):
+    """Evaluate the rows of both races at the state of fidelities `rings` and `response`.
+
+    The rings are rigid; the balls' own form is that of balls that spin steadily (``condensed.ball_form``).
+    """
+    lv, c, y = s[S.CONDENSED : S.CONDENSED + L.SIZE], s[S.C : S.C + C.SIZE], s[S.Y : S.Y + Y.SIZE]
+    lanes = int(p[P.LANES])
+    own = S.CONTACTS  # heights by the balls' form, until the rows are kept there
+    for j in range(lanes):
+        w[T.INNER + j] = 0.0
+        w[T.OUTER + j] = 0.0
+    if has_wavy_balls(p, c):
+        add_ball_form(p, c, lv, lv[L.ROLLED], s[S.SPEED], w)
+    for j in range(lanes):
+        s[own + j] = w[T.INNER + j]
+        s[own + STRIDE + j] = w[T.OUTER + j]
+    ball_angles(y, Y.TH, lanes, w)
+    inner_pose(p, c, y, s[S.SPEED], w)
+    outer_pose(p, c, y, w)
+    for race in range(2):
+        turned = s[S.ANGLE] if race == 0 else y[Y.Q0 + Q.OUTER + Q.TURN]
+        waves(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
+        row = W.RACE + race * R.SIZE + R.WAVE
+        for j in range(0, lanes, FOUR):
+            store(w, row + j, load(w, row + j) + load(s, own + race * STRIDE + j))
+        normal(p, c, y, lanes, race, w)

@@ -61,7 +61,9 @@ INDEX_ROWS = _at.next
 HEADS = 256  # chains of lines by key, behind these rows,
 _at = Places()
 NOTE_STRONGEST = _at()  # Pa2: behind these the largest weight of a line of the rings,
-NOTE_TOKEN = _at()  # and what the table is of
+NOTE_TOKEN = _at()  # and what the table is of,
+PLACE_SIZE = 4  # numbers of the march from the stage of a renewal to its cursor
+NOTE_PLACE = _at(PLACE_SIZE)  # and the piece that would follow
 NOTES = _at.next
 
 # scratch of beats over a step: rows of the most beats

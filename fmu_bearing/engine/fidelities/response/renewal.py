@@ -61,6 +61,7 @@ _AHEAD = 0.4  # of a drift: how far beyond the speed at which they come into use
 _SOON = 0.1  # s: no farther than a ramp comes in that time
 _SMOOTH = 10e-3  # s: a speed with noise has no rate from one step to the next,
 _PACE = 20.0  # 1/s: and one that changes by more than this part of it jumps
+_NEAR = 1e-3  # of an input: what is held may be off by as much
 _SEARCHES = 4.0  # every so many pieces one is of a search that waits
 
 
@@ -209,8 +210,9 @@ def token_of(p, back, aim):
 def sound_piece(p, s, w):
     """One piece of the lines' sound.
 
-    What it leaves to the next one is in the work space, which is not part of the state. Where another state
-    was put back meanwhile, all pieces so far are made again.
+    What it leaves to the next one is in the work space, which is not part of the state: notes there say of
+    what it is and how far it has gone. Where another state was put back meanwhile, of another renewal or of
+    an earlier piece of this one, all pieces so far are made again.
     """
     own = members.set_state(p, s)
     at = members.march(p)
@@ -220,13 +222,25 @@ def sound_piece(p, s, w):
     stage, member, cursor = own[at + SP.STAGE], own[at + SP.MEMBER], own[at + SP.CURSOR]
     if stage == RINGS and cursor == 0.0:
         own[at + SP.TOKEN] = token_of(p, back_of(p, s), own[at + SP.AIM])
-        ws[tag] = own[at + SP.TOKEN]
-    elif ws[tag] != own[at + SP.TOKEN]:
+    elif not (ws[tag] == own[at + SP.TOKEN] and is_at(ws, tag, stage, member, cursor)):
         enter(p, s, RINGS)
         while own[at + SP.STAGE] != stage or own[at + SP.MEMBER] != member or own[at + SP.CURSOR] != cursor:
             sound_once(p, s, w)
-        ws[tag] = own[at + SP.TOKEN]
     sound_once(p, s, w)
+    ws[tag] = own[at + SP.TOKEN]
+    for i in range(SL.PLACE_SIZE):
+        ws[tag + SL.NOTE_PLACE - SL.NOTE_TOKEN + i] = own[at + SP.STAGE + i]
+
+
+@kernel
+def is_at(ws, tag, stage, member, cursor):
+    """Whether the pieces in the work space end where the next one is that of these numbers."""
+    at = tag + SL.NOTE_PLACE - SL.NOTE_TOKEN
+    return (
+        ws[at] == stage
+        and ws[at + SP.MEMBER - SP.STAGE] == member
+        and ws[at + SP.CURSOR - SP.STAGE] == cursor
+    )
 
 
 @kernel
@@ -351,11 +365,23 @@ def runs_away(p, s, speed):
 
 
 @kernel
+def strayed(p, u, s):
+    """Whether the renewal that goes on is for other inputs than ``u``, the speed aside."""
+    given = inputs_of(p, s)
+    for i in range(inputs(p)):
+        if i != SP.U_SPEED and abs(given[i] - u[i]) > _NEAR * abs(u[i]) + 1e-12:
+            return True
+    return False
+
+
+@kernel
 def go_on(p, u, s, w, h, renewed):
     """Make the pieces due in a step of ``h`` (s); status code, and whether something new is in use.
 
     ``renewed``: whether what is held is out of date for the inputs ``u``. Where the speed jumps far, all
-    pieces are made at once.
+    pieces are made at once. Where inputs come back to those in use, the renewal for others is given up: one
+    bad sample changes nothing. A renewal that finds no equilibrium for other inputs gives way to one for
+    these.
     """
     own = members.set_state(p, s)
     at = members.march(p)
@@ -374,6 +400,8 @@ def go_on(p, u, s, w, h, renewed):
             own[at + SP.STAGE] = IDLE
             renewed = True
     fresh = False
+    if own[at + SP.STAGE] != IDLE and not renewed and strayed(p, u, s):
+        own[at + SP.STAGE] = IDLE
     while True:
         if own[at + SP.STAGE] == IDLE:
             if renewed or moved(p, s, u[SP.U_SPEED]):
@@ -391,6 +419,9 @@ def go_on(p, u, s, w, h, renewed):
         if own[at + SP.STAGE] == first_lines and share_in_use(p, s, 0.0) < 1.0:
             return OK, fresh
         status = piece(p, s, w)
+        if status != OK and strayed(p, u, s):
+            renewed = True
+            continue
         if status != OK:
             return status, fresh
         if own[at + SP.STAGE] == COMPLETE:

@@ -34,7 +34,9 @@ from fmu_bearing.scene.imperfections import RACES
 #: Messages for the status codes of the engine.
 REASONS = {
     NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
-    "change inputs by less at a time, or over more steps",
+    "change inputs by less at a time, or over more steps; where steps are refused at inputs that were good "
+    "before, nothing leads on from this state: put an earlier one back (fmi2SetFMUstate), or begin again "
+    "(fmi2Reset, reset())",
     BAD_INPUT: "an input is not finite or outside its range",
     BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
     NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less radial load",

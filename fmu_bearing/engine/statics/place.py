@@ -8,6 +8,8 @@ from fmu_bearing.engine.layout import EQ, C, P, Q, W, Y
 from fmu_bearing.engine.statics.mounted import mounted_equilibrium
 from fmu_bearing.engine.status import OK
 
+_FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
+
 
 @kernel
 def loads(p, c, load):
@@ -41,13 +43,25 @@ def equilibrium(p, c, speed, load, share, tilt, found, w):
 
 
 @kernel
+def sunk(c, load_y, load_z):
+    """Return where a pedestal lets loads (N) push the outer ring: y, z (m)."""
+    share = c[C.PEDESTAL_YZ] / c[C.PEDESTAL_Z]
+    aside = (load_y - share * load_z) / (c[C.PEDESTAL_Y] - share * c[C.PEDESTAL_YZ])
+    return aside, (load_z - c[C.PEDESTAL_YZ] * aside) / c[C.PEDESTAL_Z]
+
+
+@kernel
+def too_far(p, y, z):
+    """Whether an outer ring at ``y``, ``z`` (m) is farther than pockets and waves have equations for."""
+    return abs(y) + abs(z) > _FAR * p[P.PITCH_RADIUS]
+
+
+@kernel
 def place_rings(c, y, found, tilt, load_y, load_z):
     """Outer ring where preload and pedestal loads (N) push it, inner ring against it; both tilted."""
     o = Y.Q0 + Q.OUTER
     y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-    share = c[C.PEDESTAL_YZ] / c[C.PEDESTAL_Z]
-    y[o + Q.Y] = (load_y - share * load_z) / (c[C.PEDESTAL_Y] - share * c[C.PEDESTAL_YZ])
-    y[o + Q.Z] = (load_z - c[C.PEDESTAL_YZ] * y[o + Q.Y]) / c[C.PEDESTAL_Z]
+    y[o + Q.Y], y[o + Q.Z] = sunk(c, load_y, load_z)
     for i in range(2):
         y[o + Q.BY + i] = tilt[i]
         y[Y.Q0 + Q.INNER_BY + i] = tilt[i] + found[EQ.SHIFT + Q.INNER_BY + i]

@@ -18,7 +18,7 @@ from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, 
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
 from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, SP, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import grow_on, ramp
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.losses import summarise
@@ -28,8 +28,9 @@ from fmu_bearing.engine.spindle.follow import copy_rows
 from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
 from fmu_bearing.engine.spindle.sound import emit
+from fmu_bearing.engine.statics.place import loads, sunk, too_far
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
-from fmu_bearing.engine.status import NOT_CONVERGED, OK
+from fmu_bearing.engine.status import NOT_CONVERGED, OK, TOO_SOFT
 
 # Radians of the fastest wave in a step: the error estimate does not see what folds between its stages.
 _WAVE = 1.6
@@ -255,10 +256,25 @@ def end_step(p, s, w, speed, end, h):
 
 
 @kernel
+def sinks(p, s, w):
+    """Whether the loads of now would push the ring of a single bearing too far on its pedestal.
+
+    Once it is there no step leads back: with the stiffness of before the pedestal would fling it.
+    """
+    if members.has_shaft(p):
+        return False
+    c = s[S.C : S.C + C.SIZE]
+    aside, down = sunk(c, c[C.LOAD_Y], loads(p, c, w[W.LOAD : W.LOAD + EQ.FREEDOMS]))
+    return too_far(p, aside, down)
+
+
+@kernel
 def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     begin_step(p, s)
     take_inputs(p, u, s, w, h)
+    if sinks(p, s, w):
+        return TOO_SOFT
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]
     speed = u[SP.U_SPEED]

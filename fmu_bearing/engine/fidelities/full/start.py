@@ -42,6 +42,7 @@ from fmu_bearing.engine.statics.place import (
     place_cage,
     place_rings,
     shift_bearing,
+    too_far,
 )
 from fmu_bearing.engine.statics.rigid_preload import rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
@@ -55,7 +56,6 @@ from fmu_bearing.engine.steady.point import (
     settle_perfect,
 )
 
-_FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 TOUCHING = 0.01  # N: without preload rings are where the balls just touch, as for rigid preload
 
@@ -206,13 +206,6 @@ def pushed_back(p, w):
 
 
 @kernel
-def too_far(p, y):
-    """Whether the outer ring has sunk further than the equations of pockets and waves are good for."""
-    aside = abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z])
-    return aside > _FAR * p[P.PITCH_RADIUS]
-
-
-@kernel
 def rest_alone(p, u, s, w, speed):
     """Put the rings of a single bearing to rest in the state, what balls need to ``W.FOUND``.
 
@@ -232,7 +225,7 @@ def rest_alone(p, u, s, w, speed):
         return status, carried
     y = s[S.Y : S.Y + Y.SIZE]
     place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
-    if too_far(p, y):
+    if too_far(p, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z]):
         return TOO_SOFT, carried
     if p[P.RIGID] != 0.0:
         y[Y.Q0] = s[S.PLACE]
@@ -276,7 +269,7 @@ def rest_member(p, s, w, b, speed):
     at = members.scratch(p, b)
     for i in range(SP.HOUSING):
         y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
-    if too_far(pb, y):
+    if too_far(pb, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z]):
         return TOO_SOFT
     for i in range(SP.PLANE):
         y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]

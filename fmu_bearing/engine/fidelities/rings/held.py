@@ -41,6 +41,7 @@ from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
 from fmu_bearing.engine.statics.place import place_balls, place_cage
+from fmu_bearing.engine.statics.rigid_preload import load_at_place
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER
 
@@ -233,13 +234,23 @@ def rest_alone(p, u, s, w, settled):
         return status
     lv = members.condensed(s)
     c = s[S.C : S.C + C.SIZE]
+    given = c[C.PRELOAD]
+    if p[P.RIGID] != 0.0:
+        # the load that the place of the ring means here, as at the start
+        status = load_at_place(p, c, s[S.PLACE], u[U.SPEED], w[W.STILL_FOUND : W.STILL_END])
     for part in range(2):
-        status = quasistatic_places(p, c, u[U.SPEED], w)
+        if status == OK:
+            status = quasistatic_places(p, c, u[U.SPEED], w)
         if status != OK:
-            return status
+            break
         flat(p, c, lv, w)
         if part == 1 or not settled or at_rest(p, c, lv, u[U.SPEED], w):
             break
+    c[C.PRELOAD] = given
+    if status != OK:
+        return status
+    if p[P.RIGID] != 0.0:
+        w[W.STAGE + Y.Q0] = s[S.PLACE]
     put_at_mean(p, s, w)
     return OK
 

@@ -43,16 +43,14 @@ class Orders(NamedTuple):
 
 
 def contact_filter(u: ArrayLike) -> NDArray[np.float64]:
-    """Share of a wave that a Hertzian contact follows, W(u) = 3 (sin u - u cos u) / u^3.
+    """Share of a wave that a Hertzian contact follows, W(u) = sin(u)/u.
 
-    ``u``: half-width of the contact times the wave number. The mean of a cosine over the contact, weighted
-    with the parabola 1 - x^2; W(0) = 1.
+    ``u``: half-width of the contact times the wave number; W(0) = 1. Exact for small amplitudes: by
+    reciprocity a gap dg changes the load by the integral of -dp/d(approach) dg, and dp/d(approach) of an
+    elliptic contact is the pressure of a flat punch on the ellipse of now (Johnson 1985, section 3.5), whose
+    integral across the track is uniform over the width.
     """
-    x = np.asarray(u, dtype=float)
-    small = np.abs(x) < 1e-2
-    safe = np.where(small, 1.0, x)
-    # the series to x^2; the next term is x^4 / 280
-    return np.where(small, 1.0 - x**2 / 10.0, 3.0 * (np.sin(safe) - safe * np.cos(safe)) / safe**3)
+    return np.asarray(np.sinc(np.asarray(u, dtype=float) / np.pi))
 
 
 def law(first: float, exponent: float, orders: ArrayLike, wave_length: float) -> NDArray[np.float64]:

@@ -28,6 +28,10 @@ def fit_rows(found: Fits, number: int) -> list[list[str]]:
         "free angle, deg", points, lambda one: one.free_angles, lambda x: f"{math.degrees(x):.1f}"
     )
     rows += _by_state("preload, N", points, lambda one: one.preloads, lambda x: f"{x:.0f}")
+    for key in _WORDS:
+        if any(key in one.gaps for one in points):
+            cells = [f"{_MICRO * one.gaps[key]:.1f}" if key in one.gaps else "" for one in points]
+            rows.append([f"balls loose by, um, {_WORDS[key]}", *cells])
     for ring in RINGS:
         angles = [math.degrees(one.point.contacts[ring]["angle_mean"]) for one in points]
         rows.append([f"contact angle, {ring} race, deg", *(f"{angle:.1f}" for angle in angles)])

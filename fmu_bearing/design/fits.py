@@ -7,7 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 
-from fmu_bearing.design.mounted import RINGS, Mounted, mounted, preloads, taken, with_fit
+from fmu_bearing.design.mounted import RINGS, Mounted, gaps, mounted, preloads, taken, with_fit
 from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
@@ -95,6 +95,8 @@ class FitPoint:
     preloads : dict
         N, without other loads: the same states; ``drawing`` where it is that of the loose bearing. Empty
         where a spring holds it.
+    gaps : dict
+        By those states in which a rigid preload is lost: how far (m) the balls are loose along the axis.
     point : BearingPoint
         The operating point.
     apart, together : Mounted
@@ -106,6 +108,7 @@ class FitPoint:
     seats: dict[Kind, SeatPoint]
     free_angles: dict[str, float]
     preloads: dict[str, float]
+    gaps: dict[str, float]
     point: BearingPoint
     apart: Mounted
     together: Mounted
@@ -128,6 +131,7 @@ class FitPoint:
             "seats": {ring: seat.summary() for ring, seat in self.seats.items()},
             "free_angle_rad": self.free_angles,
             "preload_N": self.preloads,
+            "gap_m": self.gaps,
             "axial_load_N": self.point.axial,
             "contact_angle_rad": {ring: contacts[ring]["angle_mean"] for ring in contacts},
             "pressure_max_Pa": {ring: contacts[ring]["pressure_max"] for ring in contacts},
@@ -359,7 +363,8 @@ def column_at(scene: Scene, take: Take, point: OperatingPoint) -> Column:
         joint = mounted(one.scene)
         angles = {key: joint.free_angle(share * joint.speed, warm) for key, (share, warm) in STATES.items()}
         drawing = {"drawing": math.radians(joint.scene.bearing.contact_angle_deg)}
-        bearings.append(FitPoint(k + 1, found, drawing | angles, preloads(point, k), one, own, joint))
+        loads, apart = preloads(point, k), gaps(point)
+        bearings.append(FitPoint(k + 1, found, drawing | angles, loads, apart, one, own, joint))
     return Column(take, tuple(bearings), point)
 
 

@@ -130,3 +130,9 @@ def preloads(point: OperatingPoint, number: int) -> dict[str, float]:
         single = scene.spindle is None
         found["drawing"] = scene.mounted.preload_N if single else usual_load(set_of(scene), number)
     return found | {key: carried[own][number] for key, own in _PRELOADS.items()}
+
+
+def gaps(point: OperatingPoint) -> dict[str, float]:
+    """Return how far (m) balls are loose along the axis, by those states of `preloads` in which they are."""
+    found = point.statics.gaps
+    return {key: found[own] for key, own in _PRELOADS.items() if own in found}

@@ -21,6 +21,9 @@ from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import still_of
 
 _MOTIONS = ("displacement.x", "displacement.y", "displacement.z", "tilt.y", "tilt.z")
+#: Shares of speed and of the temperatures' rise in the states of `preloads`.
+_STATES = {"cold": (0.0, 0.0), "warm": (0.0, 1.0), "running": (1.0, 1.0)}
+_TOUCHING = 0.01  # N: balls and races just touch
 #: Rows of an outer ring's six without its rotation.
 OUTER_PLANE = [Q.X, Q.Y, Q.Z, Q.BY, Q.BZ]
 
@@ -146,8 +149,30 @@ def preloads(run: Instance) -> dict[str, list[float]]:
     signs = np.array([one.sign for one in run.model.scene.bearings()])
     if run.p[P.RIGID] == 0.0 and len(set(signs)) == 1:
         return {}
-    states = {"cold": (0.0, 0.0), "warm": (0.0, 1.0), "running": (1.0, 1.0)}
-    return {key: carried(unloaded(run, *shares)) for key, shares in states.items()}
+    found = {}
+    for key, shares in _STATES.items():
+        try:
+            found[key] = carried(unloaded(run, *shares))
+        except EngineError:
+            if not gap(run, key) > 0.0:
+                raise
+            found[key] = [0.0]
+    return found
+
+
+def gap(run: Instance, key: str) -> float:
+    """Return how far (m) balls and races of a single rigidly preloaded bearing are apart along its axis.
+
+    From where the inner ring is held to where it would touch; negative: they are pressed together. ``key``:
+    state, as of `preloads`.
+    """
+    if run.p[P.RIGID] == 0.0 or SP.has_shaft(run.p):
+        return 0.0
+    free = _without_loads(run, *_STATES[key])
+    free.p[P.RIGID] = 0.0
+    free.u[U.PRELOAD] = _TOUCHING
+    _initialise(free)
+    return float(free.s[S.Y + Y.Q0] - run.s[S.PLACE])
 
 
 def carried(run: Instance) -> list[float]:
@@ -170,6 +195,13 @@ def unloaded(run: Instance, speed: float, warmth: float) -> Instance:
     EngineError
         Where there is no equilibrium; a ``ValueError``.
     """
+    free = _without_loads(run, speed, warmth)
+    _initialise(free)
+    return free
+
+
+def _without_loads(run: Instance, speed: float, warmth: float) -> Instance:
+    """As `unloaded`, before its start."""
     free = Instance(run.model, tell=silent)
     free.u[:] = run.u
     for at_p, _ in parts_of(free.p):
@@ -184,5 +216,4 @@ def unloaded(run: Instance, speed: float, warmth: float) -> Instance:
         elif one.name.endswith("temperature") and warmth != 1.0:  # 1 leaves every bit
             rise = free.u[one.index] - REFERENCE_TEMPERATURE
             free.u[one.index] = REFERENCE_TEMPERATURE + warmth * rise
-    _initialise(free)
     return free

@@ -28,6 +28,7 @@ from fmu_bearing.steady.member import Member
 from fmu_bearing.steady.rest import (
     OUTER_PLANE,
     forces,
+    gap,
     nose,
     parts,
     pedestal,
@@ -118,6 +119,9 @@ class Statics:
     preloads : dict
         Axial load (N) of each bearing without load: ``cold``, ``warm`` (standstill), ``running``. Empty for a
         set that carries one way and a single bearing under constant force.
+    gaps : dict
+        By those states in which a single bearing with a rigid preload has none: how far (m) its balls and
+        races are apart along the axis.
     spacing, neutral_spacing : float, optional
         Distance (m) of both directions' bearings, and that at which warm inner rings and shaft leave the
         preload as it is.
@@ -140,6 +144,7 @@ class Statics:
     nose_stiffness_bending: float
     lift_off: dict[str, LiftOff]
     preloads: dict[str, list[float]]
+    gaps: dict[str, float]
     spacing: float | None
     neutral_spacing: float | None
     remarks: tuple[str, ...]
@@ -210,6 +215,7 @@ class Statics:
                 way: {"load_N": one.load, "bearing": one.bearing} for way, one in self.lift_off.items()
             },
             "preloads_N": self.preloads,
+            "gaps_m": self.gaps,
             "spacing_m": self.spacing,
             "neutral_spacing_m": self.neutral_spacing,
             "cautions": self.cautions(),
@@ -218,6 +224,8 @@ class Statics:
     def cautions(self) -> list[str]:
         """Return what a designer should look at, one line each."""
         found = [*self.remarks]
+        for key, apart in self.gaps.items():
+            found.append(f"{_STATES[key]} the rigid preload is lost: balls are loose by {1e6 * apart:.1f} um")
         for one in self.bearings:
             name = "the bearing" if self.scene.spindle is None else f"bearing {one.number}"
             if one.axial < _UNLOADED:
@@ -234,6 +242,7 @@ class Statics:
 
 
 _UNLOADED = 1e-3  # N
+_STATES = {"cold": "at standstill and 20 degC", "warm": "at standstill, warm,", "running": "at speed"}
 _LOOSE = 1e-3  # N/m: under what nothing holds
 _NOSES_DIFFER = 0.2  # of the rigid shaft's nose: then its stiffness misleads a designer
 
@@ -342,8 +351,12 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
         if not scene.spindle.shaft.flexible:
             bent = _stiffness(scene, system, matrices, flexible=True)
         free, spacer = lift_off(members), neutral_spacing(scene, members)
+    carried = preloads(run)
+    gaps = {
+        key: gap(run, key) for key, forces in carried.items() if scene.spindle is None and forces == [0.0]
+    }
     found = Statics(
-        scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, preloads(run),
+        scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, carried, gaps,
         spacing(scene.bearings()), spacer, tuple(remarks(system)),
     )  # fmt: skip
     return Point(run, system, found)

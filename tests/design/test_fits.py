@@ -8,10 +8,12 @@ import pytest
 
 from fmu_bearing import SceneError, fits, operating_point
 from fmu_bearing.design import fits as study
+from fmu_bearing.design.fit_table import fit_rows
 from fmu_bearing.design.fits import SEED, TAKES
+from fmu_bearing.design.fresh import new_scene
 from fmu_bearing.design.mounted import mounted, with_fit
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.scene import read_scene
+from fmu_bearing.scene import read_scene, read_scene_text
 from fmu_bearing.steady.statics import point
 from tests.conftest import EXAMPLES, GATES
 from tests.spindle.sets import scene as pair
@@ -272,3 +274,34 @@ def test_roughness_is_between_drawn_and_mounted():
 def test_a_scene_without_a_fit_is_refused_with_the_table(file, table):
     with pytest.raises(SceneError, match=rf"has no fit.*add \[{table}.fit\] with \[{table}.fit.shaft\]"):
         fits(file)
+
+
+def test_a_preload_that_warmth_takes_away_takes_no_other_column():
+    """NSK-7003AC, Si3N4 ring and balls in ZrO2, 90 N rigid as given loose, warm by 60 K, 25,000 r/min.
+
+    Warm and still the balls are loose by 3.7 um along the axis; at speed `full` has 27.0 N, an independent
+    model 26.8 N.
+    """
+    text = new_scene("warm", "NSK-7003AC", kind="hybrid", speed_rpm=25e3, preload_N=90.0)
+    warm = read_scene_text(text, "warm.toml").replace(
+        {
+            "materials.inner_ring": "Si3N4", "materials.outer_ring": "ZrO2", "mounting.preload_mode": "rigid",
+            **{f"operation.{one}_temperature_degC": 80.0 for one in ("oil", "inner_ring", "outer_ring")},
+            "mounting.fit": {
+                "bearing_class": "P4", "preload": "unmounted",
+                "shaft": tight(-1.0, temperature_degC=80.0),
+                "housing": {
+                    "interference_um": 8.0, "outside_diameter_mm": 60.0, "material": "aluminium",
+                    "temperature_degC": 70.0,
+                },
+            },
+        }
+    )  # fmt: skip
+    found = fits(warm)
+    one = found.columns[0].bearings[0]
+    assert one.preloads["warm"] == 0.0 and one.preloads["running"] == pytest.approx(26.8, rel=0.02)
+    # held at 20 degC under 258 N; 60 K of both rings and their fits move the touching place by this much
+    assert one.gaps == {"warm": pytest.approx(3.7e-6, abs=0.05e-6)}
+    assert ["balls loose by, um, warm", *5 * ["3.7"]] in fit_rows(found, 1)
+    assert any("warm, the rigid preload is lost: balls are loose by 3.7 um" in said
+               for said in operating_point(warm).statics.cautions())  # fmt: skip

@@ -45,9 +45,7 @@ def test_a_load_that_sinks_the_ring_is_refused_before_it_does():
     stiffness = run.get("pedestal_stiffness")
     run.set("pedestal_stiffness", 1e4)
     for h in (1e-9, 1e-3):
-        with pytest.raises(
-            EngineError, match="push the outer ring sideways by more than 0.3"
-        ):
+        with pytest.raises(EngineError, match="push the outer ring sideways by more than 0.3"):
             run.step(h)
     run.set("pedestal_stiffness", stiffness)
     for _ in range(5):

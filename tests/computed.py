@@ -24,9 +24,9 @@ from fmu_bearing import (
     with_fidelity,
 )  # fmt: skip
 from fmu_bearing.engine.fidelities.condensed import uneven
-from fmu_bearing.engine.fidelities.full import start
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.layout import SD, P
+from fmu_bearing.engine.statics import place
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.model import land_clearance, pack, prepare
@@ -85,7 +85,7 @@ def spindle():
         f"renewed when loads have moved by {100.0 * held._NEAR:g} %, speed by 1 %, or temperatures have "
         f"moved rings by {rounded(str(held._GROWN), 1)} m"
     )
-    yield f"a ring is displaced by more than {start._FAR:g} of the pitch radius"
+    yield f"a ring is displaced by more than {place._FAR:g} of the pitch radius"
     yield from _lives(scene, found)
     yield from _preloads(scene)
     yield from _classes()
@@ -200,7 +200,7 @@ def limits():
     yield "Beyond about 1 kN preload the 7003C's contact is stiffer here than in reality"
     yield f"it is renewed at each {100.0 * uneven._MOVED:g} % of speed or load"
     yield f"with a damping ratio below {weak.LEAST:g}, or below {weak.NARROW:g} with a line on it"
-    yield f"pushes the outer ring by more than {start._FAR:g} of the pitch radius"
+    yield f"pushes the outer ring by more than {place._FAR:g} of the pitch radius"
     yield from _whirls()
     yield from _skidding()
 

@@ -29,14 +29,6 @@ def limits():
     loaded = [float(one["sim/CPU"]) for one in settled if "radial" in one["case"]]
     yield f"runs at {min(free):.1f} to {max(free):.1f} simulated seconds per second of the processor"
     yield f"at {min(loaded):.1f} to {max(loaded):.1f} under radial loads of 1000 and 300 N"
-    heavy = [scene_line("7003C-spindle", "20,000", fidelity, "1000") for fidelity in ("rings", "response")]
-    ratios = [float(one[key]) for one in heavy for key in ("inner ring", "outer ring")]
-    off = [abs(float(one[key])) for one in heavy for key in _LEVELS]
-    yield (
-        "under 1000 N on the 7003C's spindle at 20,000 r/min both read "
-        f"{min(ratios):.2f} to {max(ratios):.2f} of the rings' rms, "
-        f"{min(off):.1f} to {max(off):.1f} dB(A) off"
-    )
 
 
 _LEVELS = "loudest, dB(A)", "quietest, dB(A)"

@@ -243,7 +243,7 @@ def error_motion(
     >>> from fmu_bearing import error_motion, with_fidelity
     >>> found = error_motion(with_fidelity("examples/scenes/7003C-bare.toml", model="rings"), 2000.0)
     >>> [f"{one.direction} {1e6 * one.asynchronous:.2f} um" for one in found.speeds[0].values[:3]]
-    ['fixed y 0.18 um', 'fixed z 0.20 um', 'rotating 0.20 um']
+    ['fixed y 0.18 um', 'fixed z 0.19 um', 'rotating 0.20 um']
     >>> found.speeds[0].lines[0].origin.name, found.speeds[0].lines[0].origin.source
     ('2 f_b - f_c', 'ball form')
     """

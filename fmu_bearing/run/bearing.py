@@ -38,7 +38,7 @@ class Bearing(Mapping[str, float]):
     >>> bearing.init(shaft_speed=2000.0, preload=300.0)  # rad/s, N
     >>> bearing.step(1e-3)
     >>> round(bearing["contact.inner.load_mean"])  # N
-    71
+    70
     """
 
     def __init__(self, source: SceneSource | Model, **fidelity: Any) -> None:

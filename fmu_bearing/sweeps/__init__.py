@@ -108,7 +108,7 @@ def sweep(
     ...     workers=1,
     ... )
     >>> data["contact.inner.load_mean"].sel(fidelity="rings").round().values.tolist()  # N
-    [49.0, 112.0]
+    [49.0, 111.0]
     """
     need("xarray", "a sweep")
     if scheduler is not None:

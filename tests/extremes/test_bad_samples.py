@@ -54,17 +54,13 @@ def test_a_load_that_sinks_the_ring_is_refused_before_it_does():
 
 
 def test_a_state_that_nothing_leads_on_from_names_the_way_back():
-    """A ring that hangs 3 mm aside on a soft pedestal is flung by a stiff one."""
-    run = started("7003C-bare", "full")
-    run.set("radial_load.z", -300.0)
-    run.set("pedestal_stiffness", 1.2e5)
-    for _ in range(40):
-        run.step(1e-3)
+    """A ring that hangs 2.5 mm aside on a soft pedestal is flung by a stiff one."""
+    run = started("7003C-bare", "full", pedestal_stiffness_N_m=1.2e5, radial_load_z_N=-300.0)
+    run.step(1e-3)
     before = run.s.copy()
     run.set("pedestal_stiffness", 1e11)
     with pytest.raises(EngineError, match=r"put an earlier one back \(fmi2SetFMUstate\), or begin again"):
-        for _ in range(40):
-            run.step(1e-3)
+        run.step(1e-3)
     run.s[:] = before
     run.set("pedestal_stiffness", 1.2e5)
     run.step(1e-3)

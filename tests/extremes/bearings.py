@@ -14,10 +14,10 @@ from tests.conftest import GATES
 SILENT = {"sound": None}
 PERFECT = {"sound": None, "imperfections": None}
 #: Changes that give the 7009C the most balls that the engine has room for, smaller ones.
-THIRTY_TWO = {
-    "bearing.ball_count": 32,
-    "bearing.ball_diameter_mm": 4.762,
-    "bearing.cage.pocket_diameter_mm": 4.95,
+MOST_BALLS = {
+    "bearing.ball_count": 36,
+    "bearing.ball_diameter_mm": 4.366,
+    "bearing.cage.pocket_diameter_mm": 4.55,
 }
 RINGS = [f"{ring}_ring.velocity.{axis}" for ring in ("inner", "outer") for axis in "xyz"]
 

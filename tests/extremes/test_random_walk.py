@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 from fmu_bearing.instance import EngineError
-from tests.extremes.bearings import THIRTY_TWO, bearing, work
+from tests.extremes.bearings import MOST_BALLS, bearing, work
 from tests.extremes.cases import COMPUTED, FULL, JET, WORK
 
 # The Runge-Kutta methods may try at most this many steps per largest internal step of a call, and so many
@@ -141,7 +141,7 @@ def test_a_short_walk_with_a_jet(fidelity, method, start, moves):
 @settings(max_examples=5, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))
 def test_a_short_walk_of_32_balls(fidelity, method, start, moves):
-    walk("7009C-full-ceramic", start, moves, fidelity, method, THIRTY_TWO)
+    walk("7009C-full-ceramic", start, moves, fidelity, method, MOST_BALLS)
 
 
 #: Walks that take balls off the inner race: a ring that is 118 K colder at once, no preload at full speed.

@@ -1,7 +1,7 @@
 """Lengths that several arrays share, and :class:`Places`, which hands out places one after the other."""
 
 STRIDE = 40  # lanes per ball quantity: no power of two, so that rows spread over cache sets
-MAX_BALLS = 32
+MAX_BALLS = 36
 FOUR = 4  # balls computed at a time: numbers of lanes are multiples of it
 STAGES = 6  # of a Runge-Kutta method at most
 BALL_ORDERS = 80  # zonal orders of a ball's form at most

@@ -40,7 +40,7 @@ def fits(
     """
     from fmu_bearing.design.fit_curves import curves
     from fmu_bearing.design.fit_pictures import picture
-    from fmu_bearing.design.fit_table import COLUMNS, fit_rows
+    from fmu_bearing.design.fit_table import COLUMNS, fit_rows, shown_tables
     from fmu_bearing.design.fits import fits as study
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show, write_csv
@@ -56,18 +56,17 @@ def fits(
         )
         if plot is not None:
             save(picture(found, curves(found, partial(steps, what="curves", unit="fits"))), plot)
-        tables = {one.number: fit_rows(found, one.number) for one in found.columns[0].bearings}
         if output is not None:
             output.parent.mkdir(parents=True, exist_ok=True)
-            rows = [[str(number), *row] for number, table in tables.items() for row in table]
+            numbers = [one.number for one in found.columns[0].bearings]
+            rows = [[str(number), *row] for number in numbers for row in fit_rows(found, number)]
             write_csv(output, ("bearing", *COLUMNS), rows)
     files = [one for one in (output, plot) if one is not None]
     if as_json:
         print_json(found.summary() | {"files": files})
         return
-    for number, table in tables.items():
-        name = f"bearing {number}, " if len(tables) > 1 else ""
-        show(f"{found.scene.name}: {name}{found.words(number)}", COLUMNS, table)
+    for table in shown_tables(found):
+        show(*table)
     for line in found.remarks:
         typer.echo(line)
     if files:

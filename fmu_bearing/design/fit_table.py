@@ -45,6 +45,26 @@ def fit_rows(found: Fits, number: int) -> list[list[str]]:
     return rows
 
 
+def shown_tables(found: Fits) -> list[tuple[str, tuple[str, ...], list[list[str]]]]:
+    """Return title, head and rows of the tables that people read, what all bearings share once."""
+    rows = {one.number: fit_rows(found, one.number) for one in found.columns[0].bearings}
+    words = {number: found.words(number) for number in rows}
+    shared: list[list[str]] = []
+    if len(rows) > 1 and len(set(words.values())) == 1:
+        shared = [row for row in rows[1] if all(row in table for table in rows.values())]
+    parts = [(f"all bearings, {words[1]}", shared)]
+    for number, table in rows.items():
+        name = f"bearing {number}, " if len(rows) > 1 else ""
+        parts.append((f"{name}{words[number]}", [row for row in table if row not in shared]))
+    given = all(len(set(row[1:])) == 1 for _, table in parts for row in table)
+    columns, count = (("", "as given"), 2) if given else (COLUMNS, len(COLUMNS))
+    return [
+        (f"{found.scene.name}: {name}", columns, [row[:count] for row in table])
+        for name, table in parts
+        if table
+    ]
+
+
 def _seat_rows(ring: Kind, seats: Sequence[SeatPoint]) -> Iterator[list[str]]:
     """Yield the rows on the seat of one ring."""
     if any(abs(one.drawn - 2.0 * one.states["mounted"].interference) > 1e-9 for one in seats):

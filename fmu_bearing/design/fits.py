@@ -293,7 +293,7 @@ def _scenes(scene: Scene) -> tuple[dict[Take, Scene], tuple[str, ...]]:
     found = {take: taken(scene, take) for take in TAKES}
     sides = _tolerated(fit)
     if not sides:
-        return found, ("interferences are given, not classes: all columns are the same",)
+        return found, ("interferences are given, not classes: all columns are equal",)
     if len(sides) == 1:
         return found, ()
     for take, pair in _probable(scene).items():

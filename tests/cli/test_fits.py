@@ -112,3 +112,19 @@ def test_info_has_the_seats_of_each_bearing(run, file, tmp_path):
     of_set = " ".join(run("info", path).stdout.split())
     assert "fits, bearing 1: inner ring 2 um as given" in of_set and "fits, bearing 2" in of_set
     assert "fits" not in run("info", DB, "--json").data
+
+
+def test_equal_columns_and_rows_of_all_bearings_are_shown_once(run, file, tmp_path):
+    fit = {"spindle.fit": {"preload": "unmounted", "shaft": {"interference_um": 2.0, "material": STEEL}}}
+    path = tmp_path / "pair.toml"
+    path.write_text(read_scene(DB).replace(fit).to_toml(), "utf-8")
+
+    def cells(shown, name):
+        return [line.split("│")[2:-1] for line in shown.splitlines() if name in line]
+
+    shown = run("fits", path).stdout
+    assert cells(shown, "inner ring, fit, um, mounted") == [[" +2.0     "]]
+    assert len(cells(shown, "pressure of balls")) == 2  # the load is not the same
+    assert shown.index("all bearings, inner ring") < shown.index("bearing 1, ") < shown.index("bearing 2, ")
+    ((*row,),) = cells(run("fits", file).stdout, "inner ring, fit, um, mounted")
+    assert len(row) == 5

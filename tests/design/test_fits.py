@@ -132,7 +132,7 @@ def test_given_interferences_are_computed_once(monkeypatch):
     calls = []
     monkeypatch.setattr(study, "operating_point", lambda scene: calls.append(scene) or operating_point(scene))
     found = fits(bearing(shaft=tight(2.0)))
-    assert len(calls) == 1 and "all columns are the same" in found.remarks[0]
+    assert len(calls) == 1 and "all columns are equal" in found.remarks[0]
     assert len(set(running(found))) == 1
 
 

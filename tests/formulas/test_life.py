@@ -5,8 +5,10 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import root
 
 from fmu_bearing.formulas import iso76, iso281, iso16281, makers
+from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.scene.nsk import sizes
 
 NOMINAL = math.radians(15.0)
@@ -129,16 +131,82 @@ def test_rating_of_large_balls_grows_more_slowly_without_a_jump():
     assert above == pytest.approx(below, rel=1e-3)
 
 
-def test_reference_life_of_a_deep_groove_bearing():
-    """7 balls of 11.5 mm, d_m 43.5, C 23,400, grooves 0.52 and 0.53, 1000 N radially: 13,163 Mrev.
+def settled(clearance, radial, axial):
+    """Displacements (um, um, mrad) of a ring without moment, and the loads (N) of its balls, by our contacts.
 
-    There is no clearance. The figure is that of a published program for ISO 16281 (minzhun/ISO16281). One
-    ball stands in the load's direction; Q = K d^1.5 with the ring's displacement along the load.
+    7 balls of 11.5 mm, d_m 43.5 mm, grooves 0.52 and 0.53, steel of 210 GPa and 0.3; one ball stands in the
+    radial load's direction. The tilt moves the ring axially at the pitch circle, by which the printed tilt
+    is met; the inner groove's circle would make it 1 % smaller and change nothing else. Lengths in mm.
     """
-    zone = np.clip(np.cos(2.0 * np.pi * np.arange(7) / 7), 0.0, None)
-    loads = 1000.0 / np.sum(zone**2.5) * zone**1.5
+    ball, pitch, around = 11.5, 43.5, 2.0 * np.pi * np.arange(7) / 7
+    modulus, g = effective_modulus(210e9, 0.3, 210e9, 0.3), 11.5 / 43.5
+    races = [
+        point_contact(0.5e-3 * ball * side, 0.5e-3 * ball / (1.0 - 0.5 / groove), modulus)
+        for side, groove in ((1.0 - g, 0.52), (1.0 + g, 0.53))
+    ]
+    stiffness = sum(race.stiffness ** (-2.0 / 3.0) for race in races) ** -1.5 * 1e-3**1.5
+    apart = 0.05 * ball
+    free = math.acos(1.0 - clearance / (2.0 * apart))
+
+    def contacts(x):
+        outwards = apart * math.cos(free) + x[0] * np.cos(around)
+        along = x[1] + 0.5 * pitch * x[2] * np.cos(around)
+        load = stiffness * np.clip(np.hypot(outwards, along) - apart, 0.0, None) ** 1.5
+        return load, np.arctan2(along, outwards)
+
+    def left(x):
+        load, angle = contacts(x)
+        thrust = load * np.sin(angle)
+        return [
+            radial - np.sum(load * np.cos(angle) * np.cos(around)),
+            axial - np.sum(thrust),
+            np.sum(thrust * np.cos(around)),
+        ]
+
+    start = [0.02, apart * math.sin(free) + 0.01, 1e-3] if axial else [0.02, 0.0, 0.0]
+    found = root(left, start)
+    assert found.success, found.message
+    return 1e3 * found.x, contacts(found.x)[0]
+
+
+@pytest.mark.parametrize(
+    ("clearance", "radial", "axial", "printed", "life"),
+    [
+        (0.0, 1000.0, 0.0, (15.1101, 0.0, 0.0), 13163.019),
+        (0.0, 0.0, 1000.0, (0.0, 133.5381, 0.0), 2222.7318),
+        (0.01, 1000.0, 0.0, (21.223, 0.0, 0.0), 10795.7948),
+        (0.01, 0.0, 1000.0, (0.0, 149.1717, 0.0), 3115.8781),
+        (0.01, 1000.0, 1000.0, (19.5923, 146.4603, -2.6872), 1630.5367),
+    ],
+)
+def test_reference_life_of_a_deep_groove_bearing(clearance, radial, axial, printed, life):
+    """The bearing of `settled` with C 23,400: displacements (um, um, mrad) and L10r (Mrev) by MASTA.
+
+    Test_BallBearing.py of a public program for ISO 16281 (minzhun/ISO16281, 2019) prints them as examples 1
+    to 5 (the sign of the tilt is ours). An older version has six balls of 11.1 mm; why its figures lie up to
+    6 % from ours is not known.
+    """
+    moved, loads = settled(clearance, radial, axial)
+    # one digit beyond rounding, for the other program's solver and constants; life goes with 1/Q^3
+    assert moved == pytest.approx(printed, rel=5e-5, abs=1e-6)
     ratings = iso16281.race_ratings(23_400.0, 7, 11.5 / 43.5, 0.0, (0.52, 0.53))
-    assert iso16281.reference_life(ratings, loads, loads) == pytest.approx(13_163.0, rel=1e-3)
+    assert iso16281.reference_life(ratings, loads, loads) == pytest.approx(life, rel=1.5e-4)
+
+
+def test_basic_life_of_a_makers_examples():
+    """SKF, Rolling bearings: 6309, C 55.3 kN, 10 kN, 3000 r/min: 169 Mrev, 940 h.
+
+    A pump's pair of 7312 BECBP back to back at 3000 r/min, 1.45 kN radially and 11.5 kN axially: P 11.52 kN,
+    17,400 h. C of the pair is 1.62 times that of one bearing, 104 kN, which the life confirms within 0.1 %. X
+    and Y of a pair are 1.625 times ours of a single row; SKF's have two digits.
+    """
+    turns = iso281.basic_life(55.3, 10.0)
+    # half of the last digits printed
+    assert turns == pytest.approx(169.0, abs=0.5)
+    assert iso281.hours(turns, 3000.0) == pytest.approx(940.0, abs=5.0)
+    assert iso281.hours(iso281.basic_life(1.62 * 104.0, 11.52), 3000.0) == pytest.approx(17_400.0, abs=50.0)
+    pair = 1.625 * iso281.equivalent_load(40.0, 1.0, 11.5, 1.45)
+    assert pair == pytest.approx(11.52, abs=0.005 * (1.45 + 11.5))
 
 
 def test_reference_life_of_equal_loads_needs_no_mean():

@@ -53,6 +53,17 @@ def test_calibrator_on_all_meters():
         assert bands[neighbour] < 93.979 - least, neighbour
 
 
+@pytest.mark.parametrize(("frequency", "weighting"), [(100.0, -19.1), (1000.0, 0.0), (10_000.0, -2.5)])
+def test_equivalent_level_of_a_tone_is_weighted_by_the_standards_table(frequency, weighting):
+    """IEC 61672-1:2013, table 3, of the frequencies whose nominal value is the exact one.
+
+    0.05 dB of rounding in the table, 0.06 dB of the filter.
+    """
+    player = Player(build("compact", SMALL, Air(), PAPER_POINTS[:1]), metering_start=0.3)
+    player.play(tone(frequency), int(0.5 * SD.RAW_RATE))
+    assert player.reading("leq_a") - player.reading("leq") == pytest.approx(weighting, abs=0.11)
+
+
 @pytest.mark.parametrize("nominal", Z.BANDS)
 def test_third_octaves_keep_class_1(nominal):
     """Every band at the standard's break points, up to 25 kHz where sampling ends."""

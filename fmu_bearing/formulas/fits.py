@@ -357,8 +357,9 @@ def creep_interference(seat_radius: float, width: float, radial_load: float) -> 
 
     0.08 sqrt(d F / B) um on diameter, with bore d and width B (mm) and F (N), is what the load takes off the
     interference: a maker's catalogue, 9 Fits and Internal Clearances, equation 9.1 (studylib.net/doc/8266084,
-    as text: its root sign is lost, but the factor 0.25 for kgf, which it gives too, is that of a root). The
-    specification of fits names NSK's technical report E728g, 3.2, which was not read.
+    as text: its root sign is lost, but the factor 0.25 for kgf, which it gives too, is that of a root). NTN
+    prints the same (7 Bearing fits, equation 7.1) up to F = 0.3 C0, and 0.02 F / B beyond, which is not used
+    here. The specification of fits names NSK's technical report E728g, 3.2, which was not read.
     """
     return 0.5 * 0.08e-6 * math.sqrt(2.0 * seat_radius * radial_load / width)
 

@@ -1,5 +1,7 @@
 """Random walks of a set's inputs: each step ends, or is refused and can be gone on from."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -95,3 +97,30 @@ def test_a_start_at_drawn_inputs_ends_or_is_refused(name):
             continue
         run.step(1e-5)
         assert np.isfinite(run.z).all()
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+def test_no_step_of_four_bearings_takes_long(fidelity):
+    """Steps of 1 ms over the whole ranges of the inputs, and moments from one end to the other.
+
+    Found: 0.7 s of the processor in full, 0.2 s in the others. The bound keeps away what once was: tries
+    that went on for 2.5 s, and for 67 s after a jump of the moment.
+    """
+    rng = np.random.default_rng(101)
+    run = Instance(prepare(SETS["QBC"](), fidelity=fidelity), tell=lambda text: None)
+    run.initialise()
+    inputs = [one for one in run.model.variables if one.causality == "input"]
+    moves = [(one, rng.uniform(one.min, one.max)) for one in rng.choice(inputs, 40)]
+    (moment,) = [one for one in inputs if one.name == "nose.moment.z"]
+    moves += [(moment, end) for end in (moment.min, moment.max, 0.0)]
+    for one, value in moves:
+        before = run.u.copy()
+        run.set(one.name, value)
+        begun = time.process_time()
+        try:
+            run.step(1e-3)
+        except EngineError as reason:
+            assert REFUSALS.search(str(reason))
+            run.u[:] = before
+        assert time.process_time() - begun < 3.0, f"{one.name} = {value}"

@@ -91,6 +91,15 @@ def preload_asked(spindle: Spindle) -> float:
     return float((preload.force_N if preload.kind == "spring" else preload.preload_N) or 0.0)
 
 
+def preload_key(scene: Tables) -> str:
+    """Return the dotted key of the preload: of one bearing, of a set's spacers, or of its springs' force."""
+    if scene.spindle is None:
+        return "mounting.preload_N"
+    preload = scene.spindle.preload
+    kind = "spacer" if preload is None else preload.kind
+    return f"spindle.preload.{'force_N' if kind == 'spring' else 'preload_N'}"
+
+
 def usual_load(spindle: Spindle, number: int) -> float:
     """Axial load (N) of a bearing, from 0, by its preload; without one an equal share of the axial force."""
     if spindle.preload is None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import preload_key
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at
 
@@ -24,11 +25,7 @@ ALIASES = {
     "seed": "imperfections.seed",
     "fidelity": "fidelity.model",
 }
-#: Those that a set of bearings has elsewhere.
-_OF_SETS = {
-    "preload": "spindle.preload.preload_N",
-    "pedestal": "spindle.housing.pedestal_stiffness_N_m",
-}
+_PEDESTAL_OF_SETS = "spindle.housing.pedestal_stiffness_N_m"
 #: Dimensions whose name is not the last part of the key.
 _NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
@@ -110,12 +107,11 @@ def _round(values: NDArray[np.float64]) -> list[float]:
 
 def key_of(scene: Scene, name: str) -> str:
     """Return the dotted key that a short name has in a scene; any other name as it is."""
-    if scene.spindle is None or name not in _OF_SETS:
-        return ALIASES.get(name, name)
-    preload = scene.spindle.preload
-    if name == "preload" and preload is not None and preload.kind == "spring":
-        return "spindle.preload.force_N"
-    return _OF_SETS[name]
+    if name == "preload":
+        return preload_key(scene)
+    if name == "pedestal" and scene.spindle is not None:
+        return _PEDESTAL_OF_SETS
+    return ALIASES.get(name, name)
 
 
 def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Axis, ...]:

@@ -17,7 +17,7 @@ from fmu_bearing.modal.modes.points import given
 from fmu_bearing.progress import keeping
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
-from fmu_bearing.scene.member import preload_asked, still_of
+from fmu_bearing.scene.member import preload_asked, preload_key, still_of
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import with_fidelity
@@ -291,8 +291,7 @@ def _point(
         return with_fidelity(scene, model="full"), given(scene, values)
     changed: dict[str, Any] = {"operation.speed_rpm": float(speed)}
     if scene.spindle.preload is not None:
-        key = "force_N" if scene.spindle.preload.kind == "spring" else "preload_N"
-        changed[f"spindle.preload.{key}"] = float(preload)
+        changed[preload_key(scene)] = float(preload)
     there = still_of(scene).replace(changed)
     return there, given(there, fixed)
 

@@ -70,7 +70,8 @@ def identify(
         Of the search; default: ``response`` where it carries the scene, else ``full``. The levels before and
         after are computed in the scene's own.
     seeds : int
-        Levels are averaged over so many seeds of the imperfections, from the scene's own on.
+        Levels are averaged over so many seeds of the imperfections, from the scene's own on; of a set of K
+        bearings every K-th, as its bearings have seeds of their own one after the other.
     starts : int
         Starting points: the scene, and others within the bounds.
     duration, settle : float, optional
@@ -98,7 +99,7 @@ def identify(
     IdentifyError
         For data, keys or settings that are refused, all problems at once.
     SceneError
-        For a set of bearings.
+        For a set on another model's shaft.
     Interrupted
         On Ctrl-C, a `KeyboardInterrupt` with the ``best`` values so far.
 

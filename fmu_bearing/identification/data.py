@@ -16,10 +16,14 @@ from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.results.column_units import suffixed
 from fmu_bearing.results.rows import read_rows
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import preload_key
 from fmu_bearing.scene.values import fields_of, limits
 
-#: Short names of frequent conditions, with the unit that a table carries.
+#: Short names of frequent conditions, with the unit that a table carries; a set has its preload elsewhere.
 CONDITIONS = {"speed_rpm": "operation.speed_rpm", "preload_N": "mounting.preload_N"}
+_SHORT = {key: name for name, key in CONDITIONS.items()} | dict.fromkeys(
+    ("spindle.preload.preload_N", "spindle.preload.force_N"), "preload_N"
+)
 PLACE = ("x_mm", "y_mm", "z_mm")
 COLUMNS = ("microphone", *PLACE, *CONDITIONS, "quantity", "value_dB", "value_mm_s", "std_dB", "role")
 FIT, CHECK = "fit", "check"
@@ -69,8 +73,7 @@ class Datum:
     @property
     def label(self) -> str:
         """Place, conditions and quantity in a few words."""
-        short = {key: name for name, key in CONDITIONS.items()}
-        parts = [f"{short.get(key, key)} {value:g}" for key, value in self.conditions]
+        parts = [f"{_SHORT.get(key, key)} {value:g}" for key, value in self.conditions]
         return " ".join(word for word in (self.place, *parts, self.quantity.text) if word)
 
 
@@ -243,6 +246,7 @@ class _Reader:
         self.scene, self.background = scene, background
         self.places: dict[str, Position] = {place.name: place.position_m for place in scene.microphones}
         self.fields = fields_of(scene)
+        self.keys = CONDITIONS | {"preload_N": preload_key(scene)}
 
     def check_columns(self, name: str, columns: list[str]) -> None:
         """Refuse columns that are neither of ours nor keys of the scene, and tables without values."""
@@ -264,7 +268,7 @@ class _Reader:
         """Return one row; IdentifyError where a value is refused."""
         text = str(row.get("quantity", "") or "").strip()
         quiet = text.startswith(BACKGROUND)
-        quantity = parse_quantity(text.removeprefix(BACKGROUND))
+        quantity = parse_quantity(text.removeprefix(BACKGROUND), self.scene)
         if quiet or self.background:
             quantity = replace(quantity, text=BACKGROUND + quantity.text)
         place, position = ("", None) if quantity.channel is not None else self._position(row)
@@ -297,7 +301,7 @@ class _Reader:
     def _conditions(self, row: dict[str, Any]) -> tuple[tuple[str, float], ...]:
         found = {}
         for column, cell in row.items():
-            key = CONDITIONS.get(column, column)
+            key = self.keys.get(column, column)
             if (column in COLUMNS and column not in CONDITIONS) or _blank(cell):
                 continue
             if key in found:

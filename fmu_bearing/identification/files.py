@@ -57,7 +57,7 @@ def _set(document: MutableMapping[str, Any], key: str, value: float, remark: str
             part[name] = entry
         part = part[name] if place is None else part[name][place]
     part[last] = float(f"{value:.6g}")
-    if key == "mounting.preload_N":
+    if last == "preload_N":
         for other in ("preload_class", "preload_offset_um"):  # it takes their place
             part.pop(other, None)
     if isinstance(part, Table) and not isinstance(part, InlineTable):

@@ -157,7 +157,11 @@ def _free(scene: Scene, key: str, bounds: Bounds) -> Free:
     for k, start in zip(keys, starts, strict=True):
         if not _is_real(start):
             shown = "not set in the scene" if start is None else f"{start!r}, which is not a real number"
-            raise IdentifyError(f"free key {k} is {shown}: only numbers that the scene has can be identified")
+            same = [f for f in fields if f.endswith(k[k.rfind(".") :]) and _is_real(value_at(scene, f))]
+            instead = f"; it has {' and '.join(same)}" if start is None and same else ""
+            raise IdentifyError(
+                f"free key {k} is {shown}: only numbers that the scene has can be identified{instead}"
+            )
     low, high = limits(fields[keys[0]])
     log = low >= 0.0
     if len(keys) > 1 and (not log or min(starts) <= 0.0):

@@ -12,7 +12,6 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest, source_hash
@@ -23,6 +22,7 @@ from fmu_bearing.identification.quantities import LINE, THIRD_OCTAVE
 from fmu_bearing.identification.run_cache import RunCache
 from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.recording.channels.sources import bodies_of
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.scene import Scene
 
@@ -177,7 +177,7 @@ class Levels:
 
     def _sensors_of(self, scene: Scene, made: Recording) -> Sensors:
         """Paths of the geometry: made once, as boundary elements take seconds."""
-        key = f"{sound_key(scene)} {radiators_of(scene)}"
+        key = f"{sound_key(scene)} {[one.position for one in scene.bearings()]} {bodies_of(scene)}"
         with self._lock:
             if key not in self._sensors:
                 if len(self._sensors) > 2:  # a free geometry: few are needed again

@@ -1,7 +1,7 @@
 """Quantities of a measurement: levels, third octaves, lines, of sound pressure or of a body's velocity."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nominal_frequency
@@ -9,6 +9,8 @@ from fmu_bearing.acoustics.filters.weighting import band_centre
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.interface.names import UnknownName, known
+from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import bearings_of, set_of
 
 LEVEL, A_LEVEL, THIRD_OCTAVE, LINE = "leq", "leq_a", "third_octave", "line"
 VELOCITY = "velocity"
@@ -19,7 +21,8 @@ EXAMPLES = (
 )  # fmt: skip
 _KINDS = (LEVEL, A_LEVEL, THIRD_OCTAVE, LINE, VELOCITY, f"{VELOCITY}_{THIRD_OCTAVE}", f"{VELOCITY}_{LINE}")
 _SYNTAX = re.compile(r"(\w+)(?:\[\s*(.*?)\s*\])?")
-#: Bodies whose velocity can be measured. The housing is fixed to the outer ring and moves with it.
+#: Bodies whose velocity can be measured. A single bearing's housing is fixed to the outer ring and moves with
+#: it; that of a set moves with the outer rings that are fixed in it.
 _BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1}
 _AXES = {"x": 0, "y": 1, "z": 2}
 _TERM = re.compile(r"\s*([+-]?)\s*(\d*)\s*\*?\s*(f_[rcbio])\b\s*")
@@ -37,11 +40,13 @@ class Quantity:
     kind : str
         ``"leq"``, ``"leq_a"``, ``"third_octave"`` or ``"line"``.
     channel : int, optional
-        Velocity of a body: place of its acceleration among the channels; None: sound pressure.
+        Velocity of a body: place of its acceleration among its bearing's channels; None: sound pressure.
     frequency : float
         Centre of the third octave, or of a line of fixed frequency (Hz); 0 for others.
     terms : tuple of (int, str)
         A line that follows the speed: factors of kinematic frequencies, ``((1, "f_i"), (-2, "f_r"))``.
+    bearing : int
+        Whose body it is, from 0.
     """
 
     text: str
@@ -49,6 +54,7 @@ class Quantity:
     channel: int | None = None
     frequency: float = 0.0
     terms: tuple[tuple[int, str], ...] = ()
+    bearing: int = 0
 
     def line(self, kinematics: KinematicFrequencies) -> float:
         """Frequency (Hz) of the line."""
@@ -57,8 +63,11 @@ class Quantity:
         return sum(factor * float(getattr(kinematics, name)) for factor, name in self.terms)
 
 
-def parse_quantity(text: str) -> Quantity:
+def parse_quantity(text: str, scene: Scene | None = None) -> Quantity:
     """Read a quantity, such as ``line[2 f_r]``.
+
+    ``scene``: a set's bodies are named with their bearing, as in ``velocity[bearing[2].outer_ring.z]``;
+    default: a scene of one bearing.
 
     Raises
     ------
@@ -72,29 +81,54 @@ def parse_quantity(text: str) -> Quantity:
         raise IdentifyError(f"{problem}; write for example {', '.join(EXAMPLES)}") from None
     assert match is not None
     inside = match[2] or ""
-    channel = None
+    channel, bearing = None, 0
     if kind.startswith(VELOCITY):
         body, _, inside = inside.partition(" ")
-        channel = _channel(text, body)
+        bearing, channel = _channel(text, body, scene)
         kind = kind.removeprefix(VELOCITY).lstrip("_") or LEVEL
     inside = inside.strip()
     if kind in (LEVEL, A_LEVEL):
         if inside:
             raise IdentifyError(f"quantity '{text}': '{inside}' is too much; write {_like(kind, channel)}")
-        return Quantity(text, kind, channel)
+        return Quantity(text, kind, channel, bearing=bearing)
     if kind == THIRD_OCTAVE:
-        return Quantity(text, kind, channel, _band(text, inside))
-    return _line(text, channel, inside)
+        return Quantity(text, kind, channel, _band(text, inside), bearing=bearing)
+    return replace(_line(text, channel, inside), bearing=bearing)
 
 
-def _channel(text: str, body: str) -> int:
+def _channel(text: str, body: str, scene: Scene | None) -> tuple[int, int]:
+    """Bearing, from 0, and place among its channels."""
+    bearing = 0
+    if scene is not None and scene.spindle is not None:
+        bearing, body = _of_set(text, body, scene)
     name, _, axis = body.partition(".")
     if name not in _BODIES or axis not in _AXES:
         raise IdentifyError(
             f"quantity '{text}': '{body}' is not a direction of a body; write one of {', '.join(_BODIES)}, a "
             "dot and x, y or z, such as velocity[outer_ring.z]"
         )
-    return SD.c_body(_BODIES[name], _AXES[axis])
+    return bearing, SD.c_body(_BODIES[name], _AXES[axis])
+
+
+def _of_set(text: str, body: str, scene: Scene) -> tuple[int, str]:
+    """Bearing, from 0, and the rest of the name of a set's body, which must be a ring that moves."""
+    for k, one in enumerate(bearings_of(scene)):
+        ring, _, axis = body.removeprefix(one.prefix).partition(".")
+        if not body.startswith(one.prefix) or ring not in ("inner_ring", "outer_ring") or axis not in _AXES:
+            continue
+        held = one.seat == "fixed" or (one.seat == "sliding" and axis != "x")
+        if ring == "outer_ring" and held and not set_of(scene).housing.moves:
+            raise IdentifyError(
+                f"quantity '{text}': this ring is held in a housing that does not move; give the housing's "
+                "mass_kg in [spindle.housing], or measure inner_ring, which moves with the shaft"
+            )
+        return k, f"{ring}.{axis}"
+    raise IdentifyError(
+        f"quantity '{text}': '{body}' is not a direction of a ring of this set of "
+        f"{len(set_of(scene).bearing)} bearings; write inner_ring or outer_ring with its bearing, such as "
+        "velocity[bearing[1].outer_ring.z]: the shaft moves with the inner rings, the housing with the outer "
+        "rings that are fixed in it"
+    )
 
 
 def _like(kind: str, channel: int | None) -> str:

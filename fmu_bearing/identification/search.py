@@ -152,8 +152,10 @@ class _Search:
         self.free, self.data = levels.free, levels.data
         flaws = levels.scene.imperfections
         first = 0 if flaws is None else flaws.seed
-        self.seeds = tuple(range(first, first + (1 if flaws is None else seeds)))
-        self.more = tuple(range(first, first + (1 if flaws is None else max(seeds, _SPREAD_SEEDS))))
+        step = len(levels.scene.bearings())  # a set draws its k-th bearing with seed + k
+        every = tuple(range(first, first + step * max(seeds, _SPREAD_SEEDS), step))
+        self.more = every[:1] if flaws is None else every
+        self.seeds = self.more[:seeds]
         self.value = np.array([row.value for row in self.data])
         self.std = np.array([row.std for row in self.data])
         self.fit = np.array([row.fit for row in self.data])

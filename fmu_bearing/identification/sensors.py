@@ -22,7 +22,7 @@ from fmu_bearing.acoustics.filters.weighting import (
 from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.data import VELOCITY_REFERENCE, Datum
-from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, LINE, THIRD_OCTAVE
+from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, LINE, THIRD_OCTAVE, Quantity
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 
 _SEARCH = 0.004  # relative: how far from its frequency a line is looked for, as balls slide
@@ -50,11 +50,15 @@ class Sensors:
         channels = recording.history.shape[1]
         found = recording.paths(self.positions) if places else ()
         self.transfers = [Transfer(circle, channels) for circle in found]
+        #: Channels of each bearing; a set's follow one another.
+        self.each = channels // (1 if recording.scene is None else len(recording.scene.bearings()))
         # the papers' own channels hold no accelerations of bodies
-        bodies = [] if self.energies else [row.quantity.channel for row in rows]
+        bodies = [] if self.energies else [
+            self.channel(row.quantity) for row in rows if row.quantity.channel is not None
+        ]  # fmt: skip
         sounding = {path.channel for transfer in self.transfers for path in transfer.circle.paths}
         #: Channels that anything here depends on: a housing hides the balls.
-        self.used = np.array(sorted({int(c) for c in (*sounding, *bodies) if c is not None}))
+        self.used = np.array(sorted({int(c) for c in (*sounding, *bodies)}))
         frequency = np.fft.rfftfreq(self.size, 1.0 / SD.RATE).astype(np.float64)
         self.keep = (frequency > 0.0) & (frequency < STOP)
         self.frequency = frequency[self.keep]
@@ -75,10 +79,14 @@ class Sensors:
             found[list(transfer.circle.members)] = part[:, self.used]
         return found
 
-    def place(self, channel: int | None) -> int:
-        """Place of a channel among the used ones."""
-        assert channel is not None
-        return int(np.searchsorted(self.used, channel))
+    def channel(self, quantity: Quantity) -> int:
+        """Place of a body's acceleration among all channels."""
+        assert quantity.channel is not None
+        return quantity.bearing * self.each + quantity.channel
+
+    def place(self, quantity: Quantity) -> int:
+        """Place of a body's acceleration among the used channels."""
+        return int(np.searchsorted(self.used, self.channel(quantity)))
 
     def levels(self, recording: ChannelHistory, rows: Sequence[Datum]) -> NDArray[np.float64]:
         """Levels (dB) of a run in the order of rows: pressure re 20 uPa, velocity re 1 nm/s."""
@@ -86,8 +94,7 @@ class Sensors:
         channels = channels - self.slow @ (self.slow_fit @ channels)
         spectra = scipy.fft.rfft(channels.T * self.window, axis=1)[:, self.keep] * self.scale
         squares = self.squares(self.response, spectra)
-        kinematics = recording.kinematics()
-        lines = _Lines(self, channels, kinematics)
+        lines = _Lines(self, channels, recording.bearing_kinematics())
         found = np.empty(len(rows))
         for k, row in enumerate(rows):
             quantity = row.quantity
@@ -97,7 +104,7 @@ class Sensors:
                 if row.position is not None:
                     bins = squares[self.positions.index(row.position)]
                 else:
-                    bins = np.abs(spectra[self.place(quantity.channel)] * self.inverse) ** 2
+                    bins = np.abs(spectra[self.place(quantity)] * self.inverse) ** 2
                 square = float(bins @ self._weight(quantity.kind, quantity.frequency))
             reference = REFERENCE_PRESSURE if row.position is not None else VELOCITY_REFERENCE
             found[k] = 10.0 * np.log10(square / reference**2 + _FLOOR)
@@ -123,30 +130,35 @@ class Sensors:
         return self.weights[key]
 
 
+#: Frequencies (Hz), spectra of the channels there, and mean squares (Pa^2) at the microphones.
+_Around = tuple[NDArray[np.float64], NDArray[np.complex128], NDArray[np.float64]]
+
+
 class _Lines:
-    """Lines of one run. A line is the largest value within 0.4 % of its frequency."""
+    """Lines of one run. A line is the largest value within 0.4 % of its frequency in any bearing."""
 
     def __init__(
-        self, sensors: Sensors, channels: NDArray[np.float64], kinematics: KinematicFrequencies
+        self, sensors: Sensors, channels: NDArray[np.float64], kinematics: Sequence[KinematicFrequencies]
     ) -> None:
         self.sensors, self.channels, self.kinematics = sensors, channels, kinematics
-        self.known: dict[float, tuple[NDArray[np.float64], NDArray[np.complex128], NDArray[np.float64]]] = {}
+        self.known: dict[tuple[float, ...], _Around] = {}
 
     def square(self, row: Datum) -> float:
         """Mean square of a line at one place."""
-        around, spectra, squares = self._at(row.quantity.line(self.kinematics))
+        around, spectra, squares = self._at(
+            tuple(dict.fromkeys(row.quantity.line(one) for one in self.kinematics))
+        )
         if row.position is not None:
             return float(squares[self.sensors.positions.index(row.position)].max())
-        velocity = spectra[self.sensors.place(row.quantity.channel)] / (2.0 * np.pi * around)
+        velocity = spectra[self.sensors.place(row.quantity)] / (2.0 * np.pi * around)
         return float((np.abs(velocity) ** 2).max())
 
-    def _at(
-        self, frequency: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.complex128], NDArray[np.float64]]:
-        if frequency not in self.known:
-            if not 0.0 < frequency < 0.45 * SD.RATE:
-                raise ValueError(f"a line at {frequency:.0f} Hz lies outside what a recording holds")
-            around = frequency * (1.0 + _SEARCH * np.linspace(-1.0, 1.0, _STEPS))
+    def _at(self, frequencies: tuple[float, ...]) -> _Around:
+        if frequencies not in self.known:
+            for frequency in frequencies:
+                if not 0.0 < frequency < 0.45 * SD.RATE:
+                    raise ValueError(f"a line at {frequency:.0f} Hz lies outside what a recording holds")
+            around = np.outer(frequencies, 1.0 + _SEARCH * np.linspace(-1.0, 1.0, _STEPS)).ravel()
             window = self.sensors.window * (np.sqrt(2.0) / self.sensors.window.sum())
             time = np.arange(len(window)) / SD.RATE
             angle = 2.0 * np.pi * around[:, None] * time
@@ -157,8 +169,8 @@ class _Lines:
             spectra = (real - 1j * imaginary).T
             spectra = spectra * _shape(around)
             squares = self.sensors.squares(self.sensors.at(around), spectra)
-            self.known[frequency] = (around, spectra, squares)
-        return self.known[frequency]
+            self.known[frequencies] = (around, spectra, squares)
+        return self.known[frequencies]
 
 
 def _slow_part(size: int) -> NDArray[np.float64]:

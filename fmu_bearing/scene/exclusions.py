@@ -204,12 +204,6 @@ PAPER_RUNS = Exclusion(
 EXCLUSIONS = (
     Exclusion(
         _SET,
-        {"identification": "an identification"},
-        "its search and its sensors are built for one bearing on its mounting so far",
-        "vary keys of the set by `sweep`, or identify one bearing with `[mounting]`",
-    ),
-    Exclusion(
-        _SET,
         {"run report": "a report of a run"},
         "its report is made from statics, with a short run of its own for the sound",
         "give the scene itself, without options of a run",
@@ -289,6 +283,7 @@ EXCLUSIONS = (
             "changes": "a study of changes",
             "tradeoff": "a trade-off study",
             "sensitivity": "a sensitivity study",
+            "identification": "an identification",
         },
         "another model moves the shaft, and these run the bearings without it",
         _OWN_SHAFT,

@@ -8,6 +8,7 @@ from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.model import Levels
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.read import with_fidelity
+from tests.conftest import ROOT
 
 KEY = "imperfections.*_race_amplitude_um"
 SETTINGS = ("--starts", 1, "--seeds", 2)
@@ -85,6 +86,34 @@ def test_tables_on_the_terminal(run, scene_of, measured, output):
         "identified.toml",
     ):
         assert word in result.stdout
+
+
+def test_the_scene_of_a_set_is_written_as_a_set(run, tmp_path):
+    """A heavy spot of the example's shaft: its line rises by 20 lg of the amount."""
+    key = "spindle.shaft.unbalance[1].amount_g_mm"
+    text = (ROOT / "examples" / "spindle_set" / "7003C-DB.toml").read_text("utf-8")
+    path, output, table = (tmp_path / name for name in ("set.toml", "identified.toml", "measured.csv"))
+    path.write_text(
+        'fidelity.model = "response"\n' + text.replace("[spindle.housing]", (
+            "[[spindle.shaft.unbalance]]\nposition_mm = 100.0\namount_g_mm = 0.2 # assumed\n\n"
+            "[spindle.housing]"
+        ))
+    )  # fmt: skip
+    scene = read_scene(path)
+    names = [f"velocity_line[bearing[{number}].inner_ring.{axis} f_r]" for number in (1, 2) for axis in "yz"]
+    rows = [{"quantity": name, "value_dB": 100.0} for name in names]
+    truth = scene.replace({key: 0.5})
+    exact = Levels(truth, read_data(rows, truth), ()).at([], [0], "response")[0]
+    lines = [f"{name},{value:.3f}" for name, value in zip(names, exact, strict=True)]
+    table.write_text("\n".join(("quantity,value_dB", *lines)) + "\n")
+    result = run("identify", path, table, "--free", key, "--starts", 1, "-o", output, "--json")
+    assert result.exit_code == 0, result.output
+    # levels are given to 1e-3 dB, 1e-4 of the amount; the search ends where its cost changes by 1e-3
+    assert result.data["values"][key]["value"] == pytest.approx(0.5, rel=0.005)
+    found = read_scene(output)
+    assert found.spindle.shaft.unbalance[0].amount_g_mm == pytest.approx(0.5, rel=0.005)
+    assert found.spindle.bearing == scene.spindle.bearing and found.spindle.arrangement == "DB (O)"
+    assert "# Two hybrid 7003C back to back" in output.read_text("utf-8")
 
 
 @pytest.mark.parametrize(

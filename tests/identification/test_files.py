@@ -12,9 +12,10 @@ from fmu_bearing.scene.template import new_scene
 TEXT = new_scene("catalogued", "7003C")
 
 
-def found_in(text, values):
+def found_in(text, values, free=None):
+    """Result of a search that found values by key; ``free``: the keys as they were asked for."""
     scene = read_scene_text(text)
-    free = free_numbers(scene, list(values))
+    free = free_numbers(scene, list(free or values))
     estimates = tuple(Estimate(one, values[one.key], 0.1, True) for one in free)
     none = np.zeros((0, 0))
     return Identified(

@@ -78,9 +78,6 @@ HOUSING = {"sound.radiator": "housing"}
 #: For each row, in its order: a scene it holds for, one like it that it does not hold for, and who refuses,
 #: by subject: a function of scene and folder, or values of the scene.
 DOORS = (
-    (pair(), SINGLE, {
-        "identification": lambda scene, folder: identify(scene, [], ["mounting.preload_N"]),
-    }),
     (pair(), SINGLE, {"run report": lambda scene, folder: make(scene, folder / "a.html", changes=True)}),
     (pair(), SINGLE, {"against": lambda scene, folder: error_motion(scene, against="outer ring")}),
     (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
@@ -102,6 +99,7 @@ DOORS = (
         "changes": lambda scene, folder: changes(scene),
         "tradeoff": lambda scene, folder: tradeoff(scene),
         "sensitivity": lambda scene, folder: sensitivity(scene),
+        "identification": lambda scene, folder: identify(scene, [], ["operation.speed_rpm"]),
     }),
     (read_scene(PORT), pair(), {"load": {"spindle.load.force_x_N": 5.0}}),
     (read_scene(PORT), pair(), {"shaft": {"spindle.shaft.flexible": True}}),

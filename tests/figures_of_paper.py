@@ -107,7 +107,7 @@ def _beside_other_programs():
         f"rms velocity of the outer ring by `response` differs from that by `full` by "
         f"{min(map(abs, response)):.1f} to {max(map(abs, response)):.1f} %"
     )
-    roots = [abs(float(one["own, two planes, Hz"]) / float(one["ROSS, Hz"]) - 1.0) for one in table("ross")]
+    roots = [abs(float(one["own, three planes, Hz"]) / float(one["ROSS, Hz"]) - 1.0) for one in table("ross")]
     most = f"{max(roots):.0e}"
     yield f"{len(roots)} natural frequencies of a shaft that ROSS computes from them agree to {most}"
 

@@ -67,8 +67,8 @@ def stiffness(
     Of a set of bearings on one shaft: also the static stiffness at its nose over speed and preload; with
     csv in FILE itself, each bearing's table in FILE-1, FILE-2 and so on.
 
-    With --format ross the file NAME.toml becomes NAME-1.toml and NAME-2.toml: a bearing element of ROSS 3
-    each, with half of the bearing. The table has the errors of both in its tilt and coupling.
+    With --format ross the file NAME.toml becomes NAME-1.toml to NAME-3.toml: bearing elements of ROSS 3 in
+    three planes, which are the bearing together. A table has what they lack of it.
     """
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
@@ -103,14 +103,13 @@ def stiffness(
             save(found.picture(), plot)
             files.append(plot)
     if as_json:
-        print_json(_document(found, form, mirrored) | {"files": files})
+        print_json(_document(found, form) | {"files": files})
         return end(code)
     if found.nose is not None:
         _show_nose(found.nose)
     _show(found)
     for one in found.bearings if form == "ross" else ():
-        for preload in one.preloads:
-            _show_planes(one, float(preload), mirrored or one.sign < 0)
+        _show_planes(one)
     for line in found.cautions():
         tell(f"caution: {line}")
     tell(f"written: {', '.join(map(str, files))}")
@@ -140,7 +139,7 @@ def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]
 
 
 def _elements(found: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
-    """Write two elements per bearing and preload, and return the files."""
+    """Write three elements per bearing and preload, and return the files."""
     files: list[Path] = []
     for one, file in zip(found.bearings, found.files(target), strict=True):
         for preload in one.preloads:
@@ -191,26 +190,26 @@ def _show(found: "Stiffness") -> None:
     )
 
 
-def _show_planes(found: "BearingStiffness", preload: float, mirrored: bool) -> None:
-    """Print where the two planes are and their errors, over all frequencies."""
+def _show_planes(found: "BearingStiffness") -> None:
+    """Print where the three planes are and how far they are from the bearing, at the worst frequency."""
     from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.planes import ERRORS
 
-    name = f"bearing {found.number}, " if found.on_shaft else ""
-    planes, off = found.planes(preload, mirrored), _PERCENT * found.plane_errors(preload)
-    low, high = off.min(axis=1), off.max(axis=1)
-    rows = [
-        [f"{speed:g}", *(f"{low[i, k]:+.2g} to {high[i, k]:+.2g}" for k in range(len(ERRORS)))]
-        for i, speed in enumerate(found.speeds)
-    ]
-    show(f"{name}{preload:g} N: error of the two planes, %, over all frequencies", ("r/min", *ERRORS), rows)
+    name = f"bearing {found.number}: " if found.on_shaft else ""
+    rows = []
+    for preload in found.preloads:
+        off = _PERCENT * found.plane_errors(float(preload)).max(axis=1)
+        for speed, one in zip(found.speeds, off, strict=True):
+            rows.append([f"{speed:g}", f"{preload:g}", *(f"{value:.2g}" for value in one)])
+    show(f"{name}error of the three planes, %, at the worst frequency", ("r/min", "N", *ERRORS), rows)
+    places = found.planes(float(found.preloads[0])).places
     typer.echo(
-        f"planes at {1e3 * planes.places[0]:+.3f} and {1e3 * planes.places[1]:+.3f} mm from the centre of "
-        f"the balls: e = {1e3 * planes.centre:+.3f}, h = {1e3 * planes.half:.3f} mm"
+        f"planes at {', '.join(f'{1e3 * place:.4g}' for place in places)} mm from the centre of the balls; "
+        "the axial stiffness is in the middle one"
     )
 
 
-def _document(found: "Stiffness", form: str, mirrored: bool) -> dict[str, Any]:
+def _document(found: "Stiffness", form: str) -> dict[str, Any]:
     """Return all numbers by name, for machines."""
     result = found.summary()
     for one, document in zip(found.bearings, result["bearings"], strict=True):
@@ -218,9 +217,7 @@ def _document(found: "Stiffness", form: str, mirrored: bool) -> dict[str, Any]:
             document["planes"] = [
                 {
                     "preload_N": float(preload),
-                    "places_mm": [
-                        1e3 * place for place in one.planes(float(preload), mirrored or one.sign < 0).places
-                    ],
+                    "places_mm": [1e3 * place for place in one.planes(float(preload)).places],
                     "errors": one.plane_errors(float(preload)),
                 }
                 for preload in one.preloads

@@ -45,9 +45,9 @@ def test_elements_for_ross_and_what_they_lack(run, silent_file, tmp_path):
     axes = ("--speeds", "8000:24000:5", "--frequencies", "50:5000:5log", "--preloads", "300,500")
     done = run("stiffness", silent_file, *axes, "--format", "ross", "--mirrored", "-o", target)
     assert done.exit_code == 0
-    assert "500 N: error of the two planes, %, over all frequencies" in " ".join(done.stdout.split())
-    assert "planes at +7.14" in done.stdout and "e = +4.89" in done.stdout  # mirrored: ahead of the balls
-    names = {f"rear-{preload}N-{part}.toml" for preload in (300, 500) for part in (1, 2)}
+    assert "error of the three planes, %, at the worst frequency" in " ".join(done.stdout.split())
+    assert "planes at -5.4, 0, 5.4 mm from the centre of the balls" in done.stdout
+    names = {f"rear-{preload}N-{part}.toml" for preload in (300, 500) for part in (1, 2, 3)}
     assert {path.name for path in tmp_path.iterdir()} == names
     (element,) = tomllib.loads((tmp_path / "rear-500N-1.toml").read_text(encoding="utf-8")).values()
     assert len(element["speed"]) == 5 and len(element["kxx"][0]) == 5
@@ -62,9 +62,10 @@ def test_json_holds_all(run, silent_file, tmp_path):
     (own,) = data["bearings"]
     assert len(own["K"][0][0]) == len(data["frequencies_Hz"]) == 8 and len(own["K"][0][0][0]) == 5
     assert data["nose"] is None
-    assert own["planes"][0]["places_mm"] == [pytest.approx(-2.64, abs=0.02), pytest.approx(-7.15, abs=0.02)]
+    assert own["planes"][0]["places_mm"] == pytest.approx([-5.4, 0.0, 5.4], abs=0.11)
     assert len(own["planes"][0]["errors"][0]) == 8
-    assert [name.rpartition("/")[2] for name in data["files"]] == ["k-1.toml", "k-2.toml"]
+    assert max(errors[0] for errors in own["planes"][0]["errors"][0]) < 1e-12
+    assert [name.rpartition("/")[2] for name in data["files"]] == ["k-1.toml", "k-2.toml", "k-3.toml"]
 
 
 @pytest.mark.parametrize(

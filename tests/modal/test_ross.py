@@ -1,4 +1,4 @@
-"""Elements for ROSS 3: two planes, their errors, and the documented layout of the files."""
+"""Elements for ROSS 3: three planes, their errors, and the documented layout of the files."""
 
 import dataclasses
 import math
@@ -7,12 +7,14 @@ import tomllib
 import numpy as np
 import pytest
 
-from fmu_bearing import stiffness
+from fmu_bearing import new_scene, read_scene, stiffness
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.modal.equations.linearised import linearised
+from fmu_bearing.scene import read_scene_text
 from fmu_bearing.steady.impedance import at_rest
-from fmu_bearing.steady.stiffness.planes import errors, mirrored_matrix, planes
+from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, shares, together
+from tests.conftest import ROOT
 
 X, Y, Z, BY, BZ = range(5)
 
@@ -40,56 +42,113 @@ def table(scene):
 
 def test_planes_of_the_7003C(table):
     found = table.planes(500.0)
-    # 4.89 and 2.27 mm by the specification, from a tilt stiffness of 4720 N m/rad, known to 0.3 %, which h^2
-    # has 2.8 times
-    assert 1e3 * found.centre == pytest.approx(-4.89, rel=3e-3)
-    assert 1e3 * found.half == pytest.approx(2.27, rel=0.012)
-    assert found.places == (found.centre + found.half, found.centre - found.half)
+    assert found.places == (-found.a, 0.0, found.a) and found.K.shape == found.C.shape == (3, 5, 6, 3, 3)
+    # by the specification e = 4.89 and h = 2.27 mm at 500 N, so a^2 = e^2 + h^2 at least; 800 N has more
+    assert 5.39e-3 < found.a < 6.2e-3 and found.a == arm(table.static)
+    assert table.planes(800.0).a == table.planes(800.0, mirrored=True).a == found.a
+    alone = table_of(table.scene, table.speeds[:1], [1e3], preloads=[500.0])
+    assert 1e3 * alone.planes().a == pytest.approx(5.4, abs=0.051)
 
 
-def test_two_planes_are_exact_where_they_stand_for_one_matrix():
-    k = bearing(1.6e8, 4700.0, -7.9e5)
-    np.testing.assert_allclose(planes(k).equivalent(k), k, rtol=1e-12, atol=1e-9)
-    assert np.abs(errors(planes(k), k, k)).max() < 1e-12
-    # cross-coupling of the radial motions takes its own tilt along, which is not the bearing's
-    crossed = bearing(1.6e8, 4700.0, -7.9e5, cross=2e4)
-    assert np.abs((planes(k).equivalent(crossed) - crossed)[:3, :3]).max() < 1e-6
-
-
-def test_a_mirrored_bearing_has_its_planes_on_the_other_side():
+@pytest.mark.parametrize("a", [1e-3, 5e-3, 0.02])
+def test_three_planes_are_any_matrix_whose_coupling_is_mutual(a):
     k = bearing(1.6e8, 4700.0, -7.9e5, cross=2e4)
-    one, other = planes(k), planes(k, mirrored=True)
-    assert other.centre == -one.centre > 0.0 and other.half == one.half
-    assert planes(mirrored_matrix(k)) == other
+    k[Y, Y] *= 1.3
+    k[BY, BZ], k[BZ, BY] = 31.0, -12.0
+    # force from a tilt and moment from a displacement: R and L of (y, z) and (bz, -by) are the same
+    k[Y, BY], k[BZ, Z], k[Z, BZ], k[BY, Y] = -700.0, 700.0, 300.0, -300.0
+    held = shares(k, a)
+    np.testing.assert_allclose(together(held, a), k, rtol=1e-11, atol=1e-6)
+    np.testing.assert_array_equal(held[[0, 2], 0], 0.0)  # the axial stiffness is in the middle
+    assert held[1, 0, 0] == k[X, X]
+
+
+def test_at_rest_the_middle_plane_is_empty_and_the_others_push_back():
+    k = bearing(1.6e8, 4700.0, -7.9e5)
+    a = math.sqrt(4700.0 / 1.6e8)
+    assert arm(k) == pytest.approx(a, abs=1e-4) and arm(k) >= a
+    held = shares(k, a)
+    assert abs(held[1, 1, 1]) < 1e-6 and held[:, 1, 1].sum() == pytest.approx(1.6e8)
+    assert held[0, 1, 1] > held[2, 1, 1] > 0.0  # the load centre is behind the balls
+    assert arm(np.stack([k, bearing(1.6e8, 9000.0, -7.9e5)])) == arm(bearing(1.6e8, 9000.0, -7.9e5))
+
+
+def test_a_mirrored_bearing_changes_its_planes_about():
+    k = bearing(1.6e8, 4700.0, -7.9e5, cross=2e4)
+    np.testing.assert_allclose(shares(mirrored_matrix(k), 5e-3), shares(k, 5e-3)[::-1], rtol=1e-12)
     # reversed are the axis and the tilts; what the shaft's rotation does across it stays
     assert mirrored_matrix(k)[Y, Z] == k[Y, Z] and mirrored_matrix(k)[Y, BZ] == -k[Y, BZ]
 
 
-def test_planes_that_cannot_be_are_refused():
-    with pytest.raises(ValueError, match=r"tilt stiffness of 1000 N m/rad is less than the 3901 N m/rad"):
-        planes(bearing(1.6e8, 1000.0, -7.9e5))
-    with pytest.raises(ValueError, match="it has no radial stiffness"):
-        planes(bearing(0.0, 1000.0, 0.0))
+@pytest.mark.parametrize(("radial", "tilt"), [(0.0, 1000.0), (1e8, 0.0), (-1.0, 10.0)])
+def test_planes_that_cannot_be_are_refused(radial, tilt):
+    with pytest.raises(ValueError, match="it has no radial or no tilt stiffness at rest"):
+        arm(bearing(radial, tilt, 0.0))
 
 
-def test_errors_are_those_of_each_entry():
-    k = bearing(1e8, 5e3, -5e5)
-    found = planes(k)
-    softer = bearing(1e8, 4e3, -4e5)  # this point needs other planes
-    damped = bearing(50.0, 5e-3, -0.2)
-    tilt, coupling, tilt_c, coupling_c = errors(found, softer, damped)
-    assert tilt == pytest.approx(5e3 / 4e3 - 1.0) and coupling == pytest.approx(5e5 / 4e5 - 1.0)
-    square = found.centre**2 + found.half**2
-    assert tilt_c == pytest.approx(50.0 * square / 5e-3 - 1.0)
-    assert coupling_c == pytest.approx(50.0 * found.centre / -0.2 - 1.0)
+def test_errors_are_what_springs_cannot_have():
+    k, c = bearing(1e8, 5e3, -5e5), bearing(50.0, 5e-3, -0.2, axial=20.0)
+    k[Y, BZ] *= 1.02  # the moment from a displacement is less
+    c[Z, BY] *= 0.9
+    k[X, Z] = 1e6
+    a, w = 5e-3, np.array([1e3])
+    found = errors(Planes(a, shares(k[None], a), shares(c[None], a)), k[None], c[None], w)
+    assert found.shape == (1, 3)
+    same, coupling, axial = found[0]
+    radial, tilt = abs(1e8 + 1e3 * 50.0j), abs(5e3 + 1e3 * 5e-3j)
+    assert same < 1e-14
+    assert coupling == pytest.approx(0.01 * 5e5 / math.sqrt(radial * tilt), rel=1e-9)
+    damped = errors(Planes(a, shares(k[None], a), shares(c[None], a)), k[None], c[None], 1e6 * w)
+    size = math.sqrt(abs(1e8 + 1e9 * 50.0j) * abs(5e3 + 1e9 * 5e-3j))
+    assert damped[0, 1] == pytest.approx(1e9 * 0.05 * 0.2 / size, rel=1e-6)
+    assert axial == pytest.approx(1e6 / math.sqrt(abs(5e7 + 20.0e3j) * radial), rel=1e-9)
 
 
 def test_errors_over_the_table(table):
     off = table.plane_errors(500.0)
-    assert off.shape == (5, 6, 4)
-    # planes of the matrix at rest: 1 % of tilt and coupling stiffness; dampers would need other planes
-    assert np.abs(off[..., :2]).max() < 0.02
-    assert np.abs(off[..., 2]).max() > 0.2
+    assert off.shape == (5, 6, 3)
+    assert off[..., 0].max() < 1e-12  # rounding
+    assert 1e-5 < off[..., 1].max() < 1e-3 and off[..., 2].max() < 0.03
+
+
+def halves(matrix, static):
+    """Tilt stiffness of two halves of the radial one in the planes e + h and e - h that are right at rest.
+
+    K_r (e^2 + h^2), with e = W / R and e^2 + h^2 = T / R at rest.
+    """
+    return matrix[..., Y, Y] * static[BZ, BZ] / static[Y, Y]
+
+
+#: Rows of the page: a scene or a bearing of the catalogue, speeds (r/min), preloads (N).
+ROWS = {
+    "7003C-bare": ([5e3, 15e3, 25e3], [100.0, 300.0, 1000.0]),
+    "7003C-spindle": ([5e3, 15e3, 25e3], [100.0, 300.0, 1000.0]),
+    "7009C-steel": ([3e3, 9e3, 18e3], [100.0, 350.0, 1000.0]),
+    "NSK-7010AC": ([3e3, 9e3, 15e3], [100.0, 250.0, 1000.0]),
+    "NSK-7014AC": ([3e3, 9e3, 12e3], [150.0, 500.0, 1500.0]),
+}
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_the_page_says_what_halves_missed_and_what_is_left(name):
+    """The table of docs/stiffness.md: tilt by two halves and by three planes, then what no planes have, %."""
+    speeds, preloads = ROWS[name]
+    if name.startswith("NSK"):
+        text = new_scene(name, name, kind="steel", speed_rpm=speeds[1], preload_N=preloads[1], sound=False)
+        scene = read_scene_text(text, name, ROOT)
+    else:
+        scene = read_scene(ROOT / "examples" / "scenes" / f"{name}.toml")
+    found = table_of(scene, speeds, [50.0, *np.linspace(500.0, 5000.0, 10)], preloads=preloads)
+    z, before = found.impedance, 0.0
+    for k in range(len(preloads)):
+        tilt = z[:, k, :, BZ, BZ]
+        before = max(before, float(np.abs(halves(z[:, k], found.static[1, k]) / tilt - 1.0).max()))
+    off = np.stack([found.plane_errors(load) for load in preloads]).max(axis=(0, 1, 2))
+    assert off[0] < 1e-12
+    cells = [f"{float(f'{100.0 * value:.2g}'):g}" for value in (before, *off[1:])]
+    span = [f"{one[0]:,.0f} to {one[-1]:,.0f}" for one in (speeds, preloads)]
+    row = f"| {name} | {' | '.join(span)} | {cells[0]} | 1e-10 | {' | '.join(cells[1:])} |"
+    assert row in (ROOT / "docs" / "stiffness.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("whole", "hertz"), [(False, 4196.0), (True, 4218.0)])
@@ -102,7 +161,7 @@ def test_tilt_counts_in_the_spindle(scene, whole, hertz):
     inertia = masses[rows]
     inertia[[0, 2]] += 0.5 * p[P.BALLS] * p[P.BALL_MASS]  # balls follow half of each ring
     k = at_rest(one)
-    k = planes(k).equivalent(k) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
+    k = together(shares(k, arm(k)), arm(k)) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
     pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.on_pedestal[1]
     found = np.block([[pair, -pair], [-pair, pair]])
     found += np.diag([0.0, p[P.TILT_STIFFNESS], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])
@@ -112,20 +171,21 @@ def test_tilt_counts_in_the_spindle(scene, whole, hertz):
 
 def test_layout_is_that_of_ross(table, tmp_path):
     """By what ROSS 3.1.0 saves: one table per file, names of arguments, K[speed, frequency] in SI units."""
-    files = table.to_ross(tmp_path / "front.toml", 800.0, nodes=(3, 5))
-    assert [file.name for file in files] == ["front-1.toml", "front-2.toml"]
+    files = table.to_ross(tmp_path / "front.toml", 800.0, nodes=(3, 5, 6))
+    assert [file.name for file in files] == ["front-1.toml", "front-2.toml", "front-3.toml"]
+    planes = table.planes(800.0)
     for part, file in enumerate(files, 1):
         text = file.read_text(encoding="utf-8")
         assert "ROSS 3.1.0; release 2 cannot read it" in text and "preload 800 N" in text
         ((section, element),) = tomllib.loads(text).items()
-        assert section == f"BearingElement_7003C {part} of 2" == f"BearingElement_{element['tag']}"
-        assert element["n"] == (3, 5)[part - 1]
+        assert section == f"BearingElement_7003C {part} of 3" == f"BearingElement_{element['tag']}"
+        assert element["n"] == (3, 5, 6)[part - 1]
         coefficients = {f"{letter}{pair}" for letter in "kc" for pair in ("xx", "xy", "yx", "yy", "zz")}
         assert set(element) == coefficients | {"tag", "n", "speed", "frequency"}
         np.testing.assert_array_equal(element["speed"], table.speeds * RPM)
         np.testing.assert_array_equal(element["frequency"], 2.0 * math.pi * table.frequencies)
         assert (np.diff(element["speed"]) > 0.0).all() and (np.diff(element["frequency"]) > 0.0).all()
-        for letter, matrix in (("k", table.K[:, 1]), ("c", table.C[:, 1])):
+        for letter, matrix in (("k", planes.K[part - 1]), ("c", planes.C[part - 1])):
             # x, y, z of ROSS are Y, Z, X
             for pair, (i, j) in {
                 "xx": (Y, Y),
@@ -134,7 +194,7 @@ def test_layout_is_that_of_ross(table, tmp_path):
                 "yy": (Z, Z),
                 "zz": (X, X),
             }.items():
-                np.testing.assert_array_equal(element[letter + pair], 0.5 * matrix[..., i, j])
+                np.testing.assert_array_equal(element[letter + pair], matrix[..., i, j])
 
 
 def test_axes_of_one_value_are_left_out(table, tmp_path):
@@ -145,7 +205,7 @@ def test_axes_of_one_value_are_left_out(table, tmp_path):
     assert "frequency" not in element and np.shape(element["kxx"]) == (5,)
     point = dataclasses.replace(one, speeds=one.speeds[:1], K=one.K[:1], C=one.C[:1])
     element = next(iter(tomllib.loads(point.to_ross(tmp_path / "b.toml", 500.0)[0].read_text()).values()))
-    assert "speed" not in element and element["kxx"] == 0.5 * point.K[0, 0, 0, Y, Y]
+    assert "speed" not in element and element["kxx"] == point.planes(500.0).K[0, 0, 0, Y, Y]
 
 
 def test_short_axes_and_other_endings_are_refused(table, tmp_path):

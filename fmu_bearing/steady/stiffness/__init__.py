@@ -1,7 +1,7 @@
 """Stiffness and damping of a scene's bearings for rotor programs, and stiffness of their shaft.
 
 =====================  ===========================================================================
-``planes``             two planes whose radial springs replace tilt and coupling
+``planes``             springs and dampers in three planes that replace tilt and coupling
 ``stiffness_table``    K and C of a bearing over speed, preload and frequency, and what follows
 ``stiffness_limits``   what limits them, in sentences
 ``stiffness_files``    their CSV and netCDF

@@ -37,8 +37,6 @@ class BearingStiffness(StiffnessTable):
         N/m, N/rad, N m/rad and these times s.
     static : ndarray, shape (speed, preload, 5, 5)
         K for frequency to 0, always of balls that keep their distances: what the bearing has at rest.
-    own : ndarray, shape (preload, 5, 5)
-        The same at the scene's own speed.
     orbit : ndarray, shape (speed, preload)
         Hz: frequency of the balls' orbit, f_c.
     spread : ndarray, shape (speed, preload)
@@ -96,18 +94,18 @@ class BearingStiffness(StiffnessTable):
 
     def to_ross(
         self, path: str | os.PathLike[str], preload: float | None = None, *, mirrored: bool = False,
-        nodes: tuple[int, int] = (0, 1),
-    ) -> tuple[Path, Path]:  # fmt: skip
-        """Write two bearing elements for ROSS 3, each a file with half of the bearing; see ``ross``.
+        nodes: tuple[int, int, int] = (0, 1, 2),
+    ) -> tuple[Path, Path, Path]:  # fmt: skip
+        """Write three bearing elements for ROSS 3, each a file, that are the bearing together; see ``ross``.
 
         Parameters
         ----------
         path : path
-            ``NAME.toml`` makes ``NAME-1.toml`` and ``NAME-2.toml``, for the planes of `planes` in order.
+            ``NAME.toml`` makes ``NAME-1.toml`` to ``NAME-3.toml``, for the planes of `planes` in order.
         preload, mirrored
             As for `planes`.
         nodes : tuple of int
-            Nodes of the rotor at both planes.
+            Nodes of the rotor at the planes.
 
         Raises
         ------

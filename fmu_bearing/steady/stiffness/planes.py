@@ -1,8 +1,23 @@
-"""Two planes whose radial springs replace a bearing that also resists tilt, for programs without tilt.
+"""Springs and dampers in three planes that replace a bearing which resists tilt, for programs without tilt.
 
-Springs of half the radial stiffness K_r at e + h and e - h along the axis have the tilt stiffness
-K_r (e^2 + h^2) and the coupling K_r e. So e, the load centre, is the coupling over K_r, and h^2 the tilt
-stiffness over K_r less e^2.
+At the place s along the axis the ring moves by y + bz s and z - by s. Radial matrices k(s), 2 x 2, in planes
+at -a, 0 and a therefore have the radial stiffness sum k, the coupling with tilt sum k s and the tilt
+stiffness sum k s^2. Three planes have one solution for any three matrices R, W and T of a bearing:
+
+    k(-a) = (T / a^2 - W / a) / 2,    k(0) = R - T / a^2,    k(a) = (T / a^2 + W / a) / 2.
+
+So the planes stay where they are, and what they hold follows speed and frequency, below 0 too. The axial
+stiffness is in the plane of the balls.
+
+Any a is exact for a rigid piece of shaft. A real one bends between the planes, and gives way where the middle
+one pushes: by R less T / a^2, which is much below 0 for planes close together. So a is the root of T / R at
+rest (`arm`), the largest of a table. There the middle plane has nothing, and the outer ones share R as the
+load centre W / R is between them, which it always is. One a serves all speeds, preloads and frequencies, and
+a bearing that carries the other way.
+
+Two things no such springs have. Their force from a tilt is their moment from a displacement, which friction
+and spin of the balls make different in a bearing: W is the mean of both. And axial motion does not couple
+with the others, as it does in a bearing whose balls carry unequal loads. `errors` states both.
 """
 
 import math
@@ -13,70 +28,81 @@ from numpy.typing import NDArray
 
 from fmu_bearing.steady.impedance import FREEDOMS
 
-_Y, _Z, _BY, _BZ = (FREEDOMS.index(name) for name in ("y", "z", "by", "bz"))
+_X, _Y, _Z, _BY, _BZ = (FREEDOMS.index(name) for name in ("x", "y", "z", "by", "bz"))
+#: Motions aside and the slopes of the axis along them: y, z, bz, -by.
+_ASIDE, _SIGNS = [_Y, _Z, _BZ, _BY], np.array([1.0, 1.0, 1.0, -1.0])
 
 
 @dataclass(frozen=True)
 class Planes:
-    """Places of the two planes along X, the centre of the circle of balls at 0.
+    """What the three planes hold.
 
     Attributes
     ----------
-    centre : float
-        m: e, the load centre.
-    half : float
-        m: h, half their distance.
+    a : float
+        m: from the centre of the circle of balls to the outer planes.
+    K, C : ndarray, shape (3, ..., 3, 3)
+        N/m, N s/m: stiffness and damping along x, y, z of each plane.
     """
 
-    centre: float
-    half: float
+    a: float
+    K: NDArray[np.float64]
+    C: NDArray[np.float64]
 
     @property
-    def places(self) -> tuple[float, float]:
-        """Both planes (m): e + h, e - h."""
-        return self.centre + self.half, self.centre - self.half
-
-    def equivalent(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the matrices (shape (..., 5, 5)) that springs or dampers in both planes have."""
-        found = np.zeros_like(matrix)
-        found[..., 0, 0] = matrix[..., 0, 0]
-        half = 0.5 * matrix[..., _Y : _Z + 1, _Y : _Z + 1]
-        for place in self.places:
-            lever = np.eye(len(FREEDOMS))[_Y : _Z + 1]
-            # at X the ring moves by y + bz X and z - by X
-            lever[0, _BZ], lever[1, _BY] = place, -place
-            found += lever.T @ half @ lever
-        return found
+    def places(self) -> tuple[float, float, float]:
+        """The planes along X (m), the centre of the circle of balls at 0."""
+        return -self.a, 0.0, self.a
 
 
-def planes(matrix: NDArray[np.float64], mirrored: bool = False) -> Planes:
-    """Return the planes of a static stiffness matrix; means of both directions where they differ.
-
-    Parameters
-    ----------
-    matrix : ndarray, shape (5, 5)
-    mirrored : bool
-        Whether the bearing carries the other way: its planes are then on the other side.
+def arm(static: NDArray[np.float64]) -> float:
+    """Return a (m) for stiffness matrices at rest, shape (..., 5, 5), rounded up to 0.1 mm.
 
     Raises
     ------
     ValueError
-        Where no radial springs have so little tilt stiffness beside so much coupling.
+        Where one has no radial or no tilt stiffness.
     """
-    radial = 0.5 * float(matrix[_Y, _Y] + matrix[_Z, _Z])
-    tilt = 0.5 * float(matrix[_BY, _BY] + matrix[_BZ, _BZ])
-    coupling = 0.25 * float(matrix[_Y, _BZ] + matrix[_BZ, _Y] - matrix[_Z, _BY] - matrix[_BY, _Z])
-    if not radial > 0.0:
-        raise ValueError("no two planes can replace this bearing: it has no radial stiffness")
-    centre = coupling / radial
-    square = tilt / radial - centre**2
-    if not square > 0.0:
-        raise ValueError(
-            f"no two planes can replace this bearing: its tilt stiffness of {tilt:.4g} N m/rad is less "
-            f"than the {radial * centre**2:.4g} N m/rad of radial springs at its load centre, "
-            f"{1e3 * centre:.2f} mm from its centre"
-        )
-    return Planes(-centre if mirrored else centre, math.sqrt(square))
+    size = np.diagonal(static, axis1=-2, axis2=-1)
+    radial, tilt = size[..., _Y] + size[..., _Z], size[..., _BY] + size[..., _BZ]
+    if not (np.all(radial > 0.0) and np.all(tilt > 0.0)):
+        raise ValueError("no planes can replace this bearing: it has no radial or no tilt stiffness at rest")
+    return 1e-4 * math.ceil(1e4 * math.sqrt(float(np.max(tilt / radial))))
+
+
+def shares(matrix: NDArray[np.float64], a: float) -> NDArray[np.float64]:
+    """Return what each plane holds of a bearing's stiffness or damping.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., 5, 5)
+    a : float
+        m
+
+    Returns
+    -------
+    ndarray, shape (3, ..., 3, 3)
+        Along x, y, z, for the planes at -a, 0 and a.
+    """
+    aside = _SIGNS[:, None] * matrix[..., _ASIDE, :][..., _ASIDE] * _SIGNS
+    coupling = 0.5 * (aside[..., :2, 2:] + aside[..., 2:, :2]) / a
+    tilt = aside[..., 2:, 2:] / a**2
+    found = np.zeros((3, *matrix.shape[:-2], 3, 3))
+    radial = found[..., 1:, 1:]
+    radial[0], radial[2] = 0.5 * (tilt - coupling), 0.5 * (tilt + coupling)
+    radial[1] = aside[..., :2, :2] - tilt
+    found[1, ..., 0, 0] = matrix[..., _X, _X]
+    return found
+
+
+def together(held: NDArray[np.float64], a: float) -> NDArray[np.float64]:
+    """Return the matrices (shape (..., 5, 5)) that ``held``, as `shares` returns it, has together."""
+    found = np.zeros((*held.shape[1:-2], len(FREEDOMS), len(FREEDOMS)))
+    for place, one in zip((-a, 0.0, a), held, strict=True):
+        lever = np.eye(len(FREEDOMS))[: _Z + 1]
+        lever[_Y, _BZ], lever[_Z, _BY] = place, -place
+        found += lever.T @ one @ lever
+    return found
 
 
 def mirrored_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -85,27 +111,39 @@ def mirrored_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(signs[:, None] * matrix * signs)
 
 
+def pairs(matrix: NDArray[np.float64] | NDArray[np.complex128]) -> NDArray[np.float64]:
+    """Return for each entry the root of both diagonal ones, the measure of what is small; 1 for none."""
+    size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
+    size = np.where(size > 0.0, size, 1.0)
+    return np.asarray(size[..., :, None] * size[..., None, :])
+
+
 #: What `errors` returns, in order.
-ERRORS = ("tilt stiffness", "coupling stiffness", "tilt damping", "coupling damping")
+ERRORS = ("radial and tilt", "coupling", "axial coupling")
 
 
-def errors(found: Planes, k: NDArray[np.float64], c: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what the planes have too much of tilt and coupling, over what the bearing has.
+def errors(
+    found: Planes, k: NDArray[np.float64], c: NDArray[np.float64], w: NDArray[np.float64]
+) -> NDArray[np.float64]:  # fmt: skip
+    """Return how far K + i w C of the planes is from the bearing's, over the root of both diagonal entries.
 
     Parameters
     ----------
-    k, c : ndarray, shape (..., 5, 5)
+    k, c : ndarray, shape (..., frequency, 5, 5)
         Stiffness and damping.
+    w : ndarray, shape (frequency,)
+        rad/s.
 
     Returns
     -------
-    ndarray, shape (..., 4)
-        In the order of `ERRORS`; of both directions the one that is further off.
+    ndarray, shape (..., frequency, 3)
+        In the order of `ERRORS`, the largest entry of each: in the diagonal blocks of x, of y and z, and of
+        the tilts; in the coupling of y and z with the tilts; and in the coupling of x with all others.
     """
-    columns = []
-    for matrix in (k, c):
-        other = found.equivalent(matrix)
-        for pairs in (((_BZ, _BZ), (_BY, _BY)), ((_Y, _BZ), (_Z, _BY))):
-            ways = np.stack([other[..., i, j] / matrix[..., i, j] - 1.0 for i, j in pairs])
-            columns.append(np.take_along_axis(ways, np.abs(ways).argmax(axis=0)[None], axis=0)[0])
-    return np.stack(columns, axis=-1)
+    i_w = 1j * w[:, None, None]
+    off = together(found.K, found.a) - k + i_w * (together(found.C, found.a) - c)
+    off = np.abs(off) / pairs(k + i_w * c)
+    kind = np.array([0, 1, 1, 2, 2])  # axial, radial, tilt
+    same = kind[:, None] == kind
+    axial = ~same & ((kind[:, None] == 0) | (kind == 0))
+    return np.stack([off[..., which].max(axis=-1) for which in (same, ~same & ~axial, axial)], axis=-1)

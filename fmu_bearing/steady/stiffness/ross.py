@@ -1,8 +1,8 @@
 """Bearing elements for the rotor program ROSS, release 3, written without it.
 
-A bearing element of ROSS has stiffness and damping of three translations at one node, and none of tilt. Two
-elements, each with half of the bearing, in the planes of ``planes`` carry tilt and coupling, too. Each is
-in a file of its own, because ``BearingElement.load`` reads the first element of a file alone.
+A bearing element of ROSS has stiffness and damping of three translations at one node, and none of tilt. Three
+elements in the planes of ``planes`` have tilt and coupling of the bearing, too; ROSS takes coefficients below
+0. Each is in a file of its own, because ``BearingElement.load`` reads the first element of a file alone.
 
 Layout of a file, as ROSS 3.1.0 saves and loads it: one table ``BearingElement_TAG`` with the names of the
 arguments as keys; ``n`` is the node; ``kxx`` to ``czz`` are numbers, lists over ``speed`` or ``frequency``,
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.steady.stiffness.planes import Planes
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 RELEASE = "3.1.0"  # the one whose reading and writing was tried
@@ -28,7 +29,7 @@ _ENTRIES = {"xx": ("y", "y"), "xy": ("y", "z"), "yx": ("z", "y"), "yy": ("z", "z
 
 
 def check_element(path: str | os.PathLike[str]) -> Path:
-    """Return the path from which the names of both files are made; called before a long computation.
+    """Return the path from which the names of the files are made; called before a long computation.
 
     Raises
     ------
@@ -55,29 +56,28 @@ def check_axes(speeds: int, frequencies: int) -> None:
 
 def write(
     found: StiffnessTable, path: str | os.PathLike[str], preload: float | None, mirrored: bool,
-    nodes: tuple[int, int],
-) -> tuple[Path, Path]:  # fmt: skip
-    """Write both elements; see `BearingStiffness.to_ross`."""
+    nodes: tuple[int, int, int],
+) -> tuple[Path, Path, Path]:  # fmt: skip
+    """Write the elements; see `BearingStiffness.to_ross`."""
     target = check_element(path)
     check_axes(len(found.speeds), len(found.frequencies))
-    at, planes = found.at_preload(preload), found.planes(preload, mirrored)
+    planes = found.planes(preload, mirrored)
+    of = f"preload {found.preloads[found.at_preload(preload)]:g} N{', mirrored' if mirrored else ''}"
     files = []
-    for part, (place, node) in enumerate(zip(planes.places, nodes, strict=True), 1):
-        text = _element(found, at, part, place, node, mirrored)
-        files.append(write_whole(target.with_name(f"{target.stem}-{part}.toml"), text.encode()))
-    return files[0], files[1]
+    for k, node in enumerate(nodes):
+        text = _element(found, of, planes, k, node)
+        files.append(write_whole(target.with_name(f"{target.stem}-{k + 1}.toml"), text.encode()))
+    return files[0], files[1], files[2]
 
 
-def _element(
-    found: StiffnessTable, at: int, part: int, place: float, node: int, mirrored: bool
-) -> str:  # fmt: skip
-    """Return the text of one file."""
-    tag = f"{found.scene.bearing.designation} {part} of 2"
+def _element(found: StiffnessTable, of: str, planes: Planes, k: int, node: int) -> str:
+    """Return the text of the file for the ``k``-th plane."""
+    tag = f"{found.scene.bearing.designation} {k + 1} of 3"
     remarks = (
-        f"Half of a bearing for ROSS {RELEASE}; release 2 cannot read it.",
-        f"Scene {found.scene.name}, preload {found.preloads[at]:g} N{', mirrored' if mirrored else ''}.",
-        f"The node is {1e3 * place:+.4f} mm from the centre of the circle of balls along z, the axis of",
-        "ROSS that is X of the scene. Both halves together have the static tilt stiffness and coupling.",
+        f"Element {k + 1} of 3 of a bearing for ROSS {RELEASE}; release 2 cannot read it.",
+        f"Scene {found.scene.name}, {of}.",
+        f"The node is {1e3 * planes.places[k]:+.4f} mm from the centre of the circle of balls along z, the",
+        "axis of ROSS that is X of the scene. All three together are the bearing, its tilt included.",
     )
     lines = [f"# {remark}" for remark in remarks]
     lines += [f'["BearingElement_{tag}"]', f'tag = "{tag}"', f"n = {node}"]
@@ -85,11 +85,11 @@ def _element(
         lines.append(f"speed = {_list(found.speeds * RPM)}")
     if len(found.frequencies) > 1:
         lines.append(f"frequency = {_list(2.0 * np.pi * found.frequencies)}")
-    for letter, matrices in (("k", found.K[:, at]), ("c", found.C[:, at])):
+    for letter, matrices in (("k", planes.K[k]), ("c", planes.C[k])):
         for name, (force, motion) in _ENTRIES.items():
-            half = 0.5 * matrices[..., FREEDOMS.index(force), FREEDOMS.index(motion)]
-            shape = tuple(size for size in half.shape if size > 1)
-            lines.append(f"{letter}{name} = {_list(half.reshape(shape))}")
+            values = matrices[..., FREEDOMS.index(force), FREEDOMS.index(motion)]
+            shape = tuple(size for size in values.shape if size > 1)
+            lines.append(f"{letter}{name} = {_list(values.reshape(shape))}")
     return "\n".join(lines) + "\n"
 
 

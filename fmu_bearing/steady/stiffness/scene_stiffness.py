@@ -218,7 +218,7 @@ def stiffness(
     points = {(speed, load): _point(scene, fixed, speed, load) for speed in rpm for load in loads}
     filling = [_Filling((len(rpm), len(loads)), hertz, spacing) for _ in scene.bearings()]
     rows: list[tuple[Statics, ...]] = []
-    with keeping(rows, lambda: _table(scene, fixed, rpm[: len(rows)], loads, hertz, spacing, filling, rows)):
+    with keeping(rows, lambda: _table(scene, rpm[: len(rows)], loads, hertz, spacing, filling, rows)):
         for i, speed in enumerate(track(list(rpm)) if track else rpm):
             row: list[Statics] = []
             for k, load in enumerate(loads):
@@ -226,28 +226,21 @@ def stiffness(
                 for one, bearing in zip(filling, system.bearings, strict=True):
                     one.fill(i, k, bearing)
             rows.append(tuple(row))
-    return _table(scene, fixed, rpm, loads, hertz, spacing, filling, rows)
+    return _table(scene, rpm, loads, hertz, spacing, filling, rows)
 
 
 def _table(
-    scene: Scene, fixed: Mapping[str, float], rpm: NDArray[np.float64], loads: NDArray[np.float64],
-    hertz: NDArray[np.float64], spacing: Spacing, filling: "list[_Filling]", rows: list[tuple[Statics, ...]],
+    scene: Scene, rpm: NDArray[np.float64], loads: NDArray[np.float64], hertz: NDArray[np.float64],
+    spacing: Spacing, filling: "list[_Filling]", rows: list[tuple[Statics, ...]],
 ) -> Stiffness:  # fmt: skip
     """Return the tables of the first speeds, of which there are as many as ``rows``."""
     n = len(rpm)
-    home = scene.operation.speed_rpm
-    for k, load in enumerate(loads):
-        there = np.flatnonzero(rpm == home)
-        known = under_force(*_point(scene, fixed, home, load)).bearings if not there.size else ()
-        for b, one in enumerate(filling):
-            one.own[k] = at_rest(known[b]) if known else one.static[there[0], k]
     on_shaft = scene.spindle is not None
     tables = tuple(
         BearingStiffness(
             bearing.scene.with_rigid_rings() if on_shaft else scene, rpm, loads, hertz, one.z.real[:n],
-            one.z.imag[:n] / one.w[:, None, None], one.static[:n], one.own, one.orbit[:n], one.spread[:n],
-            one.steady[:n],
-            spacing, bearing.number, bearing.sign, on_shaft,
+            one.z.imag[:n] / one.w[:, None, None], one.static[:n], one.orbit[:n], one.spread[:n],
+            one.steady[:n], spacing, bearing.number, bearing.sign, on_shaft,
         )
         for bearing, one in zip(scene.bearings(), filling, strict=True)
     )  # fmt: skip
@@ -262,7 +255,7 @@ class _Filling:
         five = (len(FREEDOMS), len(FREEDOMS))
         self.w = 2.0 * math.pi * hertz
         self.z = np.empty((*shape, len(hertz), *five), dtype=complex)
-        self.static, self.own = np.empty((*shape, *five)), np.empty((shape[1], *five))
+        self.static = np.empty((*shape, *five))
         self.orbit, self.spread, self.steady = np.empty(shape), np.zeros(shape), np.ones(shape, dtype=bool)
         self._ready = spaced if spacing == "held" else _as_it_is
 

@@ -48,7 +48,7 @@ def limits_of(found: StiffnessTable) -> Iterator[str]:
         yield (
             f"K at {found.frequencies[0]:.4g} Hz differs from K for frequency to 0 by up to "
             f"{100.0 * apart:.0f} %: balls that carry little take tens of milliseconds to turn over to new "
-            "contact angles; the planes for ROSS follow from K for frequency to 0"
+            "contact angles"
         )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.scene import Scene
-from fmu_bearing.steady.stiffness.planes import Planes, errors, planes
+from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, pairs, shares
 
 Spacing = Literal["held", "free"]
 
@@ -24,7 +24,6 @@ class StiffnessTable:
     K: NDArray[np.float64]
     C: NDArray[np.float64]
     static: NDArray[np.float64]
-    own: NDArray[np.float64]
     orbit: NDArray[np.float64]
     spread: NDArray[np.float64]
     steady: NDArray[np.bool_]
@@ -50,7 +49,7 @@ class StiffnessTable:
         tuple of ndarray
             Shapes (speed, preload, frequency, 5) and (speed, preload, frequency, 5, 5), motions in columns.
         """
-        z = self.impedance / _pairs(self.K)
+        z = self.impedance / pairs(self.K)
         values, vectors = np.linalg.eigh((z - np.conj(np.swapaxes(z, -1, -2))) / 2j)
         return np.asarray(values), np.asarray(vectors)
 
@@ -59,10 +58,13 @@ class StiffnessTable:
 
         Entries over the root of both diagonal ones.
         """
-        return float(np.abs((self.K[:, :, 0] - self.static) / _pairs(self.static)).max())
+        return float(np.abs((self.K[:, :, 0] - self.static) / pairs(self.static)).max())
 
     def planes(self, preload: float | None = None, mirrored: bool = False) -> Planes:
-        """Return the two planes whose radial springs replace tilt and coupling; see ``planes``.
+        """Return three planes whose springs and dampers replace the bearing, tilt included; see ``planes``.
+
+        `Planes.K` and `Planes.C` have the shape (3, speed, frequency, 3, 3). The planes are the same for
+        all preloads.
 
         Parameters
         ----------
@@ -74,20 +76,22 @@ class StiffnessTable:
         Raises
         ------
         ValueError
-            For a preload that is not in the table, and where no two planes can replace the bearing.
+            For a preload that is not in the table, and where the bearing has no radial or tilt stiffness.
         """
-        return planes(self.own[self.at_preload(preload)], mirrored)
+        at, a = self.at_preload(preload), arm(self.static)
+        k, c = (mirrored_matrix(one) if mirrored else one for one in (self.K[:, at], self.C[:, at]))
+        return Planes(a, shares(k, a), shares(c, a))
 
     def plane_errors(self, preload: float | None = None) -> NDArray[np.float64]:
-        """Return what the two planes have too much, over what the bearing has.
+        """Return how far the three planes are from the bearing at the points of the table.
 
         Returns
         -------
-        ndarray, shape (speed, frequency, 4)
-            In the order of ``planes.ERRORS``.
+        ndarray, shape (speed, frequency, 3)
+            In the order of ``planes.ERRORS``: K + i w C over the root of both diagonal entries.
         """
-        at = self.at_preload(preload)
-        return errors(self.planes(preload), self.K[:, at], self.C[:, at])
+        at, w = self.at_preload(preload), 2.0 * math.pi * self.frequencies
+        return errors(self.planes(preload), self.K[:, at], self.C[:, at], w)
 
     def at_preload(self, preload: float | None) -> int:
         """Return the place of a preload (N) on its axis; ``ValueError`` for one that is not in the table."""
@@ -100,10 +104,3 @@ class StiffnessTable:
         if near.size == 0:
             raise ValueError(f"preload = {preload:g} N is not in this table: it has {listed} N")
         return int(near[0])
-
-
-def _pairs(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return for each entry the root of both diagonal ones, the measure of what is small; 1 for none."""
-    size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
-    size = np.where(size > 0.0, size, 1.0)
-    return np.asarray(size[..., :, None] * size[..., None, :])

@@ -43,7 +43,7 @@ class ChangeLevels:
         self.doubt = doubt(with_fidelity(scene, model=self.fidelity))
         if self.fidelity == "full":
             seeds = min(seeds, _SEEDS_FULL)
-        self.seeds = tuple((scene.imperfections.seed + k) % 2**31 for k in range(seeds))
+        self.seeds = tuple((scene.imperfections.seed + k * scene.seeds_apart) % 2**31 for k in range(seeds))
         self._loudest = int(np.argmax(levels))
         self.microphone = scene.microphones[self._loudest].name
         self.estimator.restarts = 0

@@ -152,7 +152,7 @@ class _Search:
         self.free, self.data = levels.free, levels.data
         flaws = levels.scene.imperfections
         first = 0 if flaws is None else flaws.seed
-        step = len(levels.scene.bearings())  # a set draws its k-th bearing with seed + k
+        step = levels.scene.seeds_apart
         every = tuple(range(first, first + step * max(seeds, _SPREAD_SEEDS), step))
         self.more = every[:1] if flaws is None else every
         self.seeds = self.more[:seeds]

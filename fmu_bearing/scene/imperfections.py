@@ -173,10 +173,10 @@ class Imperfections(Part):
         gone = [key for name in self.sources if name != source for key in _SOURCES[name]]
         return self.model_copy(update={key: () if key.endswith("_harmonic") else 0.0 for key in gone})
 
-    def redrawn(self, count: int) -> "Iterator[Imperfections]":
-        """Yield the same imperfections with ``count`` other seeds, those after its own."""
+    def redrawn(self, count: int, apart: int = 1) -> "Iterator[Imperfections]":
+        """Yield the same imperfections with ``count`` other seeds after its own; by `Scene.seeds_apart`."""
         for k in range(count):
-            yield self.reseeded(1 + k)
+            yield self.reseeded((1 + k) * apart)
 
     def reseeded(self, by: int) -> "Imperfections":
         """Return the same imperfections with each of its seeds moved by ``by``."""

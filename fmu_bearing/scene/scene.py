@@ -241,6 +241,11 @@ class Tables(Part):
         """Whether a ring bends."""
         return self.flexural_modes > 0
 
+    @property
+    def seeds_apart(self) -> int:
+        """How far the seeds of two draws are apart: a set draws its k-th bearing with its seed + k."""
+        return 1 if self.spindle is None else len(self.spindle.bearing)
+
     def with_rigid_rings(self) -> Self:
         """Return the scene without the bending of its rings."""
         rigid = {

@@ -219,7 +219,8 @@ def test_spread_of_a_set_against_runs_made_one_by_one():
     made = recorded(given)
     found = spread(made, seeds=2)
     own = made.levels(weighting="A", resolution=20.0)
-    seeds = [given.replace({"imperfections.seed": 2 + k}) for k in range(2)]
+    # the pair draws with seeds 1 and 2, the other draws with 3 and 4, 5 and 6
+    seeds = [given.replace({"imperfections.seed": seed}) for seed in (3, 5)]
     others = [recorded(one).levels(weighting="A", resolution=20.0) for one in seeds]
     assert found.seeds == pytest.approx(np.ptp([own, *others], axis=0), abs=1e-6)
     # of its heavy spots alone: without waves and forms

@@ -354,3 +354,14 @@ def test_every_bearing_of_a_set_has_orders_of_its_own():
 def test_scatter_beside_harmonics_of_both_races_is_refused():
     (line,) = refused(BY_HAND + INNER + OUTER + "order_scatter_seed = 1")[:1]
     assert "order_scatter_seed" in line
+
+
+@pytest.mark.parametrize("name", ["DB", "QBC"])
+def test_no_bearing_of_a_set_has_the_surfaces_of_another_draw(name):
+    path = EXAMPLES.parent / "spindle_set" / f"7003C-{name}.toml"
+    scene = read_scene(path).replace({"imperfections": {"grade": "P4", "seed": 5, "order_scatter_seed": 9}})
+    draws = [scene.imperfections, *scene.imperfections.redrawn(3, scene.seeds_apart)]
+    drawn = [scene.model_copy(update={"imperfections": one}) for one in draws]
+    for key in ("seed", "order_scatter_seed"):
+        seeds = [getattr(one.scene.imperfections, key) for each in drawn for one in each.bearings()]
+        assert len(set(seeds)) == len(seeds) == 4 * len(scene.bearings())

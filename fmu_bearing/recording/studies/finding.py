@@ -141,8 +141,8 @@ def _estimator(side: ComparisonData, microphone: str) -> LevelEstimator:
 
 
 def _level(scene: Scene | None, estimator: LevelEstimator, k: int) -> float:
-    """Return the level (dB(A)) of a scene whose surfaces are drawn with its seeds plus ``k``."""
+    """Return the level (dB(A)) of a scene whose surfaces are drawn with draw ``k`` after its own."""
     assert scene is not None and scene.imperfections is not None
-    drawn = scene.imperfections.reseeded(k)
+    drawn = scene.imperfections.reseeded(k * scene.seeds_apart)
     one = with_fidelity(scene.model_copy(update={"imperfections": drawn}), model=_FIDELITY)
     return float(np.asarray(level(estimator.spectrum(one).sum(axis=1)))[0])

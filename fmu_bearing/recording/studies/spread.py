@@ -226,7 +226,7 @@ def spread(
     weak = weakness(scene)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     others = list(_corners(flaws)) if surface is None else _found(surface, scene, bool(weak))
-    draws = [flaws, *flaws.redrawn(seeds), *others]
+    draws = [flaws, *flaws.redrawn(seeds, scene.seeds_apart), *others]
     spectra = [estimator.spectrum(_drawn(scene, draw, fidelity)) for draw in bar(draws)]
     levels = level(np.array([each.sum(axis=1) for each in spectra]))
     change = levels - levels[0]

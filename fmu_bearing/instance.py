@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.cautions import cautions
 from fmu_bearing.compiled import Calls, call
+from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.layout import SP, P, S
 from fmu_bearing.engine.status import (
     BAD_INPUT,
@@ -62,6 +63,9 @@ _WAVY = (
     "Give less (imperfections: amplitudes, waviness_exponent, harmonics), or check its unit"
 )
 _LONGEST_TEXT = 57  # of a value that is repeated in a message
+# Steps of rings and response after which the state is copied: a copy takes longer than a step of response.
+# A refused step repeats those since. A step of full takes longer than a copy.
+_REPEATED = 32
 _RELATIVE_SLACK = 1e-12  # a value at a bound may carry rounding from a unit conversion
 
 
@@ -134,16 +138,24 @@ class Instance:
         sizes = model.lengths
         self.u: NDArray[np.float64] = model.inputs
         self.z: NDArray[np.float64] = np.zeros(sizes.outputs)
-        self.s: NDArray[np.float64] = np.zeros(sizes.state)
-        self._calls = Calls(self.p, self.u, self.s, self.z, np.zeros(sizes.work))
-        self._saved_state = self.s.copy()
+        self._state: NDArray[np.float64] = np.zeros(sizes.state)
+        self._calls = Calls(self.p, self.u, self._state, self.z, np.zeros(sizes.work))
+        self._kept = self._state.copy()  # where the steps noted since began: size (s) and inputs of each
+        self._since: list[tuple[float, NDArray[np.float64]]] = []
+        self._most = 1 if self.p[P.FIDELITY] == FULL else _REPEATED
         self.initialised = False
         self._due = self._cautions
 
     @property
     def time(self) -> float:
         """Time reached (s)."""
-        return float(self.s[S.TIME])
+        return float(self._state[S.TIME])
+
+    @property
+    def s(self) -> NDArray[np.float64]:
+        """The engine's state. Whoever has it may write to it: the steps before are not repeated then."""
+        self._since.clear()
+        return self._state
 
     def variable(self, name: str) -> Variable:
         """Variable of that name; ``KeyError`` for an unknown name, with the new name of an old one."""
@@ -204,6 +216,7 @@ class Instance:
 
     def initialise(self, time: float = 0.0) -> None:
         """Put the bearing into its steady state at the inputs; ``EngineError`` if there is none."""
+        self._since.clear()
         status = self._calls.init(float(time))
         if status != OK:
             raise EngineError(f"initialisation at t = {time} s: {self._reasons[status]}; {self._inputs()}")
@@ -227,16 +240,29 @@ class Instance:
         if not self.initialised:
             raise EngineError("the bearing must be initialised before it is stepped")
         h = number("step h", h)
-        self._saved_state[:] = self.s
+        if len(self._since) in (0, self._most):
+            self._kept[:] = self._state
+            self._since.clear()
+        self._since.append((h, self.u.copy()))
         status = self._calls.step(h)
         if status != OK:
             reached = self.time
-            self.s[:] = self._saved_state
+            self._go_back()
             raise EngineError(
                 f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): "
                 f"{self._reasons[status]}; {self._inputs()}"
             )
         self._warn()
+
+    def _go_back(self) -> None:
+        """Go back to before the last step: the engine repeats those before it to the last bit."""
+        self._state[:] = self._kept
+        *before, (_, inputs) = self._since
+        for h, earlier in before:
+            self.u[:] = earlier
+            self._calls.step(h)
+        self.u[:] = inputs
+        self._since.clear()
 
     def port_derivatives(self, h: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return partial derivatives of force and moment at the end of a step of ``h`` (s).
@@ -264,7 +290,7 @@ class Instance:
             change = np.zeros(2 * self.u.size)
             change[: self.u.size], change[self.u.size + place] = self.u, 1.0
             z, work = np.zeros(lengths.outputs), np.zeros(lengths.work)
-            status = call("derivative", self.p, change, np.tile(self.s, 2), z, work, number("step h", h))
+            status = call("derivative", self.p, change, np.tile(self._state, 2), z, work, number("step h", h))
             if status != OK:
                 raise EngineError(f"derivatives at the port over {h} s: {self._reasons[status]}")
             columns.append(z[first : first + SP.PLANE])

@@ -9,6 +9,7 @@ import pytest
 
 from fmu_bearing.engine.abi import _LONGEST
 from fmu_bearing.engine.layout import S
+from fmu_bearing.engine.status import NOT_CONVERGED
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
 
@@ -183,3 +184,29 @@ def test_a_pedestal_too_soft_for_the_load_is_refused(scene):
     bearing.set("radial_load.y", 99.0)
     with pytest.raises(EngineError, match="stiffer pedestal"):
         bearing.initialise()
+
+
+@pytest.mark.parametrize("model", ["response", "rings", "full"])
+def test_a_refused_step_is_undone_to_the_last_bit(example, model):
+    """Steps since the last copy of the state are repeated; state and outputs are those before the refusal."""
+    scene = example("7003C-spindle").model_copy(update={"sound": None})
+    one, other = (Instance(prepare(scene, fidelity=model), tell=lambda _: None) for _ in range(2))
+    steps = one._calls.step
+    for run in (one, other):
+        run.initialise()
+    for i in range(40):
+        for run in (one, other):
+            run.set("shaft_speed", 1000.0 + 20.0 * i)
+            run.set("preload", 150.0 + i)
+        if i in (0, 1, 20, 33):
+            one._calls.step = lambda h: steps(h) or NOT_CONVERGED  # as far as a step goes before it fails
+            with pytest.raises(EngineError, match="could not be solved"):
+                one.step(1e-3)
+            one._calls.step = steps
+            assert one.get("preload") == 150.0 + i
+        for run in (one, other):
+            run.step(1e-3)
+        if i in (0, 20, 21, 39):
+            np.testing.assert_array_equal(one.s, other.s)
+            if i != 0:
+                np.testing.assert_array_equal(one.z, other.z)

@@ -1,5 +1,6 @@
 """Parts of all pictures: figures without pyplot's global state, colours, labels, files."""
 
+import math
 import os
 import pathlib
 import warnings
@@ -24,9 +25,15 @@ COLOURS = {
 OTHERS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 #: Dashes: the next kind where all colours are taken.
 DASHES = ("-", "--", "-.", ":")
+#: Ground of words that lie on curves or bars.
+BEHIND = {"facecolor": "white", "alpha": 0.7, "pad": 0.5, "linewidth": 0.0}
 #: Marks on curves whose dashes say something else.
 _MARKS = ("", "s", "^", "D")
 _WIDEST, _NARROWEST = 3.0, 0.9  # points: of curves that may lie on each other
+_APART = len(OTHERS) * len(DASHES)  # curves that colours and dashes tell apart; more go from one to the other
+_ENDS = ("#0072B2", "#E69F00")
+_NAMED = 14  # names in a column of a legend
+_BESIDE, _SAMPLE = 75, 6  # letters beside axes of ten inches, and in place of the sample of a curve
 _HEIGHTS = 12  # that are tried for a label, each one line of text above the last
 
 _OWN_LETTERS = 0x2E7F  # DejaVu Sans has the scripts below in part; those of East Asia begin here
@@ -126,8 +133,16 @@ def single(size: tuple[float, float]) -> "tuple[Figure, Axes]":
     return figure, figure.add_subplot()
 
 
-def series(place: int) -> dict[str, Any]:
-    """Return colour and dashes of a curve by its place: no two of the first 28 look the same."""
+def series(place: int, count: int = 0) -> dict[str, Any]:
+    """Return colour and dashes of a curve by its place: no two of the first 28 look the same.
+
+    Of ``count`` that are more, the colour goes from blue to orange.
+    """
+    if count > _APART:
+        share = place / (count - 1)
+        one, other = (bytes.fromhex(end[1:]) for end in _ENDS)
+        mixed = bytes(round(a + share * (b - a)) for a, b in zip(one, other, strict=True))
+        return {"color": f"#{mixed.hex().upper()}", "linestyle": DASHES[0]}
     return {
         "color": OTHERS[place % len(OTHERS)], "linestyle": DASHES[place // len(OTHERS) % len(DASHES)],
     }  # fmt: skip
@@ -146,6 +161,8 @@ def coincident(place: int, count: int) -> dict[str, Any]:
 
     Microphones at mirrored places have one curve: each is narrower than the one below, and dashed in turn.
     """
+    if count > _APART:
+        return series(place, count) | {"linewidth": _NARROWEST}
     share = place / max(count - 1, 1)
     width = _WIDEST + (_NARROWEST - _WIDEST) * share
     return series(place) | {"linestyle": DASHES[place % len(DASHES)], "linewidth": width}
@@ -197,11 +214,31 @@ def mark_excitation(ax: "Axes", end: float | None, place: float | None = None, w
     ax.axvline(at, color="0.35", linestyle="--", linewidth=1.0, gid="excitation-end")
     words = f"end of the excitation{whose}, {1e-3 * end:.3g} kHz "
     ax.text(at, 0.98, words, rotation=90, fontsize=7, ha="right", va="top", color="0.35",
-            transform=ax.get_xaxis_transform())  # fmt: skip
+            transform=ax.get_xaxis_transform(), bbox=BEHIND)  # fmt: skip
+
+
+def legend_beside(ax: "Axes", **more: Any) -> None:
+    """Name the curves to the right of the axes; of more than have room, some at even places, and their count.
+
+    ``more``: of Matplotlib's legend.
+    """
+    lines, names = ax.get_legend_handles_labels()
+    widest = max(map(len, names), default=0) + _SAMPLE
+    every = math.ceil(len(names) / (_NAMED * max(1, _BESIDE // widest)))
+    title = f"{len(names)} curves, 1 of {every} named" if every > 1 else None
+    ax.legend(
+        lines[::every], names[::every], frameon=False, fontsize=7, loc="center left",
+        bbox_to_anchor=(1.0, 0.5), ncols=max(1, math.ceil(len(names[::every]) / _NAMED)), title=title,
+        title_fontsize=7, **more,
+    )  # fmt: skip
 
 
 def label(ax: "Axes", x: str, y: str, title: str, grid: bool = True) -> None:
-    """Name axes and picture, with a faint grid behind the curves."""
+    """Name axes and picture, with a faint grid behind the curves; ticks have whole numbers, no offset."""
+    for axis in (ax.xaxis, ax.yaxis):
+        plain = getattr(axis.get_major_formatter(), "set_useOffset", None)
+        if plain is not None:
+            plain(False)
     ax.set_xlabel(x)
     ax.set_ylabel(y)
     ax.set_title(title)

@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.results.picture_parts import coincident, empty, label, mark_excitation, series
+from fmu_bearing.results.picture_parts import (
+    coincident,
+    empty,
+    label,
+    legend_beside,
+    mark_excitation,
+    series,
+)
 from fmu_bearing.results.table import number
 
 if TYPE_CHECKING:
@@ -107,7 +114,7 @@ class Spectrum:
         for ax, (unit, rows) in zip(axes, panels.items(), strict=True):
             for k, row in enumerate(rows):
                 # without the first bin, which is the mean's
-                style = series(k) | {"linewidth": 0.8}
+                style = series(k, len(rows)) | {"linewidth": 0.8}
                 if self.kind == MICROPHONE:
                     style = coincident(k, len(rows))
                 ax.plot(self.frequency[1:], self.values[row, 1:], **style, label=self.names[row])
@@ -115,7 +122,7 @@ class Spectrum:
             if unit != "dB" and (self.values[rows, 1:] > 0.0).any():
                 ax.set_yscale("log")
             mark_excitation(ax, self.excitation_end)
-            ax.legend(frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+            legend_beside(ax)
         axes[-1].set_xlabel("frequency, Hz")
         figure.suptitle(title)
         return figure

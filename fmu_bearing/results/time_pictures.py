@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.results.levels import present
-from fmu_bearing.results.picture_parts import coincident, empty, label, save, series
+from fmu_bearing.results.picture_parts import (
+    coincident,
+    empty,
+    label,
+    legend_beside,
+    marked,
+    save,
+    series,
+)
 from fmu_bearing.results.series import Series
 from fmu_bearing.results.variable_names import unit_of
 
@@ -24,13 +32,15 @@ USUAL = (
     "shaft_speed", "friction_torque", "heat.*", "inner_ring.velocity.*", "outer_ring.velocity.*",
     "cage.velocity.*", "mic[*].spl_a", "cage.speed_ratio", "shaft.nose.velocity.*", "bearing[*].force.x",
 )  # fmt: skip
-_MOST = 14  # names in a column of a legend; curves drawn by default where a run has none of the usual
+_MOST = 14  # curves drawn by default where a run has none of the usual
 #: Factor, offset and unit in pictures, where SI gives awkward numbers.
 _SHOWN = {"rad/s": (30.0 / math.pi, 0.0, "r/min"), "K": (1.0, -273.15, "degC")}
 # s: longer communication steps alias motion by waviness up to 10 kHz (imperfections.highest_frequency_kHz)
 _FINE = 5e-5
 # dB below its median: a level there at the beginning is what filters let through before sound arrives
 _STARTING = 40.0
+_AVERAGING = {"fast": 0.125, "slow": 1.0}  # s (IEC 61672-1)
+_LEAST_ROOM = 0.5  # dB above and below levels that stay
 _MICROPHONE = re.compile(r"mic\[(\d+)\]\.")
 _WEIGHTED = (".spl_a", ".leq_a", ".spl_fast_a", ".spl_slow_a")
 _WIDTHS = (1.2, 0.7)
@@ -80,13 +90,13 @@ def _panel(ax: "Axes", run: Series, unit: str, members: Sequence[str]) -> None:
         drawn |= not np.isnan(values).all()
         points = step > _FINE and (".velocity." in name or ".flexure." in name or name.endswith(".pressure"))
         folded |= points
-        style = series(k) | {"linewidth": width}
+        style = series(k, len(members)) | {"linewidth": width}
         if unit == "dB" and _MICROPHONE.match(name):
             style = coincident(k, len(members))
         if points:
-            style |= {"linestyle": "", "marker": "."}
+            style |= marked(k, "o") | {"linestyle": ""}
         silence = ": -" if unit == "dB" and np.isnan(values).all() else ""
-        ax.plot(run.time, values, **style, markersize=2.5, label=spoken(name, run) + silence)
+        ax.plot(run.time, values, **style, markersize=1.8, label=spoken(name, run) + silence)
     label(ax, "", _unit(shown, members), "")
     if folded:
         words = (
@@ -97,10 +107,30 @@ def _panel(ax: "Axes", run: Series, unit: str, members: Sequence[str]) -> None:
         words = "no level: metering has not begun" if unit == "dB" else "no values"
         ax.text(0.5, 0.5, words, ha="center", va="center", transform=ax.transAxes)
         ax.set_yticks([])
-    ax.legend(
-        frameon=False, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5),
-        ncols=math.ceil(len(members) / _MOST),
-    )  # fmt: skip
+    if drawn and unit == "dB":
+        _veil(ax, run, members)
+    legend_beside(ax, markerscale=2.5 if folded else 1.0)
+
+
+def _veil(ax: "Axes", run: Series, members: Sequence[str]) -> None:
+    """Lay grey over the time that meters average over; the axis takes the levels after it, or the last ones.
+
+    Before, levels are means of a few samples: they may lie tens of dB off.
+    """
+    slow = run.scene is not None and run.scene.sound is not None and run.scene.sound.time_weighting == "slow"
+    seconds = _AVERAGING["slow" if slow or all(".spl_slow" in name for name in members) else "fast"]
+    levels = np.array([settled(run[name]) for name in members])
+    there = np.isfinite(levels).any(axis=0)
+    begin = float(run.time[int(np.argmax(there))])
+    after = there & (run.time >= begin + seconds)
+    if not after.any():
+        after = there & (run.time >= 0.5 * (begin + float(run.time[-1])))
+    low, high = float(np.nanmin(levels[:, after])), float(np.nanmax(levels[:, after]))
+    room = max(0.1 * (high - low), _LEAST_ROOM)
+    ax.set_ylim(low - room, high + room)
+    ax.axvspan(begin, min(begin + seconds, float(run.time[-1])), color="0.5", alpha=0.15, linewidth=0.0,
+               gid="averaging")  # fmt: skip
+    ax.set_title(f"grey: the meters average over {seconds:g} s", fontsize=7, loc="left")
 
 
 def _unit(unit: str, members: Sequence[str]) -> str:

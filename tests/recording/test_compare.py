@@ -92,10 +92,16 @@ def test_tables_are_narrow_and_written(found, tmp_path):
 
 
 def test_picture_has_both_spectra(found):
-    (ax,) = found.plot(highest=8000.0).axes
-    curves = [line for line in ax.lines if line.get_gid() is None]
-    assert [line.get_label() for line in curves] == ["A: 7003C-bare", "B: other"]
-    assert ax.get_title() == f"microphone {found.loudest()}" and ax.lines[0].get_xdata()[-1] <= 8000.0
+    figure = found.plot(highest=8000.0)
+    assert figure.get_suptitle() == f"microphone {found.loudest()}"
+    one, other = figure.axes
+    assert one.get_ylim() == other.get_ylim() and one.get_xlim() == other.get_xlim()
+    for ax, name in ((one, "A: 7003C-bare"), (other, "B: other")):
+        (curve,) = [line for line in ax.lines if line.get_gid() is None]
+        (behind,) = [line for line in ax.lines if line.get_gid() == "other"]
+        assert curve.get_label() == ax.get_title(loc="left") == name
+        assert behind.get_color() == "0.8" and ax.lines.index(behind) < ax.lines.index(curve)
+        assert curve.get_xdata()[-1] <= 8000.0
     with pytest.raises(ValueError, match="not both have a microphone 'P9'; both have P1, P2, P3, P4"):
         found.plot("P9")
 

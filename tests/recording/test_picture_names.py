@@ -52,10 +52,35 @@ def test_lines_are_named_without_one_name_on_another():
     every = [*named.values(), *marks.values()]
     assert not any(overlap(a, b) for a, b in itertools.combinations(every, 2))
     assert all(box.x0 >= inside.x0 - 1.0 and box.x1 <= inside.x1 + 1.0 for box in named.values())
+    assert all(box.x0 >= inside.x0 and box.x1 <= inside.x1 for box in marks.values())
     assert len(marks) >= 9  # of 15 frequencies; lines of all are drawn
+    peaks = ax.transData.transform([(line.frequency, line.level) for line in lines])
+    assert not any(box.contains(x, y) for box in named.values() for x, y in peaks)
     (leaders,) = (one for one in ax.collections if one.get_gid() == "line-leader")
     begun = {tuple(way.vertices[0]) for way in leaders.get_paths()}
     assert len(begun) == len(named) and begun <= {(line.frequency, line.level) for line in lines}
+
+
+def test_words_at_the_end_of_the_excitation_lie_on_no_bar():
+    centres = 1000.0 * 10.0 ** (0.1 * np.arange(14))
+    loud = {"P": np.full(14, 60.0)}
+    (ax,) = pictures.third_octave_picture(centres, loud, excitation_end={"A": 16e3, "B": 16e3}).axes
+    ax.get_figure().draw_without_rendering()
+    (words,) = ax.texts  # one where both end
+    assert words.get_text().startswith("end of the excitation of A and B")
+    assert not any(overlap(words.get_window_extent(), bar.get_window_extent()) for bar in ax.patches)
+
+
+def test_many_microphones_leave_a_spectrum_room():
+    rows = {f"microphone at {k} deg": np.full(len(FREQUENCY), 40.0 + 0.1 * k) for k in range(60)}
+    figure = pictures.spectrum_picture(FREQUENCY, rows)
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    box, page = ax.get_legend().get_window_extent(), figure.bbox
+    assert box.x0 >= ax.get_window_extent().x1 and box.x1 <= page.x1 and 0.0 <= box.y0 < box.y1 <= page.y1
+    assert (
+        ax.get_window_extent().width > 0.5 * page.width and ax.get_window_extent().height > 0.7 * page.height
+    )
 
 
 def test_what_nothing_explains_has_the_nearest_line_and_its_distance():

@@ -1,5 +1,7 @@
 """Pictures over time: what was asked, in units people read, without motions that are not there."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -68,3 +70,42 @@ def test_motions_faster_than_the_step_are_points_not_curves(step, style):
     assert found["friction_torque"].get_linestyle() == "-"
     reported = [ax.get_title(loc="left") for ax in figure.axes]
     assert ("points every 1 ms" in reported[0]) == (style == "None") and reported[-1] == ""
+
+
+def test_many_curves_leave_the_axes_room_and_look_different():
+    """Sixty long names: some are named, and the axes keep half the width; nine motions: nine looks."""
+    many = {f"mic[{k}].spl_a_of_a_long_name": 50.0 + 0.1 * k for k in range(1, 61)}
+    figure = time_picture(made(**many), ["*"])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure.draw_without_rendering()
+    (ax,) = figure.axes
+    legend, page = ax.get_legend(), figure.bbox
+    box = legend.get_window_extent()
+    assert box.x1 <= page.x1 and box.y0 >= page.y0 and box.y1 <= page.y1
+    assert ax.get_window_extent().width > 0.5 * page.width
+    assert legend.get_title().get_text() == "60 curves, 1 of 3 named" and len(legend.get_texts()) == 20
+    assert len({line.get_color() for line in ax.lines}) == 60
+    nine = {f"{body}.velocity.{axis}": 1.0 for body in ("inner_ring", "outer_ring", "cage") for axis in "xyz"}
+    (ax,) = time_picture(made(**nine)).axes
+    assert len({(line.get_color(), line.get_marker()) for line in ax.lines}) == 9
+
+
+def test_ticks_have_no_offset():
+    figure = time_picture(made(**{"cage.speed_ratio": 0.4184 + 1e-5 * np.sin(np.arange(100))}))
+    figure.set_size_inches(10.0, 1.8)  # so low that Matplotlib would take one
+    figure.draw_without_rendering()
+    (ax,) = figure.axes
+    assert ax.yaxis.get_offset_text().get_text() == ""
+
+
+@pytest.mark.parametrize(("count", "until"), [(400, 0.145), (100, 0.099)])
+def test_the_time_that_meters_average_over_is_grey_and_sets_no_scale(count, until):
+    level = np.full(count, 50.0) + 0.1 * np.sin(np.arange(count))
+    level[:20], level[20:23] = -106.0, [30.0, 47.0, 49.0]
+    (ax,) = time_picture(made(count=count, **{"mic[1].spl_a": level})).axes
+    (grey,) = [one for one in ax.patches if one.get_gid() == "averaging"]
+    left, right = grey.get_window_extent().transformed(ax.transData.inverted()).intervalx
+    assert (left, right) == pytest.approx((0.02, until), abs=1e-9)
+    low, high = ax.get_ylim()
+    assert 49.0 < low < 49.9 and 50.1 < high < 51.0

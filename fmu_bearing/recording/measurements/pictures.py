@@ -22,6 +22,7 @@ from fmu_bearing.extras import need
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.levels import sounding
 from fmu_bearing.results.picture_parts import (
+    BEHIND,
     COLOURS,
     DASHES,
     OTHERS,
@@ -29,6 +30,7 @@ from fmu_bearing.results.picture_parts import (
     empty,
     free_heights,
     label,
+    legend_beside,
     mark_excitation,
     save,
     series,
@@ -45,6 +47,7 @@ __all__ = [
     "order_picture",
     "planes_picture",
     "power_picture",
+    "sides_picture",
     "save",
     "spectrum_picture",
     "sweep_picture",
@@ -57,6 +60,8 @@ _ROOM = 34.0  # dB above the highest level for names of lines
 _NAME_ROOM = 0.035  # of an axis: what the name of a frequency takes
 _NAMES_TO = 0.2  # of the height: the rows of those names, from the top
 _GAP = 2.0  # pixels between texts
+_ABOVE = 10  # curves whose names have room above the axes
+_LETTER = 0.015  # of the height of third octaves: a letter of the words at the end of the excitation
 _HATCHES = ("", "///", "...", "xxx")  # of bars, where all colours are taken
 _HARMONICS = 3  # of each kinematic frequency that are marked
 
@@ -100,10 +105,42 @@ def spectrum_picture(
     for whose, end in _ends(excitation_end):
         mark_excitation(ax, end, whose=whose)
     label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
-    ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0 if not title else 1.05))
+    if len(spectra) > _ABOVE:
+        legend_beside(ax)
+    else:
+        beyond = 1.05 if title else 1.0
+        ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, beyond))
     if kinematics is not None:
         _mark(ax, kinematics, float(f[-1]))
     _name_lines(ax, [line for line in lines if line.frequency <= f[-1]])
+    return figure
+
+
+def sides_picture(
+    frequency: ArrayLike, sides: Mapping[str, ArrayLike], title: str = "",
+    excitation_ends: Mapping[str, float] | None = None,
+) -> "Figure":  # fmt: skip
+    """Draw spectra (dB) one above the other on one scale, each over the others in grey: none hides another.
+
+    ``excitation_ends``: as of `spectrum_picture`, by the names of ``sides``.
+    """
+    figure = empty((10.0, 0.8 + 2.6 * len(sides)))
+    axes = figure.subplots(len(sides), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    f = np.asarray(frequency, dtype=float)
+    top = max(float(np.max(np.asarray(levels)[1:])) for levels in sides.values())
+    for k, (ax, name) in enumerate(zip(axes, sides, strict=True)):
+        colour = OTHERS[k % len(OTHERS)]
+        for other in sides:
+            if other != name:
+                ax.plot(f, sounding(sides[other]), color="0.8", linewidth=0.8, gid="other")
+        ax.plot(f, sounding(sides[name]), color=colour, linewidth=0.8, label=name)
+        ax.set_xlim(0.0, float(f[-1]))
+        ax.set_ylim(top - _RANGE, top + 12.0)
+        mark_excitation(ax, (excitation_ends or {}).get(name))
+        label(ax, "", "dB re 20 uPa", "")
+        ax.set_title(_entry(name, sounding(sides[name])), fontsize=9, loc="left", color=colour)
+    axes[-1].set_xlabel("frequency, Hz")
+    figure.suptitle(title)
     return figure
 
 
@@ -124,7 +161,13 @@ def third_octave_picture(
                hatch=hatch, edgecolor="white", linewidth=0.0, label=_entry(name, values))  # fmt: skip
     ax.set_xlim(-0.6, len(bands) - 0.4)
     for whose, end in _ends(excitation_end):
-        mark_excitation(ax, end, band_place(centres, end), whose)
+        place = band_place(centres, end)
+        near = [float(np.asarray(values)[np.abs(bands - place) < 1.0].max(initial=0.0))
+                for values in levels.values()]  # fmt: skip
+        low, high = ax.get_ylim()
+        # no bar reaches the words, nor is longer than they let see
+        ax.set_ylim(low, max(high, low + (max(near) - low) / (1.0 - _LETTER * (32 + len(whose)))))
+        mark_excitation(ax, end, place, whose)
     ax.set_xticks(bands[::3], [f"{nominal_frequency(f):g}" for f in np.asarray(centres)[::3]])
     label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False)
@@ -225,9 +268,13 @@ def _ends(given: float | Mapping[str, float] | None) -> list[tuple[str, float]]:
     """Return what to say behind the words, and each end of the excitation (Hz)."""
     if given is None:
         return []
-    return (
-        [(f" of {name}", end) for name, end in given.items()] if isinstance(given, Mapping) else [("", given)]
-    )
+    if not isinstance(given, Mapping):
+        return [("", given)]
+    # one line and one text where several end alike
+    return [
+        (" of " + " and ".join(name for name, its in given.items() if its == end), end)
+        for end in dict.fromkeys(given.values())
+    ]
 
 
 def _words(name: str) -> str:
@@ -261,7 +308,7 @@ def _name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
     peaks = ax.transData.transform([(line.frequency, line.level) for line in named])
     texts = [
         ax.text(line.frequency, line.level, line.explanation, fontsize=7, ha="center", va="bottom",
-                gid="line-name", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.5, "linewidth": 0.0})
+                gid="line-name", bbox=BEHIND)
         for line in named
     ]  # fmt: skip
     boxes = [text.get_window_extent() for text in texts]
@@ -273,9 +320,15 @@ def _name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
         min(max(x, inside.x0 + 0.5 * box.width), inside.x1 - 0.5 * box.width)
         for (x, _), box in zip(peaks, boxes, strict=True)
     ]
-    heights = free_heights(
-        [[x] for x in middles], [y + _GAP for _, y in peaks], [box.width + _GAP for box in boxes], high, top
+    curves = np.vstack(
+        [ax.transData.transform(line.get_xydata()) for line in ax.lines if line.get_label()[:1] != "_"]  # type: ignore[index]
     )
+    # above all curves that a name reaches over
+    base = [
+        _GAP + max(y, np.nanmax(curves[np.abs(curves[:, 0] - x) <= 0.5 * box.width, 1], initial=y))
+        for (_, y), x, box in zip(peaks, middles, boxes, strict=True)
+    ]
+    heights = free_heights([[x] for x in middles], base, [box.width + _GAP for box in boxes], high, top)
     back = ax.transData.inverted()
     leaders = []
     for text, line, x, height in zip(texts, named, middles, heights, strict=True):
@@ -313,7 +366,9 @@ def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: 
                 continue
             last = n * base
             height = high - (high - low) * (0.02 + 0.035 * k)
-            ax.text(n * base, height, words, fontsize=7, ha="center", va="top", color=colour, gid="mark")
+            room = 0.5 * _NAME_ROOM * (right - left)
+            side = "left" if n * base < left + room else "right" if n * base > right - room else "center"
+            ax.text(n * base, height, words, fontsize=7, ha=side, va="top", color=colour, gid="mark")
 
 
 def _end_line(ax: "Axes", place: NDArray[np.float64], along: NDArray[np.float64]) -> None:

@@ -146,6 +146,7 @@ class Comparison:
     ) -> "Figure":
         """Draw the spectra of A and B at a microphone (default: `loudest`), up to ``highest`` (Hz).
 
+        Each has its own panel, with the other one behind it in grey.
         Third octaves are drawn where a run kept no pressures.
 
         Raises
@@ -160,7 +161,7 @@ class Comparison:
         heading = f"microphone {name}" if title is None else title
         sides = {f"A: {self.a.name}": self.a, f"B: {self.b.name}": self.b}
         ends = {
-            label[0]: side.excitation_end
+            label: side.excitation_end
             for label, side in sides.items()
             if side.excitation_end is not None
         }  # fmt: skip
@@ -172,7 +173,7 @@ class Comparison:
                 for label, side in sides.items()
                 if side.spectrum is not None
             }
-            return pictures.spectrum_picture(shown, levels, title=heading, excitation_end=ends)
+            return pictures.sides_picture(shown, levels, heading, ends)
         bands = sorted(self.a.third_octaves.get(name, {}).keys() & self.b.third_octaves.get(name, {}).keys())
         if not bands:
             raise ValueError(
@@ -180,7 +181,8 @@ class Comparison:
                 "scenes or recordings"
             )
         rows = {label: [side.third_octaves[name][f] for f in bands] for label, side in sides.items()}
-        return pictures.third_octave_picture(bands, rows, heading, ends)
+        letters = {label[0]: end for label, end in ends.items()}
+        return pictures.third_octave_picture(bands, rows, heading, letters)
 
     def conditions(self) -> str:
         """Return fidelity and radiation model of A and B, in words."""

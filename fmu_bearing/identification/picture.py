@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from fmu_bearing.extras import need
+from fmu_bearing.identification.quantities import A_LEVEL
 from fmu_bearing.identification.result import Identified
 from fmu_bearing.results.picture_parts import OTHERS, empty, label, save
 
@@ -15,6 +17,7 @@ __all__ = ["identified_picture", "save"]
 
 _ROLES = ((True, "fit", "o", OTHERS[0]), (False, "check", "^", OTHERS[1]))
 _ROOM = 3.0  # dB beyond the outermost level
+_NARROW, _WIDE = 5.0, 1e3  # high over low: ticks in even steps; at 1, 2, 5 of each decade; of decades alone
 
 
 def identified_picture(found: Identified, truth: Mapping[str, float] | None = None) -> "Figure":
@@ -52,7 +55,9 @@ def _levels(ax: "Axes", found: Identified) -> None:
     ax.set_ylim(low, high)
     ax.set_aspect("equal")
     ax.legend(frameon=False, fontsize=8)
-    label(ax, "measured, dB", "computed, dB", found.scene.name)
+    weighted = [one.datum.quantity.kind == A_LEVEL for one in found.compared]
+    unit = "dB(A)" if all(weighted) else "dB, dB(A)" if any(weighted) else "dB"
+    label(ax, f"measured, {unit}", f"computed, {unit}", found.scene.name)
 
 
 def _values(ax: "Axes", found: Identified, truth: Mapping[str, float]) -> None:
@@ -74,7 +79,12 @@ def _values(ax: "Axes", found: Identified, truth: Mapping[str, float]) -> None:
     ax.set_xscale("log")
     ax.set_yticks(range(len(shown)), [one.key.replace(".", ".\n", 1) for one in reversed(shown)], fontsize=8)
     ax.set_ylim(-0.6, len(shown) - 0.4)
-    ticks = [v for v in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if ax.get_xlim()[0] <= v <= ax.get_xlim()[1]]
-    ax.set_xticks(ticks, [f"{v:g}" for v in ticks])
+    low, high = ax.get_xlim()
+    ticker = need("matplotlib.ticker", "a picture")
+    if high < _NARROW * low:
+        ax.xaxis.set_major_locator(ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
+    else:
+        ax.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0) if high < _WIDE * low else (1.0,)))
+    ax.xaxis.set_major_formatter("{x:g}")
     ax.minorticks_off()
     label(ax, "identified over start, with two standard deviations", "", "")

@@ -172,7 +172,8 @@ def sound(
             | ({"spread": sure.summary()} if sure else {})
         )
     else:
-        show(_heading(recording), *analysis.rows())
+        columns, rows = analysis.rows()
+        show(_heading(recording), [name.replace("_", " ") for name in columns], rows)
         for one in sources:
             show(f"{one.frequency:g} Hz: third octave of {one.band:g} Hz", *one.rows())
             for line in one.sentences():

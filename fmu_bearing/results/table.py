@@ -15,8 +15,6 @@ from fmu_bearing import __version__
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import naming
 
-_WIDEST = 10_000  # characters: no table is wider
-
 
 def machine() -> str:
     """Processor, cores and the versions that matter, of this package with the hash of its engine."""
@@ -55,24 +53,48 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print one table within the width of the terminal, of 80 characters where there is none.
 
-    Cells are broken between words. A table that is too wide even so is printed row by row, a line per column.
+    Heads and cells are broken between words. A table that is too wide even so is printed row by row, a line
+    per column.
     """
     from rich.console import Console
-    from rich.measure import Measurement
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(columns[0], title=title)
-    table.columns[0].no_wrap = True
-    for name in columns[1:]:
-        table.add_column(name)
+    console = Console()
+    widths = _widths(columns, rows, console.width - 3 * len(columns) - 1)  # a frame and two spaces each
+    if widths is None:
+        print("\n".join(row_by_row(title, columns, rows, console.width)))
+        return
+    table = Table(title=title)
+    for k, (name, width) in enumerate(zip(columns, widths, strict=True)):
+        table.add_column(name, width=width, no_wrap=k == 0)
     for row in rows:
         table.add_row(*map(Text, row))  # brackets in a cell are no markup
-    console = Console()
-    if Measurement.get(console, console.options.update(max_width=_WIDEST), table).minimum <= console.width:
-        console.print(table)
-    else:
-        print("\n".join(row_by_row(title, columns, rows, console.width)))
+    console.print(table)
+
+
+def _widths(columns: Sequence[str], rows: Sequence[Sequence[str]], room: int) -> list[int] | None:
+    """Return a width (characters) per column, no more than ``room`` together; None where words do not fit.
+
+    The first column is not broken. Rich alone cuts words of some columns to leave others more.
+    """
+    from rich.cells import cell_len
+
+    texts = [[name, *(row[k] for row in rows)] for k, name in enumerate(columns)]
+    whole = [max(map(cell_len, text)) for text in texts]
+    least = [max(cell_len(word) for text in own for word in [*text.split(), ""]) for own in texts]
+    least[0] = whole[0]
+    if sum(least) > room:
+        return None
+    found = least
+    for limit in range(max(whole) + 1):  # the widest columns give way first
+        wider = [max(low, min(own, limit)) for low, own in zip(least, whole, strict=True)]
+        if sum(wider) > room:
+            break
+        found = wider
+    spare = room - sum(found)
+    lacking = [k for k, width in enumerate(found) if width < whole[k]]
+    return [width + (k in lacking[:spare]) for k, width in enumerate(found)]
 
 
 def row_by_row(

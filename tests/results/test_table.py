@@ -29,6 +29,18 @@ def test_cells_are_broken_between_words(printed):
     assert sum(line.count("word") for line in lines) == 40
 
 
+def test_no_word_of_a_head_is_cut(printed):
+    """The levels of `sound`: heads take two or three lines, and all words are there."""
+    columns = ["microphone", "Leq, dB", "LAeq, dB(A)"]
+    columns += [f"{name}, dB(A)" for name in ("inner ring", "outer ring", "cage", "balls")]
+    row = ["microphone at 126 deg", *["57.2"] * 6]
+    lines = printed("levels", columns, [row] * 4)
+    assert max(map(len, lines)) <= 80 and not any("\u2026" in line for line in lines)
+    head = " ".join(lines[:5])
+    assert all(word in head for name in columns for word in name.split())
+    assert sum(line.count("microphone at 126 deg") for line in lines) == 4
+
+
 @pytest.mark.parametrize("width", [80, 60])
 def test_a_table_that_is_too_wide_is_reported_row_by_row(printed, width):
     columns = tuple(f"column-{k}" for k in range(15))

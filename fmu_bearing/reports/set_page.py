@@ -292,7 +292,7 @@ def _axial(scene: Scene, found: Statics, tell: Tell) -> Chart:
         loads.append(load)
         shares.append(signs * forces(run)[:, 0])
         places.append(1e6 * nose(run)[0])
-    figure = look.figure(380)
+    figure = look.figure(380, modebar=look.TOOLS_ABOVE)
     for k, curve in enumerate(np.array(shares).T):
         figure.add_scatter(
             x=loads, y=curve, name=f"bearing {k + 1}", line=look.series(k),

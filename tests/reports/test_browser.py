@@ -145,6 +145,11 @@ def test_verdicts_are_read_at_390_pixels_without_scrolling(shown):
         assert [cell[4] for cell in cells] == ["", "value", "verdict", "limit", "source of the limit"]
         assert all(right <= 390 for _, right, *_ in cells)
         assert all(upper[3] <= lower[2] + 0.5 for upper, lower in zip(cells, cells[1:], strict=False))
+        # captions of tables that scroll sideways are as wide as the page
+        captions = shown.eval_on_selector_all(
+            ".block caption span", "nodes => nodes.map(n => n.getBoundingClientRect().right)"
+        )
+        assert len(captions) > 5 and max(captions) <= 390
         top = shown.eval_on_selector("#overall", "n => n.getBoundingClientRect().bottom + scrollY")
         assert top < 844  # on the first screen
     finally:
@@ -159,7 +164,9 @@ def test_the_toolbar_covers_no_legend_and_no_name_another(shown):
             const box = (node) => (({ left, right, top, bottom }) => [left, right, top, bottom])(
                 node.getBoundingClientRect());
             const all = (selector) => [...plot.querySelectorAll(selector)].map(box);
-            return [plot.dataset.chart, all('.modebar')[0], all('.legend .bg'), all('.annotation-text-g')];
+            const beside = '.ytitle, .y2title, .xtitle, .cbaxis text, .cbtitle text';
+            return [plot.dataset.chart, all('.modebar')[0], all('.legend .bg'), all('.annotation-text-g'),
+                all(beside)];
         })""",
     )
 
@@ -169,11 +176,11 @@ def test_the_toolbar_covers_no_legend_and_no_name_another(shown):
             and min(one[3], other[3]) - max(one[2], other[2]) > 0.5
         )
 
-    legends = {key: boxes for key, _, boxes, _ in found if boxes}
+    legends = {key: boxes for key, _, boxes, *_ in found if boxes}
     assert len(legends) >= 6
-    for key, bar, boxes, _ in found:
-        assert bar[1] > bar[0] and not any(meet(bar, box) for box in boxes), key
-    (names,) = [names for key, _, _, names in found if key == "spectrum"]
+    for key, bar, boxes, _, titles in found:
+        assert bar[1] > bar[0] and not any(meet(bar, box) for box in [*boxes, *titles]), key
+    (names,) = [names for key, _, _, names, _ in found if key == "spectrum"]
     assert len(names) >= 3
     assert not any(meet(a, b) for a, b in itertools.combinations(names, 2))
 

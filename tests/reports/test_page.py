@@ -13,7 +13,7 @@ from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.reports import make, report
 from fmu_bearing.reports.data.observed_run import observed
 from fmu_bearing.reports.data.subject import Subject
-from fmu_bearing.reports.page.render import POLICY
+from fmu_bearing.reports.page.render import POLICY, _code
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import GATES
 from tests.reports.reading import Page
@@ -85,6 +85,24 @@ def test_what_is_said_is_said_to_the_end(full, full_page):
     assert "None" not in conditions and "waviness orders from 2 to " in conditions
     assert "5 strips per contact" in conditions and "% from the balls." in conditions
     assert "7003C at 20,000 r/min, preload 500 N" in full_page.text
+
+
+def test_names_of_commands_are_set_as_code(full_page):
+    assert _code("as `info` & <b> have it") == "as <code>info</code> &amp; &lt;b&gt; have it"
+    words = re.sub(r"<(pre|script|style)\b.*?</\1>", "", full_page.text, flags=re.DOTALL)
+    assert "`" not in words and "<code>info</code>" in words
+
+
+def test_scales_of_velocity_have_powers_and_toolbars_lie_on_no_axis(full_page):
+    """Plotly's own prefixes say 100u before mm/s; beside a scale of colours the toolbar is on top."""
+    axis = full_page.figures["velocity-spectrum"]["layout"]["yaxis"]
+    assert (axis["type"], axis["exponentformat"], axis["dtick"]) == ("log", "power", 1)
+    scaled = [
+        figure["layout"]
+        for figure in full_page.figures.values()
+        if any("colorbar" in trace for trace in figure["data"])
+    ]
+    assert len(scaled) >= 2 and all(layout["modebar"]["orientation"] == "h" for layout in scaled)
 
 
 @pytest.mark.usefixtures("brief")

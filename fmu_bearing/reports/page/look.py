@@ -30,6 +30,8 @@ ON_DARK = {
 #: Ground of names that lie on curves.
 BEHIND = "rgba(255,255,255,0.75)"
 _DASHES = {"-": "solid", "--": "dash", "-.": "dashdot", ":": "dot"}
+#: The toolbar of a figure that has a scale of colours or an axis to the right: in a row on top.
+TOOLS_ABOVE = {"orientation": "h"}
 _TOOLS = 44  # px: the toolbar's width, so that it covers neither curves nor the legend
 _FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 

@@ -2,6 +2,7 @@
 
 import datetime
 import platform
+import re
 from collections.abc import Sequence
 from importlib import metadata, resources
 from typing import Any
@@ -61,6 +62,7 @@ def render(
     library = need("plotly.offline", "a report").get_plotlyjs()
     files = resources.files("fmu_bearing.reports.page")
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters["code"] = _code
     template = environment.from_string(files.joinpath("page.html.j2").read_text("utf-8"))
     made = made or datetime.datetime.now(datetime.UTC)
     blocks = [block for section in sections for block in section.blocks]
@@ -81,3 +83,9 @@ def render(
             library=packing.text_of(library.encode("utf-8")) if charts else "",
         )
     )  # fmt: skip
+
+
+def _code(text: str) -> Any:
+    """Return a text with what stands between backticks set as code, for a page."""
+    safe = need("jinja2.utils", "a report").markupsafe
+    return safe.Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(safe.escape(text))))

@@ -157,7 +157,13 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
     decades = np.log10(top) if top > 0.0 else 0.0
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST]),
-        yaxis=look.axis("rms velocity, mm/s", type="log", range=[decades - 5.0, decades + 0.5]),
+        yaxis=look.axis(
+            "rms velocity, mm/s",
+            type="log",
+            dtick=1,
+            exponentformat="power",
+            range=[decades - 5.0, decades + 0.5],
+        ),
     )
     return Chart(
         "velocity-spectrum",

@@ -109,7 +109,9 @@ def _choice(found: Sphere, unit: str) -> Choice:
 
 
 def _balloon(subject: Subject, found: Sphere) -> Chart:
-    figure = look.figure(height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False)
+    figure = look.figure(
+        height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False, modebar=look.TOOLS_ABOVE
+    )
     directions = found.directions()
     closed = np.concatenate([directions, directions[:, :1]], axis=1)
     spots = _spots(found)

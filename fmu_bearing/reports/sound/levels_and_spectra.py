@@ -34,6 +34,7 @@ from fmu_bearing.results.picture_parts import free_heights
 _RANGE = 70.0  # dB shown below the highest line
 _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level
 _LINES = 12
+_WORDS = 0.12  # of the range of third octaves: a row of words
 _ABOVE = 20.0  # dB above the highest line, for names
 #: Pixels of the spectrum's axes on a page of the usual width, and of names in it.
 _PLOT_WIDTH, _PLOT_HEIGHT = 800.0, 310.0
@@ -275,13 +276,15 @@ def _third_octaves(microphones: Microphones) -> Chart:
             )  # fmt: skip
     figure.update_layout(
         xaxis=look.axis("third-octave band, Hz", type="category", tickangle=-45),
-        yaxis=look.axis("level, dB re 20 uPa", range=[low, top + 4.0]),
+        # a row of words has room above the bars
+        yaxis=look.axis("level, dB re 20 uPa", range=[low, top + _WORDS * (top - low)]),
     )
     end = microphones.subject.recording.excitation_end
     if end is not None and (place := band_place(bands, end)) < len(names) - 0.5:
         figure.add_vline(
             place, line={"color": look.colour("grey"), "width": 1.8, "dash": "dash"},
-            annotation={"text": f"{END}, {1e-3 * end:.3g} kHz", "textangle": -90, "font": {"size": 11}},
+            annotation={"text": f"{END}, {1e-3 * end:.3g} kHz", "font": {"size": 11}},
+            annotation_position="top left" if place > 0.5 * len(names) else "top right",
         )  # fmt: skip
     deviations = spread(np.array(bands), microphones.third_octave_time)
     unsure = [band for band, deviation in zip(bands, deviations, strict=True) if deviation > _UNSURE]

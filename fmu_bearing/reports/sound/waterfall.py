@@ -73,7 +73,7 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
     y = found.speed / RPM if over_speed else found.time + start
     order = np.argsort(y)
     top = float(found.levels.max())
-    figure = look.figure(height=520)
+    figure = look.figure(height=520, modebar=look.TOOLS_ABOVE)
     unit = "r/min" if over_speed else "s"
     figure.add_heatmap(
         x0=float(found.frequency[0]), dx=float(found.frequency[1] - found.frequency[0]), y=small(y[order]),

@@ -122,6 +122,20 @@ def test_search_works_on_pages_opened_from_the_disk(site):
     assert all(url.startswith(("file:", "data:")) for url in asked)
 
 
+@pytest.mark.lint
+def test_figures_and_sizes_are_read_at_390_pixels(site):
+    with opened(site) as (page, _, _):
+        page.set_viewport_size({"width": 390, "height": 844})
+        shown = page.eval_on_selector("figure img", "n => [n.clientWidth, n.parentNode.clientWidth]")
+        assert shown[0] >= 600 and shown[1] <= 390
+        page.goto((site / "sizes.html").as_uri())
+        rows = page.eval_on_selector_all(
+            "tbody tr:has(td:nth-child(10))", "nodes => nodes.map(n => n.clientHeight)"
+        )
+        assert len(rows) == len(sizes()) and max(rows) < 40  # one line each
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
 #: Asks the site's own search, a worker that answers one message by another (0 set up, 1 ready, 2 query, 3
 #: result), and returns the pages that it finds for each query, the best first.
 _ASK = """async queries => {

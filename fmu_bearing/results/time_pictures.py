@@ -58,6 +58,7 @@ def time_picture(run: Series, patterns: Sequence[str] | None = None, title: str 
         Default: the run's name.
 
     Speeds are drawn in r/min, temperatures in degC, microphones by their names where the run has its scene.
+    The time that meters average over is grey, and the axis takes the levels after it.
     Velocities and pressures that the communication step is too long to follow are drawn as points, since a
     line between them would show motions that are not there.
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import campbell
-from fmu_bearing.modal.campbell.diagram_picture import _DASHES, spaced
+from fmu_bearing.modal.campbell.diagram_picture import _DASHES, _put, spaced
 from fmu_bearing.modal.campbell.diagram_style import (
     WIDTHS,
     colour,
@@ -19,6 +19,7 @@ from fmu_bearing.modal.campbell.diagram_style import (
     width_class,
 )
 from fmu_bearing.modal.modes.mode import MARGIN
+from fmu_bearing.results.picture_parts import single
 
 SPEEDS = np.linspace(4_000, 28_000, 7)
 
@@ -203,3 +204,31 @@ def test_a_shaft_that_turns_backwards_has_the_same_picture(gate, spindle):
     )
     # the mirrored state comes from its own search
     assert np.array(one) == pytest.approx(np.array(other), rel=1e-3)
+
+
+def test_a_text_is_set_beside_the_edge_of_a_dot_too():
+    """The middle of the dot is beside the first place, its edge is not; a point of a curve is less bad."""
+    figure, ax = single((6.0, 4.0))
+    figure.set_layout_engine("none")
+    ax.set_xlim(0.0, 1.0)
+    ax.set_ylim(0.0, 1.0)
+    text = ax.annotate("operation", (0.5, 0.0), xytext=(0.0, 0.0), textcoords="offset points", va="center")
+    first, second = (5.0, 40.0), (5.0, 120.0)
+    text.set_position(first)
+    figure.draw_without_rendering()
+    box = text.get_window_extent()
+    x, y = ax.transData.inverted().transform((0.5 * (box.x0 + box.x1), box.y1 + 6.0))
+    ax.scatter([x], [y], s=dot_area(100.0), gid="crossings")
+    text.set_position(second)
+    box = text.get_window_extent()
+    ax.plot(*ax.transData.inverted().transform((0.5 * (box.x0 + box.x1), box.y0 + 3.0)), zorder=3)
+    _put(ax, text, [first, second])
+    assert text.get_position() == second
+
+
+def test_all_remarks_are_on_the_picture(ceramic, spindle):
+    for found in (ceramic, spindle):
+        figure = found.picture()
+        figure.draw_without_rendering()
+        (words,) = [text for text in figure.texts if text.get_gid() == "verdict"]
+        assert words.get_window_extent().y0 >= 0.0

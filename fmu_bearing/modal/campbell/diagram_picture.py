@@ -290,7 +290,7 @@ def _name_inside(ax: "Axes", branches: "list[Branch]") -> None:
 def _put(ax: "Axes", text: "Annotation", places: list[tuple[float, float]]) -> None:
     """Set a text to the first of the places (pt from its point) where it hides least.
 
-    Other texts count more than curves, and the edge of the axes counts as a text.
+    Other texts and dots count more than curves, and the edge of the axes counts as a text.
     """
     renderer = _figure(ax).canvas.get_renderer()  # type: ignore[attr-defined]
     frame = ax.get_window_extent(renderer)
@@ -301,8 +301,13 @@ def _put(ax: "Axes", text: "Annotation", places: list[tuple[float, float]]) -> N
             for line in ax.lines
             if line.get_zorder() >= 2.0
         ]
-        + [ax.transData.transform(np.asarray(part.get_offsets())) for part in ax.collections]
     )
+    dots = [part for part in ax.collections if part.get_gid() in ("crossings", "nearest")]
+    middles = np.concatenate(
+        [np.empty((0, 2))] + [ax.transData.transform(part.get_offsets()) for part in dots]
+    )
+    areas = np.concatenate([np.empty(0)] + [part.get_sizes() for part in dots])  # type: ignore[attr-defined]
+    radii = np.sqrt(areas) * _figure(ax).dpi / 144.0  # areas are of squares around, in square points
 
     def hidden(place: tuple[float, float]) -> float:
         text.set_position(place)
@@ -311,7 +316,9 @@ def _put(ax: "Axes", text: "Annotation", places: list[tuple[float, float]]) -> N
         outside = box.x0 < frame.x0 or box.x1 > frame.x1 or box.y0 < frame.y0 or box.y1 > frame.y1
         x, y = marks.T
         under = np.count_nonzero((x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1))
-        return 1e4 * (outside + sum(box.overlaps(other) for other in taken)) + under
+        apart = np.maximum(np.maximum([box.x0, box.y0] - middles, middles - [box.x1, box.y1]), 0.0)
+        hit = np.count_nonzero(np.hypot(*apart.T) < radii)
+        return 1e4 * (outside + sum(box.overlaps(other) for other in taken) + hit) + under
 
     hidden(min(places, key=hidden))
 
@@ -373,8 +380,11 @@ def _explain(figure: "Figure", campbell: Diagram, hidden: int) -> None:
         remarks.append(f"{modes} above, where nothing drawn meets them.")
     if band is not None:
         remarks.append(f"Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels.")
+    words = _wrapped(remarks)
+    # pt: smaller where there are more lines than have room down to the edge
+    size = min(_FONT - 0.5, 72.0 * _SIZE[1] * (_BOTTOM - 0.08) / (1.5 * (1 + words.count("\n"))))
     figure.text(
-        0.575, _BOTTOM - 0.075, _wrapped(remarks), fontsize=_FONT - 0.5,
+        0.575, _BOTTOM - 0.075, words, fontsize=size,
         va="top", ha="left", gid="verdict", linespacing=1.3,
     )  # fmt: skip
 

@@ -224,7 +224,8 @@ def legend_beside(ax: "Axes", **more: Any) -> None:
     """
     lines, names = ax.get_legend_handles_labels()
     widest = max(map(len, names), default=0) + _SAMPLE
-    every = math.ceil(len(names) / (_NAMED * max(1, _BESIDE // widest)))
+    all_fit = len(names) <= _NAMED * max(1, _BESIDE // widest)
+    every = 1 if all_fit else math.ceil(len(names) / _NAMED)
     title = f"{len(names)} curves, 1 of {every} named" if every > 1 else None
     ax.legend(
         lines[::every], names[::every], frameon=False, fontsize=7, loc="center left",

@@ -84,7 +84,7 @@ def test_many_curves_leave_the_axes_room_and_look_different():
     box = legend.get_window_extent()
     assert box.x1 <= page.x1 and box.y0 >= page.y0 and box.y1 <= page.y1
     assert ax.get_window_extent().width > 0.5 * page.width
-    assert legend.get_title().get_text() == "60 curves, 1 of 3 named" and len(legend.get_texts()) == 20
+    assert legend.get_title().get_text() == "60 curves, 1 of 5 named" and len(legend.get_texts()) == 12
     assert len({line.get_color() for line in ax.lines}) == 60
     nine = {f"{body}.velocity.{axis}": 1.0 for body in ("inner_ring", "outer_ring", "cage") for axis in "xyz"}
     (ax,) = time_picture(made(**nine)).axes

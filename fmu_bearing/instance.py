@@ -40,7 +40,8 @@ REASONS = {
     "(fmi2Reset, reset())",
     BAD_INPUT: "an input is not finite or outside its range",
     BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
-    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less radial load",
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload, less radial load "
+    "or a stiffer pedestal",
     RIGID_ONLY: exclusions.BENDING.words(),
     OTHER_FIDELITY: "its numbers were prepared for another fidelity: a set in response, or with rings "
     "on pedestals of their own, has numbers for one; bearings on another model's shaft have fidelity full "

@@ -143,7 +143,7 @@ def _elements(found: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
     files: list[Path] = []
     for one, file in zip(found.bearings, found.files(target), strict=True):
         for preload in one.preloads:
-            name = file if len(one.preloads) == 1 else file.with_stem(f"{file.stem}-{preload:g}N")
+            name = file if len(one.preloads) == 1 else file.with_stem(f"{file.stem}-{preload:.12g}N")
             files += one.to_ross(name, preload, mirrored=mirrored or one.sign < 0)
     return files
 

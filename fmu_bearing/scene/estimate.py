@@ -127,6 +127,8 @@ def balls_of_ratings(
     found = []
     for ball in {round(size, 3) for size in sizes}:
         for number in range(3, min(most_balls(pitch, ball), MOST_BALLS) + 1):
+            if _least_cage_bore(ball, number) >= pitch:
+                continue  # pockets would leave no bridges
             size = (number, ball, pitch, alpha)
             c, c0 = iso281.dynamic_rating(*size), iso76.static_rating(*size)
             for share in (1.0, iso76.HYBRID) if ceramic else (1.0,):
@@ -212,6 +214,16 @@ def check_dimensions(bore: float, outside: float, width: float) -> None:
         )
 
 
+def _pocket(ball: float) -> float:
+    """Return the diameter (mm) of a pocket for a ball (mm)."""
+    return round(1.02 * ball, 3)
+
+
+def _least_cage_bore(ball: float, number: int) -> float:
+    """Return the smallest bore (mm) of a cage that leaves bridges between pockets for balls (mm)."""
+    return _BRIDGE * _pocket(ball) / math.sin(math.pi / number)
+
+
 def cage_estimates(
     bore: float, outside: float, width: float, ball: float, number: int = 0
 ) -> Iterator[Estimate]:  # fmt: skip
@@ -220,9 +232,9 @@ def cage_estimates(
     ``number`` of balls: many balls leave room between the pockets at a larger bore alone; 0: not regarded.
     """
     pitch = 0.5 * (bore + outside)
-    pocket = round(1.02 * ball, 3)
+    pocket = _pocket(ball)
     inner, rule = round(pitch - 0.55 * ball, 2), "0.55 ball diameters below pitch"
-    if number and (least := _BRIDGE * pocket / math.sin(math.pi / number)) > inner:
+    if number and (least := _least_cage_bore(ball, number)) > inner:
         inner, rule = round(least, 2), f"{number} pockets leave bridges there, of 3 % of a pocket"
     yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")
     yield Estimate("bore_mm", inner, rule)

@@ -1,15 +1,22 @@
 """The state of an FMU instance: complete, bound to its model; ``test_equality`` sends it to a new process."""
 
 import hashlib
+import zipfile
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi import resources
+from fmu_bearing.fmi.package import build
 from fmu_bearing.fmi.session import Session
 from fmu_bearing.fmi.state import State, StateError
+from fmu_bearing.prepare.model import prepare
+from fmu_bearing.scene import read_scene
+from tests.conftest import GATES
+from tests.native_builds import no_native_fmu
 
 from .conftest import DISCARD, ERROR, OK, STEP, Master
 
@@ -168,3 +175,29 @@ def test_arrays_of_other_lengths_are_refused_and_nothing_is_taken(model, part):
         session.restore(replace(before, **({"inputs": inputs} | {part: wrong})))
     mark = resources.fingerprint(model)
     assert session.state().to_bytes(mark) == before.to_bytes(mark)
+
+
+@pytest.mark.parametrize("fidelity", ["rings", "response"])
+def test_a_refused_step_deep_in_a_run_up_leaves_the_bits(fidelity, tmp_path):
+    """Up to 31 steps of 1 ms are repeated from one copy of the state, with all renewals that they took."""
+    scene = read_scene(GATES / "7003C-bare.toml").model_copy(update={"sound": None})
+    try:
+        path = build(prepare(scene, fidelity=fidelity), tmp_path / "bare.fmu", "native").path
+    except BuildError as problem:
+        no_native_fmu(problem)
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(tmp_path / "in")
+    one, other = (Master(tmp_path / "in").start() for _ in range(2))
+    stiffness = one.get("pedestal_stiffness")
+    for i in range(40):
+        for bearing in (one, other):
+            assert bearing.set("shaft_speed", 1600.0 + 10.0 * i) == OK
+        if i in (20, 21, 38):
+            assert one.set("pedestal_stiffness", 1e4) == one.set("radial_load.z", 300.0) == OK
+            assert one.step(1e-3 * i, 1e-3) == DISCARD, one.messages
+            assert one.set("pedestal_stiffness", stiffness) == one.set("radial_load.z", 0.0) == OK
+        for bearing in (one, other):
+            assert bearing.step(1e-3 * i, 1e-3) == OK
+        assert one.everything() == other.everything()
+    for bearing in (one, other):
+        bearing.free()

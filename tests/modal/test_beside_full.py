@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 from fmu_bearing import new_scene, simulate
-from fmu_bearing.modal.campbell.weak import FAR, departs, doubt, is_of_levels, is_of_motion, struck
+from fmu_bearing.modal.campbell.weak import (
+    FAR,
+    departs,
+    doubt,
+    is_of_levels,
+    is_of_motion,
+    moves_far_more,
+    struck,
+)
 from fmu_bearing.modal.equations.beside_full import beside_full
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 
@@ -83,6 +91,17 @@ def test_rings_that_depart_from_full_are_named(bearing, rpm, preload, kind, expe
         text = doubt(with_fidelity(scene, model=model))
         assert is_of_motion(text) == bool(said)
     assert doubt(with_fidelity(scene, model="full")) == ""
+
+
+def test_loads_are_in_doubt_where_rings_move_far_more_than_in_full(scene):
+    """A linear answer to waves on a pedestal so soft that the load sinks the ring by 2 mm."""
+    mounting = {"mounting.pedestal_stiffness_N_m": 3e5, "mounting.radial_load_z_N": -600.0}
+    soft = fresh("NSK-7014AC", 9_000, 500.0, "steel").replace(mounting)
+    soft = with_fidelity(soft, model="response")
+    assert moves_far_more(soft, "response")
+    text = doubt(soft)
+    assert text.startswith("contact loads, levels and velocities of fidelity response are in doubt here")
+    assert not is_of_motion(text) and not is_of_levels(text)
 
 
 def test_a_perfect_bearing_is_not_compared(scene):

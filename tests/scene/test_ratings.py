@@ -174,3 +174,12 @@ def test_printed_sizes_lie_where_the_table_has_them():
         assert boundary(name[1], bore) == (outside, width)
     for size in sizes().values():
         assert boundary(size.name[5], size.bore) == (size.outside, size.width)
+
+
+@pytest.mark.parametrize(("dynamic", "static"), [(60e3, 70e3), (57e3, 69e3), (60.5e3, 65.5e3)])
+def test_balls_leave_bridges_between_the_pockets_of_a_cage(dynamic, static):
+    """A full circle of balls once met the ratings, and the scene was refused for its pitch diameter."""
+    own = Dimensions(100.0, 140.0, 20.0, 15.0, dynamic=dynamic, static=static)
+    bearing = read_scene_text(new_scene("own", own, sound=False)).bearing
+    chord = bearing.cage.bore_mm * math.sin(math.pi / bearing.ball_count)
+    assert bearing.cage.bore_mm < bearing.pitch_diameter_mm and chord > bearing.cage.pocket_diameter_mm

@@ -99,8 +99,8 @@ def test_a_catalogue_name_fills_what_the_file_leaves_out():
     [
         ("bore_mm = 17.0", "boer_mm = 17.0", ["bearing.boer_mm", "did you mean 'bore_mm'?"]),
         ("bore_mm = 17.0\n", "", ["bearing.bore_mm is missing, for example bore_mm = 17.0"]),
-        ("ball_count = 12", "ball_count = 99", ["bearing.ball_count = 99", "allowed: 3 to 32"]),
-        ("ball_count = 12", "ball_count = 12.5", ["bearing.ball_count = 12.5", "allowed: 3 to 32"]),
+        ("ball_count = 12", "ball_count = 99", ["bearing.ball_count = 99", "allowed: 3 to 36"]),
+        ("ball_count = 12", "ball_count = 12.5", ["bearing.ball_count = 12.5", "allowed: 3 to 36"]),
         ("preload_N = 500.0", "preload_N = nan", ["mounting.preload_N = nan", "allowed: 0 to 1e+06"]),
         ("preload_N = 500.0", "preload_N = inf", ["mounting.preload_N = inf", "allowed: 0 to 1e+06"]),
         ("preload_N = 500.0", 'preload_N = "x"', ["mounting.preload_N = 'x'", "allowed: 0 to 1e+06"]),

@@ -198,8 +198,8 @@ def test_error_survives_pickling():
         ("preload_N = 500.0", "preload_N = 2020-01-01", "2020-01-01", "0 to 1e+06 N"),
         ("preload_N = 500.0", f"preload_N = 1{'0' * 400}", "1" + "0" * 56 + "...", "0 to"),
         ("speed_rpm = 20000.0", "speed_rpm = 100001", "100001", "-100000 to 100000 r/min"),
-        ("ball_count = 12", "ball_count = 33", "33", "3 to 32, whole numbers only"),
-        ("ball_count = 12", "ball_count = 12.5", "12.5", "3 to 32, whole numbers only"),
+        ("ball_count = 12", "ball_count = 37", "37", "3 to 36, whole numbers only"),
+        ("ball_count = 12", "ball_count = 12.5", "12.5", "3 to 36, whole numbers only"),
         ("seed = 1", "seed = 2147483648", "2147483648", "0 to 2147483647, whole numbers only"),
         ("gravity = true", "gravity = 1", "1", "true or false"),
         (

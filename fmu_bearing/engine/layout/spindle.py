@@ -181,7 +181,7 @@ HELD_SPRING = _march()  # N,
 HELD_FEET = _march()  # N/m: and the pedestal
 LINES = _march()  # how many lines there are (fidelity response)
 PIECES = _march()  # of renewals: due and not made yet
-WAITING = _march()  # 1: what is held is out of date, and waits for a piece (fidelity rings)
+WAITING = _march()  # 1: what is held is out of date, and waits for a piece
 # a renewal that goes on in pieces: see response/renewal, and rings/march
 STAGE = _march()
 MEMBER = _march()  # bearing,

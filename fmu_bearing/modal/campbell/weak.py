@@ -38,6 +38,7 @@ HIGHEST = 20e3  # Hz: what sound is computed to
 # Rms of a ring over that in full, or its inverse, chosen: of 90 scenes drawn at random those without a whirl
 # or strikes in pockets lie within 0.83 and 1.2.
 FAR = 1.25
+LOUD = 3.0  # chosen: with as many times the motion contact loads are in doubt, too
 # Share of the room in pockets, chosen: NSK-7014C, 9,000 r/min, 386 N and 100, 150, 200, 386, 700 N across:
 # 0.08, 0.26, 0.54, 1, 1. There levels of rings are 1, 7, 9, 21 and 26 dB(A) low at the worst of four
 # microphones, where the cage is loud.
@@ -49,7 +50,8 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
 
     Where a ring whirls by itself, and where no steady state was found, all figures are in doubt; where rings
-    depart from full in a short run, levels and velocities are; else levels alone.
+    depart from full in a short run, levels and velocities are, and contact loads where they move `LOUD` times
+    as much; else levels alone.
 
     Parameters
     ----------
@@ -67,7 +69,10 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     if far := departs(scene, model, inputs):
         why = struck(scene, model, inputs) or weakly_damped(scene, inputs)
         reason = ", and ".join(filter(None, (far, why)))
-        return f"{_LEVELS} and velocities of fidelity {model} are in doubt here: {reason}; take fidelity full"
+        what = f"{_LEVELS} and velocities"
+        if moves_far_more(scene, model, inputs):
+            what = "contact loads, levels and velocities"
+        return f"{what} of fidelity {model} are in doubt here: {reason}; take fidelity full"
     reason = struck(scene, model, inputs)
     if not reason and (reason := weakly_damped(scene, inputs)):
         reason += ", and a small error of damping or frequency is one of several dB"
@@ -137,6 +142,12 @@ def departs(scene: Scene, model: str, inputs: Mapping[str, float] | None = None)
     if run is None or 1.0 / FAR < run.ratio < FAR:
         return ""
     return f"in {1e3 * run.seconds:.0f} ms the rms {run.what} is {run.ratio:.2f} of what it is in full"
+
+
+def moves_far_more(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> bool:
+    """Whether rings of fidelity rings or response move more than `LOUD` times as much as in full."""
+    run = _beside(*_key(scene, inputs, flaws=True), model)
+    return run is not None and run.ratio > LOUD
 
 
 def struck(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> str:

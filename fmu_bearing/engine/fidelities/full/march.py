@@ -16,9 +16,10 @@ from fmu_bearing.engine.fidelities.full.jacobians import (
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
+from fmu_bearing.engine.fidelities.full.start import sinks
 from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, SP, TAB, C, F, P, S, U, W, Y
+from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import grow_on, ramp
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.losses import summarise
@@ -28,7 +29,6 @@ from fmu_bearing.engine.spindle.follow import copy_rows
 from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
 from fmu_bearing.engine.spindle.sound import emit
-from fmu_bearing.engine.statics.place import loads, sunk, too_far
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
 from fmu_bearing.engine.status import NOT_CONVERGED, OK, TOO_SOFT
 
@@ -253,19 +253,6 @@ def end_step(p, s, w, speed, end, h):
         own[SP.MEAN_HEAT + i] = (own[SP.HEAT + i] - own[SP.MEAN_HEAT + i]) / h
     for i in range(SP.PLANE):
         own[SP.PORT_MEAN + i] = own[SP.PORT_IMPULSE + i] / h
-
-
-@kernel
-def sinks(p, s, w):
-    """Whether the loads of now would push the ring of a single bearing too far on its pedestal.
-
-    Once it is there no step leads back: with the stiffness of before the pedestal would fling it.
-    """
-    if members.has_shaft(p):
-        return False
-    c = s[S.C : S.C + C.SIZE]
-    aside, down = sunk(c, c[C.LOAD_Y], loads(p, c, w[W.LOAD : W.LOAD + EQ.FREEDOMS]))
-    return too_far(p, aside, down)
 
 
 @kernel

@@ -42,6 +42,7 @@ from fmu_bearing.engine.statics.place import (
     place_cage,
     place_rings,
     shift_bearing,
+    sunk,
     too_far,
 )
 from fmu_bearing.engine.statics.rigid_preload import rigid_start
@@ -274,6 +275,19 @@ def rest_member(p, s, w, b, speed):
     for i in range(SP.PLANE):
         y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
     return OK
+
+
+@kernel
+def sinks(p, s, w):
+    """Whether the loads of now would push the ring of a single bearing too far on its pedestal.
+
+    Once it is there no step leads back: with the stiffness of before the pedestal would fling it.
+    """
+    if members.has_shaft(p):
+        return False
+    c = s[S.C : S.C + C.SIZE]
+    aside, down = sunk(c, c[C.LOAD_Y], loads(p, c, w[W.LOAD : W.LOAD + EQ.FREEDOMS]))
+    return too_far(p, aside, down)
 
 
 @kernel

@@ -17,7 +17,7 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_places, rest_balls
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
-from fmu_bearing.engine.fidelities.full.start import begin_means
+from fmu_bearing.engine.fidelities.full.start import begin_means, sinks
 from fmu_bearing.engine.fidelities.response import bearing, renewal
 from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
 from fmu_bearing.engine.fidelities.response.exchange import move_rings
@@ -27,7 +27,7 @@ from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.status import NO_START, OK
+from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 
 
 @kernel
@@ -150,6 +150,8 @@ def march_response(p, u, s, w, h):
         if not bearing.is_near(sb, speed, h):
             near = False
     renewed = held.set_inputs_of(p, u, s, w, h)
+    if sinks(p, s, w):
+        return TOO_SOFT
     for b in range(members.count(p)):
         own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0
     status, fresh = renewal.go_on(p, u, s, w, h, renewed)

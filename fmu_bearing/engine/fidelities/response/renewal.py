@@ -391,6 +391,8 @@ def go_on(p, u, s, w, h, renewed):
     own[at + SP.RAMP + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RAMP + 1])
     # until lines are written the second state keeps those before the ones in use
     first_lines = ANSWER if members.has_shaft(p) else LINES
+    if own[at + SP.WAITING] != 0.0:
+        renewed = True
     at_once = runs_away(p, s, u[SP.U_SPEED])
     if at_once:
         due = h = held.MOST
@@ -402,10 +404,13 @@ def go_on(p, u, s, w, h, renewed):
     fresh = False
     if own[at + SP.STAGE] != IDLE and not renewed and strayed(p, u, s):
         own[at + SP.STAGE] = IDLE
+    # one for these inputs begins when that for others is complete, as in a drift
+    own[at + SP.WAITING] = 1.0 if renewed and strayed(p, u, s) else 0.0
     while True:
         if own[at + SP.STAGE] == IDLE:
             if renewed or moved(p, s, u[SP.U_SPEED]):
                 begin(p, u, s, w, h)
+                own[at + SP.WAITING] = 0.0
                 renewed = False
         waits = held.searching(p, s)
         if due < 1.0 or (own[at + SP.STAGE] == IDLE and not waits):

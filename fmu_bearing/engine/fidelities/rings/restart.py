@@ -3,7 +3,8 @@
 There are states that no step leads out of: a ball that has left its races, a ring flung by a jump of the
 inputs. Clock, angles, sums, counts and sound go on; rings and balls begin at rest at the present inputs
 (``solver.restarts`` counts it, and a warning says so). Where no step leads out of that rest either, they stay
-there until the end of the communication step. A step is refused only where there is no rest at its inputs.
+there until the end of the communication step. A step is refused only where there is no rest at its inputs, or
+where loads would sink the ring.
 Arguments: see `spindle.members`.
 """
 
@@ -11,13 +12,14 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import forget_balls
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
+from fmu_bearing.engine.fidelities.full.start import sinks
 from fmu_bearing.engine.fidelities.rings import equations, held, predictor
 from fmu_bearing.engine.fidelities.rings.march import emit_rings, go_on, take_inputs
 from fmu_bearing.engine.fidelities.rings.start import begin_at_rest
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, L, P, S
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.status import OK
+from fmu_bearing.engine.status import OK, TOO_SOFT
 
 _TRIES = 3  # times to begin again within a communication step, before the rings wait for its end
 
@@ -63,6 +65,8 @@ def march_rings(p, u, s, w, h):
         steps.begin_means(members.state(p, s, b))
     end = s[S.TIME] + h
     status = take_inputs(p, u, s, w, h)
+    if sinks(p, s, w):
+        return TOO_SOFT
     if status == OK:
         status = go_on(p, u, s, w, h, h, end)
     for again in range(_TRIES):

@@ -212,17 +212,22 @@ def _anybody_replaces(folder: Path) -> bool:
     return False
 
 
-def check_file(path: str | os.PathLike[str]) -> Path:
+def check_file(path: str | os.PathLike[str], ending: str = "", what: str = "") -> Path:
     """Return the path of a file that is going to be written; called before a long computation.
 
-    Nothing is made, so that a refusal for another reason leaves no trace.
+    Nothing is made, so that a refusal for another reason leaves no trace. ``ending``, as ".html": the one of
+    files that ``what`` is written to.
 
     Raises
     ------
+    ValueError
+        For another ending.
     OSError
         Where a folder has this name, or the folder cannot be made or written to.
     """
     target = Path(path)
+    if ending and target.suffix.lower() != ending:
+        raise ValueError(f"{target}: {what} is written as {ending}")
     if target.is_dir():
         raise IsADirectoryError(f"{target} is a folder: name the file to write")
     if target.exists() and not target.is_file():

@@ -40,7 +40,7 @@ def fits(
     """
     from fmu_bearing.design.fit_curves import curves
     from fmu_bearing.design.fit_pictures import picture
-    from fmu_bearing.design.fit_table import COLUMNS, fit_rows, shown_tables
+    from fmu_bearing.design.fit_table import fit_rows, head, shown_tables
     from fmu_bearing.design.fits import fits as study
     from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show, write_csv
@@ -60,7 +60,7 @@ def fits(
             output.parent.mkdir(parents=True, exist_ok=True)
             numbers = [one.number for one in found.columns[0].bearings]
             rows = [[str(number), *row] for number in numbers for row in fit_rows(found, number)]
-            write_csv(output, ("bearing", *COLUMNS), rows)
+            write_csv(output, ("bearing", *head(found)), rows)
     files = [one for one in (output, plot) if one is not None]
     if as_json:
         print_json(found.summary() | {"files": files})

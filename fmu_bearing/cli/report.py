@@ -90,6 +90,7 @@ def report(
     with refusals():
         turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
+        check_file(output, ".html", "a report")
         check_new(force, output, keep)
         if keep is not None:  # refused before the run
             _check_keep(keep, source)

@@ -179,7 +179,24 @@ def source_of(source: Path, settings: list[str] | None, fidelity: str | None = N
     if source.suffix in (".npz", ".csv", ".nc", ".fmu"):
         option = "--set" if settings else "--fidelity"
         raise Refusal(f"{option} is refused: {source} is finished, and was run as it is; give its scene")
-    return scene_with(read_scene(source), settings, fidelity)
+    scene = read_scene(source)
+    return scene_with(scene, [*(settings or ()), *_waves(scene, settings)], fidelity)
+
+
+def _waves(scene: "Scene", settings: list[str] | None) -> Iterable[str]:
+    """Yield what keeps the waves of a scene that is put to a speed which decides none."""
+    from fmu_bearing.scene.scene import SLOW_RPM
+
+    flaws, operation, key = scene.imperfections, scene.operation, "operation.speed_rpm"
+    asked = [one.partition("=")[2] for one in settings or () if one.partition("=")[0].strip() == key]
+    if not asked or flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
+        return
+    try:
+        slow = abs(float(asked[-1])) < SLOW_RPM <= abs(operation.speed_rpm)
+    except ValueError:  # which the scene refuses
+        return
+    if slow and not any("lowest_speed_rpm" in one for one in settings or ()):
+        yield f"operation.lowest_speed_rpm={abs(operation.speed_rpm)!r}"
 
 
 def scene_with(scene: "Scene", settings: list[str] | None, fidelity: str | None = None) -> "Scene":
@@ -237,10 +254,11 @@ def _check_key(
     if scene.spindle is None or scene.spindle.preload is not None:  # in place of the force that the scene has
         keys += [f"{preload}.{CLASS}", f"{preload}.{OFFSET}"]
     named = [one for one in inputs if units.get(one) != "rad/s"]
+    key = {"speed": "speed_rpm", "n": "speed_rpm", "rpm": "speed_rpm"}.get(key, key)
     known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in named}
     near = known[key] if key in known else known.get(nearest(key, known), "")
     unit = f" ({units[near]})" if units.get(near) else ""
-    hint = f"; did you mean {near}{unit}?" if near else ": keys have their table, as mounting.preload_N"
+    hint = f"; did you mean {near}{unit}?" if near else f": keys have their table, as {preload}.preload_N"
     raise Refusal(f"--set {setting}: there is no such key or input{hint}")
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.design.fits import TAKES, Fits
 from fmu_bearing.design.mounted import Mounted
+from fmu_bearing.instance import EngineError
 from fmu_bearing.scene.fit import Take
 from fmu_bearing.steady.rest import carried, started, unloaded
 from fmu_bearing.threads import one_thread
@@ -73,6 +74,8 @@ def curves(found: Fits, track: Callable[[Sequence[Take]], Iterable[Take]] = iter
     EngineError
         Where there is no equilibrium; a ``ValueError``.
     """
+    if len(found.columns) < len(TAKES):
+        raise EngineError(next(one for one in found.remarks if one.startswith("no column: ")))
     count = len(found.columns[0].bearings)
     forced = not found.columns[0].bearings[0].preloads
     over_speed, over_warmth = (np.zeros((len(TAKES), len(_SPEEDS), count)) for _ in range(2))

@@ -3,18 +3,21 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from fmu_bearing.design.fits import STATES, TAKES, FitPoint, Fits, SeatPoint
+from fmu_bearing.design.fits import STATES, FitPoint, Fits, SeatPoint
 from fmu_bearing.design.mounted import RINGS
 from fmu_bearing.design.verdict import shown_hours
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State
 
-#: Head of the table.
-COLUMNS = ("", *(take.replace("probable", "prob.") for take in TAKES))
 _WORDS = {"drawing": "drawing", "mounted": "mounted", "warm": "warm", "running": "at speed"}
 #: Head of the table of states.
 STATE_COLUMNS = ("", *_WORDS.values())
 _MICRO, _MEGA = 1e6, 1e-6
+
+
+def head(found: Fits) -> tuple[str, ...]:
+    """Return the head of the table."""
+    return ("", *(column.take.replace("probable", "prob.") for column in found.columns))
 
 
 def fit_rows(found: Fits, number: int) -> list[list[str]]:
@@ -57,7 +60,8 @@ def shown_tables(found: Fits) -> list[tuple[str, tuple[str, ...], list[list[str]
         name = f"bearing {number}, " if len(rows) > 1 else ""
         parts.append((f"{name}{words[number]}", [row for row in table if row not in shared]))
     given = all(len(set(row[1:])) == 1 for _, table in parts for row in table)
-    columns, count = (("", "as given"), 2) if given else (COLUMNS, len(COLUMNS))
+    columns = ("", "as given") if given else head(found)
+    count = len(columns)
     return [
         (f"{found.scene.name}: {name}", columns, [row[:count] for row in table])
         for name, table in parts

@@ -180,8 +180,9 @@ class Fits:
     ----------
     scene : Scene
     columns : tuple of Column
-        From the loosest fit to the tightest. With two seats of a tolerance the probable columns of figures
-        that depend on both rings have a pair of interferences of which 0.135 % are looser or tighter.
+        From the loosest fit to the tightest, those with an equilibrium. With two seats of a tolerance the
+        probable columns of figures that depend on both rings have a pair of interferences of which 0.135 %
+        are looser or tighter.
     remarks : tuple of str
         How the columns were found.
     """
@@ -196,7 +197,8 @@ class Fits:
 
     def words(self, number: int) -> str:
         """Return where the interferences of a bearing come from; ``number``: from 1."""
-        (mean,) = [one for one in self.column("mean").bearings if one.number == number]
+        middle = self.columns[len(self.columns) // 2]
+        (mean,) = [one for one in middle.bearings if one.number == number]
         return "; ".join(f"{ring} ring {seat.words}" for ring, seat in mean.seats.items())
 
     def summary(self) -> dict[str, Any]:
@@ -251,15 +253,19 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
     whole = fitted(scene)
     scenes, remarks = _scenes(whole)
     several = whole.fit is not None and bool(_tolerated(whole.fit))
-    columns, point = [], None
+    columns, missing = [], []
+    point = None
     for take in track(TAKES):
         if several or point is None:
             try:
                 point = operating_point(scenes[take])
             except EngineError as problem:
-                raise EngineError(f"{problem}; at the {take} interference of the fits: give others") from None
+                missing.append(f"{problem}; at the {take} interference of the fits: give others")
+                continue
         columns.append(column_at(whole, take, point))
-    return Fits(whole, tuple(columns), remarks)
+    if not columns:
+        raise EngineError(missing[0])
+    return Fits(whole, tuple(columns), (*remarks, *(f"no column: {reason}" for reason in missing)))
 
 
 def fitted(scene: SceneSource) -> Scene:

@@ -60,7 +60,11 @@ def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> N
     from rich.table import Table
     from rich.text import Text
 
-    console = Console()
+    class Ours(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError  # the command ends as all do whose reader has read enough
+
+    console = Ours()
     widths = _widths(columns, rows, console.width - 3 * len(columns) - 1)  # a frame and two spaces each
     if widths is None:
         print("\n".join(row_by_row(title, columns, rows, console.width)))

@@ -71,6 +71,8 @@ def time_picture(run: Series, patterns: Sequence[str] | None = None, title: str 
     panels: dict[str, list[str]] = {}
     for name in names:
         panels.setdefault(run.units.get(name) or unit_of(name), []).append(name)
+    if not panels:
+        raise UnknownName(f"{run.name} has times alone: there is nothing to draw")
     figure = empty((10.0, 1.2 + 2.4 * len(panels)))
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, (unit, members) in zip(axes, panels.items(), strict=True):

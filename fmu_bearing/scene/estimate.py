@@ -34,14 +34,16 @@ class _Rule(NamedTuple):
     remark: str
     whose: str
     angles: tuple[float, float]  # deg: of the bearings that it was derived from, 5 deg more on both sides
+    bores: tuple[float, float]  # mm: of the same
 
 
-_SPINDLE, _PUMP = (10.0, 30.0), (35.0, 45.0)  # deg
+_SPINDLE = (10.0, 30.0), (10.0, 100.0)  # deg, mm
+_PUMP = (35.0, 45.0), (12.0, 35.0)
 _RULES = {
-    "19": _Rule(0.29, 0.73, "series 79 has 0.26 to 0.31", "series 79, 15 and 25 deg", _SPINDLE),
-    "10": _Rule(0.29, 0.79, "series 70 has 0.26 to 0.30", "series 70, 15 and 25 deg", _SPINDLE),
-    "02": _Rule(0.32, 0.87, "series 72 has 0.31 to 0.34", "series 72, 40 deg", _PUMP),
-    "03": _Rule(0.32, 0.87, "series 73 has 0.31 to 0.33", "series 73, 40 deg", _PUMP),
+    "19": _Rule(0.29, 0.73, "series 79 has 0.26 to 0.31", "series 79, 15 and 25 deg", *_SPINDLE),
+    "10": _Rule(0.29, 0.79, "series 70 has 0.26 to 0.30", "series 70, 15 and 25 deg", *_SPINDLE),
+    "02": _Rule(0.32, 0.87, "series 72 has 0.31 to 0.34", "series 72, 40 deg", *_PUMP),
+    "03": _Rule(0.32, 0.87, "series 73 has 0.31 to 0.33", "series 73, 40 deg", *_PUMP),
 }
 #: Of series without data: the next one that has some.
 _NEXT_SERIES = {"18": "19", "": "03"}
@@ -76,17 +78,20 @@ def balls_by_rule(bore: float, outside: float, angle: float) -> Balls:
     """Return the balls that the rule for a dimension series gives (mm, deg)."""
     series = series_of(bore, outside)
     rule = _RULES[_NEXT_SERIES.get(series, series)]
-    low, high = rule.angles
+    (low, high), (least, most) = rule.angles, rule.bores
     doubt = ""
     if series not in _RULES:
         what = f"of dimension series {series}" if series else "of no dimension series that is known here"
         doubt = f"a bearing {what}"
     elif not low <= angle <= high:
         doubt = f"a bearing of dimension series {series} and {angle:g} deg"
+    elif not least <= bore <= most:
+        doubt = f"a bearing of dimension series {series} and {bore:g} mm of bore"
     if doubt:
         doubt = (
-            f"the balls of {doubt} are estimated by a rule from {rule.whose}: C may be off by 20 %, life by "
-            "half; give the maker's C and C0 (--dynamic-rating, --static-rating)"
+            f"the balls of {doubt} are estimated by a rule from {rule.whose}, bores of {least:g} to {most:g} "
+            "mm: C may be off by 20 %, life by half; give the maker's C and C0 (--dynamic-rating, "
+            "--static-rating)"
         )
     ball = round(rule.share * (outside - bore), 3)
     pitch = 0.5 * (bore + outside)

@@ -15,8 +15,9 @@ _QUOTED = re.compile(r'"(?:\\.|[^"\\])*"|' + r"'[^']*'|#.*")
 #: A key with a number that TOML does not have: 150,0; 1.000,5; 20,000; ,5; 50 mm; 5%.
 _NUMBER = re.compile(
     r"(?P<key>[\w.\"-]+)\s*=\s*(?P<number>[+-]?[0-9]*(?:[.,][0-9]+)*(?:[eE][+-]?[0-9]+)?)"
-    r"(?P<rest>\s*[^\s,\]}#0-9][^\s,\]}#]*)?(?=\s*(?:$|#|[,}]))"
+    r"(?P<rest>(?: [0-9]{3})+|\s*[^\s,\]}#0-9][^\s,\]}#]*)?(?=\s*(?:$|#|[,}]))"
 )
+_THOUSANDS = re.compile(r"(?: [0-9]{3})+")
 _INLINE = re.compile(r"Duplicate inline table key '(.*?)'")
 _TWICE = ("Cannot overwrite", "Duplicate inline table key", "Cannot declare", "Cannot mutate")
 
@@ -100,6 +101,9 @@ def _written_otherwise(lines: list[str], problem: str) -> str:
     start = f"line {last}: {found['key']} = {given}{' ' * bool(rest)}{rest}"
     if not rest and "," not in given:
         return ""
+    if _THOUSANDS.fullmatch(found["rest"] or ""):
+        whole = given + "".join(filter(str.isdigit, rest))
+        return f"{start}: a number has no marks between its thousands: write {whole}"
     if "," not in given:
         return f"{start}: a number has no unit behind it: the key's name has the unit; write {given}"
     plain = given.replace(".", "") if given.rfind(",") > given.rfind(".") else given.replace(",", "")

@@ -23,7 +23,7 @@ from fmu_bearing.scene.member import still_of
 _MOTIONS = ("displacement.x", "displacement.y", "displacement.z", "tilt.y", "tilt.z")
 #: Shares of speed and of the temperatures' rise in the states of `preloads`.
 _STATES = {"cold": (0.0, 0.0), "warm": (0.0, 1.0), "running": (1.0, 1.0)}
-_TOUCHING = 0.01  # N: balls and races just touch
+TOUCHING = 0.01  # N: balls and races just touch
 #: Rows of an outer ring's six without its rotation.
 OUTER_PLANE = [Q.X, Q.Y, Q.Z, Q.BY, Q.BZ]
 
@@ -170,7 +170,7 @@ def gap(run: Instance, key: str) -> float:
         return 0.0
     free = _without_loads(run, *_STATES[key])
     free.p[P.RIGID] = 0.0
-    free.u[U.PRELOAD] = _TOUCHING
+    free.u[U.PRELOAD] = TOUCHING
     _initialise(free)
     return float(free.s[S.Y + Y.Q0] - run.s[S.PLACE])
 

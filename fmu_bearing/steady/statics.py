@@ -27,6 +27,7 @@ from fmu_bearing.steady.impedance import at_rest
 from fmu_bearing.steady.member import Member
 from fmu_bearing.steady.rest import (
     OUTER_PLANE,
+    TOUCHING,
     forces,
     gap,
     nose,
@@ -224,8 +225,12 @@ class Statics:
     def cautions(self) -> list[str]:
         """Return what a designer should look at, one line each."""
         found = [*self.remarks]
-        for key, apart in self.gaps.items():
-            found.append(f"{_STATES[key]} the rigid preload is lost: balls are loose by {1e6 * apart:.1f} um")
+        for key, loads in self.preloads.items():
+            if key in self.gaps:
+                loose = f": balls are loose by {1e6 * self.gaps[key]:.1f} um"
+                found.append(f"{_STATES[key]} the rigid preload is lost{loose}")
+            elif max(map(abs, loads)) < TOUCHING:
+                found.append(f"{_STATES[key]} the preload of the set is lost: its bearings are loose")
         for one in self.bearings:
             name = "the bearing" if self.scene.spindle is None else f"bearing {one.number}"
             if one.axial < _UNLOADED:
@@ -352,9 +357,9 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
             bent = _stiffness(scene, system, matrices, flexible=True)
         free, spacer = lift_off(members), neutral_spacing(scene, members)
     carried = preloads(run)
-    gaps = {
-        key: gap(run, key) for key, forces in carried.items() if scene.spindle is None and forces == [0.0]
-    }
+    # a solution that hardly carries is as good as none: balls are loose
+    lost = [key for key, loads in carried.items() if max(map(abs, loads)) < TOUCHING]
+    gaps = {key: gap(run, key) for key in lost if scene.spindle is None}
     found = Statics(
         scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, carried, gaps,
         spacing(scene.bearings()), spacer, tuple(remarks(system)),

@@ -16,6 +16,14 @@ def test_an_unknown_ending_is_refused(run, silent_file, tmp_path, command):
     assert not (tmp_path / "out.uff").exists()
 
 
+@pytest.mark.parametrize(("command", "ending"), [("report", ".html"), ("build", ".fmu")])
+def test_a_file_has_the_ending_of_what_it_is(run, silent_file, tmp_path, command, ending):
+    refused = run(command, silent_file, "-o", tmp_path / "out.uff")
+    assert refused.exit_code == 2 and refused.stderr.count("\n") == 1
+    assert f"out.uff: a{'n FMU' if ending == '.fmu' else ' report'} is written as {ending}" in refused.stderr
+    assert not list(tmp_path.glob("out*"))
+
+
 def test_folders_that_are_there_or_have_other_dots_are_taken(tmp_path):
     (tmp_path / "old.csv").mkdir()
     for name in ("old.csv", "v1.2", "a.results", "plain"):

@@ -232,3 +232,11 @@ def test_a_soft_pedestal_is_named(run, tmp_path, command):
     firm = changed(tmp_path, name="7003C-bare")
     result = run(*command, firm)
     assert "soft pedestal" not in result.stdout + result.stderr
+
+
+@pytest.mark.parametrize("speed", [0, 1, 1e-6, -50])
+@pytest.mark.parametrize("path", [EXAMPLES / "7003C-bare.toml", SET], ids=["bare", "set"])
+def test_a_speed_that_decides_no_waves_is_taken(run, path, speed):
+    """They stay those of the scene's own speed."""
+    found = run("info", path, "--speed", speed, "--json")
+    assert found.exit_code == 0, found.stderr

@@ -77,6 +77,8 @@ def test_without_any_the_file_is_taken_as_it_is():
         ("prelaod=3", "did you mean preload (N)?"),
         ("radial_laod.z=3", "did you mean radial_load.z (N)?"),
         ("speed_rpm=3", "did you mean operation.speed_rpm?"),
+        ("speed=9000", "did you mean operation.speed_rpm?"),
+        ("n=9000", "did you mean operation.speed_rpm?"),
         ("xyz=3", "keys have their table, as mounting.preload_N"),
         ("preload=much", "write a number, as preload=300"),
         ("preload", "write KEY=VALUE"),

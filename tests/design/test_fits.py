@@ -8,11 +8,13 @@ import pytest
 
 from fmu_bearing import SceneError, fits, operating_point
 from fmu_bearing.design import fits as study
-from fmu_bearing.design.fit_table import fit_rows
+from fmu_bearing.design.fit_curves import curves
+from fmu_bearing.design.fit_table import fit_rows, head
 from fmu_bearing.design.fits import SEED, TAKES
 from fmu_bearing.design.fresh import new_scene
 from fmu_bearing.design.mounted import mounted, with_fit
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import read_scene, read_scene_text
 from fmu_bearing.steady.statics import point
 from tests.conftest import EXAMPLES, GATES
@@ -305,3 +307,28 @@ def test_a_preload_that_warmth_takes_away_takes_no_other_column():
     assert ["balls loose by, um, warm", *5 * ["3.7"]] in fit_rows(found, 1)
     assert any("warm, the rigid preload is lost: balls are loose by 3.7 um" in said
                for said in operating_point(warm).statics.cautions())  # fmt: skip
+
+
+def test_a_fit_without_an_equilibrium_takes_no_other_column():
+    """20 N rigid as given loose, 20 to 54 K warm: the loosest shaft leaves no preload."""
+    text = new_scene("cool", "NSK-7003AC", kind="hybrid", speed_rpm=1e3, preload_N=20.0)
+    seats = {
+        "shaft": {"shaft_class": "js5", "material": STEEL, "temperature_degC": 62.0},
+        "housing": {
+            "interference_um": 0.0, "outside_diameter_mm": 60.0, "material": STEEL, "temperature_degC": 62.0,
+        },
+    }  # fmt: skip
+    warm = read_scene_text(text, "cool.toml").replace(
+        {
+            "materials.outer_ring": "ZrO2", "mounting.preload_mode": "rigid",
+            **{f"operation.{one}_temperature_degC": 62.0 for one in ("oil", "inner_ring", "outer_ring")},
+            "mounting.fit": {"bearing_class": "P4", "preload": "unmounted"} | seats,
+        }
+    )  # fmt: skip
+    found = fits(warm)
+    assert [one.take for one in found.columns] == ["mean", "probable max", "max"]
+    assert head(found) == ("", "mean", "prob. max", "max")
+    (lost,) = [one for one in found.remarks if one.startswith("no column: ")][:1]
+    assert "no quasi-static equilibrium" in lost and "at the min interference" in lost
+    with pytest.raises(EngineError, match="no column"):
+        curves(found)

@@ -109,3 +109,8 @@ def test_the_time_that_meters_average_over_is_grey_and_sets_no_scale(count, unti
     assert (left, right) == pytest.approx((0.02, until), abs=1e-9)
     low, high = ax.get_ylim()
     assert 49.0 < low < 49.9 and 50.1 < high < 51.0
+
+
+def test_a_run_of_times_alone_is_refused_by_name():
+    with pytest.raises(ValueError, match="any has times alone: there is nothing to draw"):
+        time_picture(made(), None)

@@ -469,6 +469,8 @@ def test_scene_is_frozen(scene):
         ("x = ,5", "x = ,5: a decimal number has a point: write 0.5"),
         ("x = 20,000", "x = 20,000: .* write 20.000, or 20000 if the comma is between thousands"),
         ("t = { x = 1,5, y = 2 }", "x = 1,5: a decimal number has a point: write 1.5"),
+        ("x = 20 000", "x = 20 000: a number has no marks between its thousands: write 20000"),
+        ("x = 1 250 000 # by blanks", "x = 1 250 000: .* marks between its thousands: write 1250000"),
         ("x = 50 mm", "x = 50 mm: a number has no unit behind it: the key's name has the unit; write 50"),
         ("x = 5%", "x = 5 %: a number has no unit behind it"),
         ("x = 40 degC # warm", "x = 40 degC: a number has no unit behind it"),

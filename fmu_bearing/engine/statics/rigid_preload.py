@@ -51,13 +51,21 @@ def load_at_place(p, c, place, speed, found):
     Bisection with secant steps on the increasing curve of place over load, the quasi-static equilibrium in
     ``found``. A place that asks for a pull ends at no load: the ring is then free of its balls.
     """
-    wanted = c[C.PRELOAD]
+    high = max(c[C.PRELOAD], 1.0)
     low = 0.0
     c[C.PRELOAD] = low
     below, status = place_under(p, c, speed, found)
+    if status != OK:
+        # slow balls find no rest without a load: from the load downwards, as far as they find one
+        low = high
+        c[C.PRELOAD] = low
+        below, status = place_under(p, c, speed, found)
+        while status == OK and below >= place and low > _TOUCHING:
+            low *= 0.25
+            c[C.PRELOAD] = low
+            below, status = place_under(p, c, speed, found)
     if status != OK or below >= place:
         return status
-    high = max(wanted, 1.0)
     above = place
     for _ in range(_ROUNDS):
         c[C.PRELOAD] = high

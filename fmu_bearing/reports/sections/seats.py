@@ -1,6 +1,6 @@
 """What the fits of the rings do: from the drawing to speed, and over their tolerances."""
 
-from fmu_bearing.design.fit_table import COLUMNS, STATE_COLUMNS, fit_rows, state_rows
+from fmu_bearing.design.fit_table import STATE_COLUMNS, fit_rows, head, state_rows
 from fmu_bearing.design.fits import fits
 from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.page.blocks import Absent, Block, Table
@@ -22,5 +22,5 @@ def seats(scene: Scene) -> list[Block]:
         blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(one), stacked=True))
         note = " ".join(f"{line[0].upper()}{line[1:]}." for line in found.remarks)
         caption = f"Fits over their tolerances, {words}; each column is computed in full"
-        blocks.append(Table(caption, COLUMNS, fit_rows(found, one.number), note=note, folded=True))
+        blocks.append(Table(caption, head(found), fit_rows(found, one.number), note=note, folded=True))
     return blocks

@@ -5,8 +5,10 @@ import pytest
 
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.status import BAD_INPUT
-from fmu_bearing.instance import EngineError
+from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import SceneError, read_scene_text
+from fmu_bearing.scene.template import new_scene
 from tests.conftest import GATES
 from tests.extremes.bearings import PERFECT, RINGS, RPM, Trace, bearing, drive, feed
 from tests.extremes.cases import CASES, COMPUTED, EXPLICIT, FULL, SLACK, SLOW, WORK
@@ -208,3 +210,19 @@ def test_a_pedestal_too_soft_for_its_load_is_refused(fidelity, method):
     run.initialise()
     drive(run, 1e-4, 1e-4)
     finite(run)
+
+
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+@pytest.mark.parametrize("name", ["NSK-7003AC", "NSK-7004AC"])
+def test_a_rigid_preload_of_steep_bearings_starts_at_low_speed(name, fidelity):
+    """Without a load slow balls find no rest, which once was taken for no equilibrium at all."""
+    loads = []
+    for rpm in (500.0, 3000.0, 5000.0):
+        text = new_scene("steep", name, kind="hybrid", speed_rpm=rpm, preload_N=100.0, sound=False)
+        scene = read_scene_text(text).replace({"mounting.preload_mode": "rigid"})
+        run = Instance(prepare(scene, fidelity=fidelity), tell=lambda _: None)
+        run.set("imperfection.scale", 0.0)
+        run.initialise()
+        loads.append(run.get("contact.inner.load_mean"))
+    # heat and centrifugal force take a little from the slowest to the fastest
+    np.testing.assert_allclose(loads, loads[1], rtol=0.03)

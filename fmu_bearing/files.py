@@ -226,10 +226,10 @@ def check_file(path: str | os.PathLike[str], ending: str = "", what: str = "") -
         Where a folder has this name, or the folder cannot be made or written to.
     """
     target = Path(path)
-    if ending and target.suffix.lower() != ending:
-        raise ValueError(f"{target}: {what} is written as {ending}")
     if target.is_dir():
         raise IsADirectoryError(f"{target} is a folder: name the file to write")
+    if ending and target.suffix.lower() != ending:
+        raise ValueError(f"{target}: {what} is written as {ending}")
     if target.exists() and not target.is_file():
         raise OSError(
             f"{target} is a pipe or a device, which a file would replace: name another file to write"

@@ -19,6 +19,7 @@ __all__ = ["Cell", "Columns", "read_columns", "read_rows"]
 
 _SEPARATORS = (";", "\t", ",", "|")
 _DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eE][+-]?[0-9]+)?")
+_GROUPED = re.compile(r"[+-]?[0-9]{1,3}(?:\.[0-9]{3})+")  # 15.000: thousands, or a decimal point
 _NAMED = re.compile(r'"?sep=(.|\\t)"?', re.IGNORECASE)
 _QUOTES = re.compile(r'"[^"]*"')
 _TIME = re.compile(r"(?:time|t|zeit)(?:_(\w+))?", re.IGNORECASE)
@@ -114,6 +115,7 @@ def read_columns(path: str | os.PathLike[str], due: str = TABLE) -> Columns:
         words = f"the first column must be 'time' (s), not '{titles[0].written}'"
         raise ValueError(f"{path}: {instead(path, due) or words}")
     numbers, lines = array("d"), array("q")
+    commas, grouped = False, ""
     for line, cells in rows:
         if len(cells) != len(titles):
             raise ValueError(
@@ -129,6 +131,16 @@ def read_columns(path: str | os.PathLike[str], due: str = TABLE) -> Columns:
                 f"{path}: line {line}, column '{titles[wrong].written}': '{shown}' is not a finite number"
             ) from None
         lines.append(line)
+        if comma and not (commas and grouped):
+            commas = commas or any("," in cell for cell in cells)
+            wrong = next((k for k, cell in enumerate(cells) if _GROUPED.fullmatch(cell)), -1)
+            if wrong >= 0 and not grouped:
+                grouped = f"line {line}, column '{titles[wrong].written}': '{cells[wrong]}'"
+    if commas and grouped:
+        raise ValueError(
+            f"{path}: {grouped} has a point where other numbers have a decimal comma: thousands or not? "
+            "Write all numbers with one mark, and none between thousands"
+        )
     if not lines:
         raise ValueError(f"{path}: holds no values below the line of names")
     values = np.array(numbers).reshape(len(lines), len(titles))

@@ -1,6 +1,7 @@
 """Tables of results for terminal, Markdown and CSV; description of the machine."""
 
 import csv
+import io
 import math
 import os
 import pathlib
@@ -13,7 +14,7 @@ import numpy as np
 
 from fmu_bearing import __version__
 from fmu_bearing.engine.sources import source_hash
-from fmu_bearing.files import naming
+from fmu_bearing.files import write_whole
 
 
 def machine() -> str:
@@ -118,8 +119,9 @@ def row_by_row(
 
 
 def write_csv(path: pathlib.Path, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Comma-separated values with a head line."""
-    with naming(path), path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(rows)
+    """Comma-separated values with a head line: all of the file or, where it has no room, none."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(rows)
+    write_whole(path, text.getvalue().encode())

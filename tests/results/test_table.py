@@ -1,10 +1,13 @@
 """Tables on a terminal fit its width."""
 
+import errno
+import os
+
 import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing.cli import app
-from fmu_bearing.results.table import show
+from fmu_bearing.results.table import show, write_csv
 from tests.conftest import EXAMPLES
 
 
@@ -70,3 +73,13 @@ def test_tables_of_commands_fit_80_columns(monkeypatch, words):
     elif words[0] == "info":
         lines = lines[1:]  # and above it the operating point
     assert done.exit_code == 0 and len(lines) > 5 and max(map(len, lines)) <= 80
+
+
+def test_a_table_for_which_there_is_no_room_leaves_no_file(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(OSError, match="No space left"):
+        write_csv(tmp_path / "a.csv", ["a"], [["1"]])
+    assert list(tmp_path.iterdir()) == []

@@ -1,8 +1,9 @@
 """Rows of CSV files: separators, decimal commas, remarks, numbers of lines, what is no table."""
 
+import numpy as np
 import pytest
 
-from fmu_bearing.results.rows import read_rows
+from fmu_bearing.results.rows import read_columns, read_rows
 
 
 def read(tmp_path, text):
@@ -78,3 +79,16 @@ def test_what_is_no_table(tmp_path):
     # a cell beyond 131072 characters, the limit of Python's module csv: a quote that nobody closes
     with pytest.raises(ValueError, match=r"table\.csv: line 3: is not a line of a table: field larger"):
         read(tmp_path, 'a,b\n1,2\n"' + 140_000 * "x" + "\n")
+
+
+@pytest.mark.parametrize("speed", ["15.000", "-15.000"])
+def test_points_beside_decimal_commas_are_asked_for(tmp_path, speed):
+    """A spreadsheet's thousands are not decimals; alone, or beside points, 15.000 is 15."""
+    path = tmp_path / "it.csv"
+    path.write_text(f"time;speed\n0;{speed}\n0,1;16000\n")
+    with pytest.raises(
+        ValueError, match=f"line 2, column 'speed': '{speed}' has a point where other numbers"
+    ):
+        read_columns(path)
+    path.write_text("time;speed\n0;15.000\n1;16.5\n")
+    np.testing.assert_array_equal(read_columns(path).values[:, 1], [15.0, 16.5])

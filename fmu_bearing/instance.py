@@ -261,7 +261,8 @@ class Instance:
         *before, (_, inputs) = self._since
         for h, earlier in before:
             self.u[:] = earlier
-            self._calls.step(h)
+            if self._calls.step(h) != OK:
+                raise EngineError("the steps before a refused one were not repeated; call reset()")
         self.u[:] = inputs
         self._since.clear()
 

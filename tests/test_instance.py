@@ -186,6 +186,17 @@ def test_a_pedestal_too_soft_for_the_load_is_refused(scene):
         bearing.initialise()
 
 
+def refused_once(calls, steps):
+    """A step that goes as far as one does, and fails; those after it succeed."""
+
+    def step(h):
+        steps(h)
+        calls.step = steps
+        return NOT_CONVERGED
+
+    return step
+
+
 @pytest.mark.parametrize("model", ["response", "rings", "full"])
 def test_a_refused_step_is_undone_to_the_last_bit(example, model):
     """Steps since the last copy of the state are repeated; state and outputs are those before the refusal."""
@@ -199,10 +210,10 @@ def test_a_refused_step_is_undone_to_the_last_bit(example, model):
             run.set("shaft_speed", 1000.0 + 20.0 * i)
             run.set("preload", 150.0 + i)
         if i in (0, 1, 20, 33):
-            one._calls.step = lambda h: steps(h) or NOT_CONVERGED  # as far as a step goes before it fails
+            one._calls.step = refused_once(one._calls, steps)
             with pytest.raises(EngineError, match="could not be solved"):
                 one.step(1e-3)
-            one._calls.step = steps
+            assert one._calls.step is steps
             assert one.get("preload") == 150.0 + i
         for run in (one, other):
             run.step(1e-3)

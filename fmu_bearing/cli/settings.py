@@ -180,23 +180,26 @@ def source_of(source: Path, settings: list[str] | None, fidelity: str | None = N
         option = "--set" if settings else "--fidelity"
         raise Refusal(f"{option} is refused: {source} is finished, and was run as it is; give its scene")
     scene = read_scene(source)
-    return scene_with(scene, [*(settings or ()), *_waves(scene, settings)], fidelity)
+    key = "operation.speed_rpm"
+    asked = [one.partition("=")[2] for one in settings or () if one.partition("=")[0].strip() == key]
+    try:
+        waves = _waves(scene, float(asked[-1])) if asked else {}
+    except ValueError:  # which the scene refuses
+        waves = {}
+    if any("lowest_speed_rpm" in one for one in settings or ()):
+        waves = {}
+    return scene_with(scene, [*(settings or ()), *(f"{key}={rpm!r}" for key, rpm in waves.items())], fidelity)
 
 
-def _waves(scene: "Scene", settings: list[str] | None) -> Iterable[str]:
-    """Yield what keeps the waves of a scene that is put to a speed which decides none."""
+def _waves(scene: "Scene", rpm: float | None) -> dict[str, float]:
+    """Return the key that keeps the waves of a scene which is put to a speed (r/min) that decides none."""
     from fmu_bearing.scene.scene import SLOW_RPM
 
-    flaws, operation, key = scene.imperfections, scene.operation, "operation.speed_rpm"
-    asked = [one.partition("=")[2] for one in settings or () if one.partition("=")[0].strip() == key]
-    if not asked or flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
-        return
-    try:
-        slow = abs(float(asked[-1])) < SLOW_RPM <= abs(operation.speed_rpm)
-    except ValueError:  # which the scene refuses
-        return
-    if slow and not any("lowest_speed_rpm" in one for one in settings or ()):
-        yield f"operation.lowest_speed_rpm={abs(operation.speed_rpm)!r}"
+    flaws, operation = scene.imperfections, scene.operation
+    if rpm is None or flaws is None or not flaws.follows_law or operation.lowest_speed_rpm is not None:
+        return {}
+    slow = abs(rpm) < SLOW_RPM <= abs(operation.speed_rpm)
+    return {"operation.lowest_speed_rpm": abs(operation.speed_rpm)} if slow else {}
 
 
 def scene_with(scene: "Scene", settings: list[str] | None, fidelity: str | None = None) -> "Scene":
@@ -205,7 +208,8 @@ def scene_with(scene: "Scene", settings: list[str] | None, fidelity: str | None 
 
     scene, inputs = changed(scene, settings)
     if inputs:
-        scene = scene.replace(_as_keys(scene, inputs))
+        keys = _as_keys(scene, inputs)
+        scene = scene.replace(keys | _waves(scene, keys.get("operation.speed_rpm")))
     return scene if fidelity is None else with_fidelity(scene, model=fidelity)
 
 

@@ -46,8 +46,9 @@ def validate(
 
 
 def _show(fmu: Path, results: "list[Result]") -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from fmu_bearing.results.table import terminal
 
     table = Table("check", "result", "detail", title=f"{fmu.name}: FMI 2.0 co-simulation")
     table.columns[0].no_wrap = table.columns[1].no_wrap = True
@@ -55,4 +56,4 @@ def _show(fmu: Path, results: "list[Result]") -> None:
         colour = _COLOURS[result.outcome]
         detail = "\n".join(result.details) or result.meaning
         table.add_row(result.check, f"[{colour}]{result.outcome}[/]", detail.replace("[", r"\["))
-    Console().print(table)
+    terminal().print(table)

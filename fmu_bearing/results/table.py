@@ -8,6 +8,7 @@ import pathlib
 import platform
 import textwrap
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numba
 import numpy as np
@@ -15,6 +16,9 @@ import numpy as np
 from fmu_bearing import __version__
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import write_whole
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 
 def machine() -> str:
@@ -51,21 +55,27 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
+def terminal() -> "Console":
+    """Return what prints on the terminal, and ends as all else does where its reader has read enough."""
+    from rich.console import Console
+
+    class Terminal(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError
+
+    return Terminal()
+
+
 def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print one table within the width of the terminal, of 80 characters where there is none.
 
     Heads and cells are broken between words. A table that is too wide even so is printed row by row, a line
     per column.
     """
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    class Ours(Console):
-        def on_broken_pipe(self) -> None:
-            raise BrokenPipeError  # the command ends as all do whose reader has read enough
-
-    console = Ours()
+    console = terminal()
     widths = _widths(columns, rows, console.width - 3 * len(columns) - 1)  # a frame and two spaces each
     if widths is None:
         print("\n".join(row_by_row(title, columns, rows, console.width)))

@@ -37,7 +37,7 @@ class _Rule(NamedTuple):
     bores: tuple[float, float]  # mm: of the same
 
 
-_SPINDLE = (10.0, 30.0), (10.0, 100.0)  # deg, mm
+_SPINDLE = (10.0, 30.0), (10.0, 70.0)  # deg, mm: of the catalogue
 _PUMP = (35.0, 45.0), (12.0, 35.0)
 _RULES = {
     "19": _Rule(0.29, 0.73, "series 79 has 0.26 to 0.31", "series 79, 15 and 25 deg", *_SPINDLE),

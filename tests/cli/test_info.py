@@ -238,5 +238,6 @@ def test_a_soft_pedestal_is_named(run, tmp_path, command):
 @pytest.mark.parametrize("path", [EXAMPLES / "7003C-bare.toml", SET], ids=["bare", "set"])
 def test_a_speed_that_decides_no_waves_is_taken(run, path, speed):
     """They stay those of the scene's own speed."""
-    found = run("info", path, "--speed", speed, "--json")
-    assert found.exit_code == 0, found.stderr
+    for words in (("--speed", speed), ("--set", f"shaft_speed_rpm={speed}")):
+        found = run("info", path, *words, "--json")
+        assert found.exit_code == 0, found.stderr

@@ -328,7 +328,7 @@ def test_a_fit_without_an_equilibrium_takes_no_other_column():
     found = fits(warm)
     assert [one.take for one in found.columns] == ["mean", "probable max", "max"]
     assert head(found) == ("", "mean", "prob. max", "max")
-    (lost,) = [one for one in found.remarks if one.startswith("no column: ")][:1]
+    lost = next(one for one in found.remarks if one.startswith("no column: "))
     assert "no quasi-static equilibrium" in lost and "at the min interference" in lost
     with pytest.raises(EngineError, match="no column"):
         curves(found)

@@ -90,7 +90,7 @@ def test_a_set_of_one_has_the_levels_of_the_bearing():
         for one, x in zip(set_of_one(20e3, cage=False), (MIDDLE, 0.0), strict=True)
     ]
     several, single = (levels(one, rows(*quantities)) for one in both)
-    # sound alike but for what losses do to the speed of the balls, 2e-4 of it
+    # sound equal but for what losses do to the speed of the balls, 2e-4 of it
     assert several == pytest.approx(single, abs=0.1)
     bodies = (levels(one, rows(f"velocity[{name}outer_ring.y]")) for one, name in
               zip(both, ("bearing[1].", ""), strict=True))  # fmt: skip

@@ -136,6 +136,7 @@ def test_the_rule_of_a_series_is_as_good_as_it_says():
         (35, 80, 40.0, "03", ""),
         (40, 80, 40.0, "02", "of dimension series 02 and 40 mm of bore"),
         (60, 130, 40.0, "03", "of dimension series 03 and 60 mm of bore"),
+        (80, 125, 15.0, "10", "of dimension series 10 and 80 mm of bore"),
         (40, 52, 15.0, "18", "of dimension series 18"),
         (40, 110, 40.0, "", "of no dimension series"),
         (40, 80, 15.0, "02", "of dimension series 02 and 15 deg"),

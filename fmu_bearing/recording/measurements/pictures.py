@@ -270,7 +270,7 @@ def _ends(given: float | Mapping[str, float] | None) -> list[tuple[str, float]]:
         return []
     if not isinstance(given, Mapping):
         return [("", given)]
-    # one line and one text where several end alike
+    # one line and one text where several end at the same frequency
     return [
         (" of " + " and ".join(name for name, its in given.items() if its == end), end)
         for end in dict.fromkeys(given.values())

@@ -4,6 +4,7 @@ import csv
 import io
 import os
 import re
+import warnings
 from array import array
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -26,6 +27,9 @@ _TIME = re.compile(r"(?:time|t|zeit)(?:_(\w+))?", re.IGNORECASE)
 _SECONDS = "s"
 _BEGINNINGS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}  # a spreadsheet's "Unicode text"
 _UTF_32 = b"\xff\xfe\0\0"  # begins as UTF-16 does
+_MARKED = (b"\xef\xbb\xbf", *_BEGINNINGS)  # their encoding is sure
+_WINDOWS = "cp1252"
+_NO_TEXT = re.compile(rb"[\x00-\x08\x0e-\x19\x1c-\x1f]")  # control characters that no table has
 _LONGEST = 1e9  # bytes
 
 
@@ -78,7 +82,8 @@ def read_rows(
     Parameters
     ----------
     path : path
-        Text in UTF-8, with or without byte order mark, or in UTF-16 with one.
+        Text in UTF-8, with or without byte order mark, in UTF-16 with one, or in Windows-1252, which a
+        caution then names.
     due : str
         What the file had to hold, for the message about another one (`file_words`).
 
@@ -227,7 +232,7 @@ def _text(path: str | os.PathLike[str], due: str) -> str:
     try:
         data = plain_file(path, _LONGEST).read_bytes()
         wide = "" if data.startswith(_UTF_32) else _BEGINNINGS.get(data[:2], "")
-        text = data.decode(wide or "utf-8-sig")
+        text = data.decode(wide) if wide else _narrow(path, data)
     except FileNotFoundError:
         raise ValueError(f"{path}: {absent(path)}") from None
     except (OSError, UnicodeDecodeError) as problem:
@@ -237,6 +242,28 @@ def _text(path: str | os.PathLike[str], due: str) -> str:
     if mistaken := instead(path, due):
         raise ValueError(f"{path}: {mistaken}")
     return text.replace("\u2212", "-")
+
+
+def _narrow(path: str | os.PathLike[str], data: bytes) -> str:
+    """Return text in UTF-8, or in Windows-1252 where it is not; `UnicodeDecodeError` for what is no text."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as problem:
+        if data.startswith(_MARKED) or _NO_TEXT.search(data):
+            raise
+        try:
+            text = data.decode(_WINDOWS)
+        except UnicodeDecodeError:
+            raise problem from None
+        # the words about the first such letter show whether it was taken as meant
+        at = problem.start
+        words = text[:at].rpartition("\n")[2][-30:] + text[at : at + 30].partition("\n")[0]
+        warnings.warn(
+            f"{path} is not UTF-8 and is read as Windows-1252: '{words.strip()}'; save it as UTF-8 where "
+            "letters are wrong",
+            stacklevel=2,
+        )
+        return text
 
 
 def _rows(

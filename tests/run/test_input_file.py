@@ -77,7 +77,7 @@ def test_what_is_wrong_is_reported_with_line_and_column(tmp_path, text, reason):
 
 def test_a_file_that_is_no_text(tmp_path):
     file = tmp_path / "inputs.csv"
-    file.write_bytes(b"time,preload\n0,\xff\xfe\n")
+    file.write_bytes(b"time,preload\n0,\xff\x01\n")
     with pytest.raises(ResultError, match="cannot be read as text in UTF-8"):
         read_inputs(file, INPUTS)
     with pytest.raises(ResultError, match="there is no such file"):

@@ -68,14 +68,28 @@ def test_nothing_is_no_row(tmp_path, text):
     assert read(tmp_path, text) == []
 
 
+def test_windows_1252_is_read_and_named(tmp_path):
+    """As a spreadsheet on Windows saves CSV: a degree sign, a dash and an umlaut are one byte each."""
+    file = tmp_path / "table.csv"
+    file.write_bytes("time;T [°C];Größe\n0;20,5;–\n".encode("cp1252"))
+    with pytest.warns(UserWarning, match=r"table\.csv is not UTF-8 and is read as Windows-1252: 'time;T \["):
+        titles, rows = read_rows(file)
+    assert [title.written for title in titles] == ["time", "T [°C]", "Größe"]
+    assert rows == [(2, ["0", "20.5", "–"])]
+    file.write_bytes("\ufefftime;T [°C]\n0;20,5\n".encode("utf-16-be"))
+    assert read_rows(file)[1] == [(2, ["0", "20.5"])]
+
+
 def test_what_is_no_table(tmp_path):
     with pytest.raises(ValueError, match=r"none\.csv: there is no such file"):
         read_rows(tmp_path / "none.csv")
     with pytest.raises(ValueError, match="cannot be read: it is a folder"):
         read_rows(tmp_path)
-    (tmp_path / "latin.csv").write_bytes(b"a,b\n\xe4,1\n")
-    with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
-        read_rows(str(tmp_path / "latin.csv"))
+    # a control character, a byte that Windows-1252 does not have, one after the mark of UTF-8
+    for data in (b"a,b\n\xe4\0,1\n", b"a,b\n\x81,1\n", b"\xef\xbb\xbfa,b\n\xe4,1\n"):
+        (tmp_path / "binary.csv").write_bytes(data)
+        with pytest.raises(ValueError, match="cannot be read as text in UTF-8"):
+            read_rows(str(tmp_path / "binary.csv"))
     # a cell beyond 131072 characters, the limit of Python's module csv: a quote that nobody closes
     with pytest.raises(ValueError, match=r"table\.csv: line 3: is not a line of a table: field larger"):
         read(tmp_path, 'a,b\n1,2\n"' + 140_000 * "x" + "\n")

@@ -212,11 +212,13 @@ def _anybody_replaces(folder: Path) -> bool:
     return False
 
 
-def check_file(path: str | os.PathLike[str], ending: str = "", what: str = "") -> Path:
+def check_file(
+    path: str | os.PathLike[str], ending: str | tuple[str, ...] = "", what: str = "a file"
+) -> Path:  # fmt: skip
     """Return the path of a file that is going to be written; called before a long computation.
 
-    Nothing is made, so that a refusal for another reason leaves no trace. ``ending``, as ".html": the one of
-    files that ``what`` is written to.
+    Nothing is made, so that a refusal for another reason leaves no trace. ``ending``, as ".html", or several
+    of them: of files that ``what`` is written to.
 
     Raises
     ------
@@ -228,8 +230,10 @@ def check_file(path: str | os.PathLike[str], ending: str = "", what: str = "") -
     target = Path(path)
     if target.is_dir():
         raise IsADirectoryError(f"{target} is a folder: name the file to write")
-    if ending and target.suffix.lower() != ending:
-        raise ValueError(f"{target}: {what} is written as {ending}")
+    *others, last = (ending,) if isinstance(ending, str) else ending
+    if ending and target.suffix not in (*others, last):
+        words = f"{', '.join(others)} or {last}" if others else last
+        raise ValueError(f"{target}: {what} is written as {words}")
     if target.exists() and not target.is_file():
         raise OSError(
             f"{target} is a pipe or a device, which a file would replace: name another file to write"

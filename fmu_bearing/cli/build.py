@@ -10,7 +10,6 @@ from fmu_bearing.cli.base import app, check_new, print_json, refusals, tell
 from fmu_bearing.cli.options import Catalogues, Fidelity, Force, Json, SceneFile, Settings, output as target
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.compiled.platforms import PLATFORMS
-from fmu_bearing.files import check_file
 
 Output = Annotated[Path | None, target("FMU to write; default: Bearing<designation>.fmu here.")]
 Flavour = Annotated[
@@ -63,8 +62,6 @@ def build(
 
     with refusals():
         source = scene_of(source_of(scene, settings, fidelity))
-        if output is not None:
-            check_file(output, ".fmu", "an FMU")
         check_new(force, output or Path(f"{identifier(source)}.fmu"))
         built = build_fmu(source, output, flavour, named(platforms), tell, only_here)
     if as_json:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, tell
+from fmu_bearing.cli.base import app, check_new, print_json, refusals, tell
 from fmu_bearing.cli.options import (
     Catalogues,
     Force,
@@ -46,8 +46,8 @@ def fits(
     from fmu_bearing.results.table import show, write_csv
 
     with refusals():
-        if output is not None and check_file(output).suffix != ".csv":
-            raise Refusal(f"--output {output} is refused: the table is written as .csv")
+        if output is not None:
+            check_file(output, ".csv", "the table")
         if plot is not None:
             check_picture(plot)
         check_new(force, output, plot)

@@ -69,10 +69,8 @@ def realtime(
             raise Refusal("--speed and --run-up are refused together: a speed that is held has no run-up")
         if silent and microphones is not None:
             raise Refusal("--silent and --microphones are refused together: give one of them")
-        if output is not None and output.suffix != ".csv":
-            raise Refusal(f"--output {output} is refused: the table is written as .csv")
         if output is not None:
-            check_new(force, check_file(output))
+            check_new(force, check_file(output, ".csv", "the table"))
         held = shaft_speed(speed)
         speeds = (held, held) if held is not None else span(run_up) if run_up is not None else None
         found = time_it(

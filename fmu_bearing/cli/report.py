@@ -36,9 +36,7 @@ def _check_keep(path: Path, source: Path) -> None:
     """Refuse a name under which the run cannot be kept, and a report without one."""
     if source.suffix == ".toml":
         require(read_scene(source), "run report")
-    if path.suffix != ".npz":
-        raise Refusal(f"--keep {path}: a run is kept as .npz")
-    check_file(path)
+    check_file(path, ".npz", "a run")
 
 
 def span(text: str) -> tuple[float, float]:
@@ -90,7 +88,6 @@ def report(
     with refusals():
         turning = shaft_speed(speed)
         speeds = None if run_up is None else span(run_up)
-        check_file(output, ".html", "a report")
         check_new(force, output, keep)
         if keep is not None:  # refused before the run
             _check_keep(keep, source)

@@ -32,7 +32,6 @@ from fmu_bearing.cli.options import (
     settle as time_left_out,
 )
 from fmu_bearing.cli.settings import changed, start_of
-from fmu_bearing.files import check_file
 
 if TYPE_CHECKING:
     from fmu_bearing.results.result import Run
@@ -79,7 +78,7 @@ def simulate(
 
     with refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
-        check_file(results.check_target(output))  # refused before the run
+        results.check_target(output)  # refused before the run
         if plot is not None:
             check_picture(plot)
         check_new(force, output, plot)

@@ -21,6 +21,7 @@ from fmu_bearing.cli.base import (
 )
 from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
 from fmu_bearing.cli.settings import AXIS as _SYNTAX, changed, numbers
+from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
 if TYPE_CHECKING:
@@ -124,18 +125,17 @@ def _spacing(text: str) -> "Spacing":
 
 def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]) -> Path:
     """Return the file to write, checked before anything is computed."""
-    from fmu_bearing.steady.stiffness.ross import check_axes, check_element
-    from fmu_bearing.steady.stiffness.stiffness_files import check_table
+    from fmu_bearing.results.result import check_target
+    from fmu_bearing.steady.stiffness.ross import check_axes
 
     if form not in _ENDINGS:
         raise Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
     target = output or Path(f"stiffness{_ENDINGS[form]}")
-    if target.suffix != _ENDINGS[form]:
-        raise Refusal(f"--output {target}: --format {form} writes files that end in {_ENDINGS[form]}")
+    check_file(target, _ENDINGS[form], f"--format {form}")
     if form != "ross":
-        return check_table(target)
+        return check_target(target)
     check_axes(len(asked["speeds"] or (0.0,)), len(asked["frequencies"] or range(8)))
-    return check_element(target)
+    return target
 
 
 def _elements(found: "Stiffness", target: Path, mirrored: bool) -> list[Path]:

@@ -69,15 +69,12 @@ def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.
 
     Raises
     ------
-    IdentifyError
+    ValueError
         For a name that is not a TOML file.
     OSError
         Where they cannot be written.
     """
-    path = pathlib.Path(target)
-    if path.suffix != ".toml" or path.is_dir():
-        raise IdentifyError(f"{path}: the identified scene is a file that ends in .toml")
-    check_file(path)
+    path = check_file(target, ".toml", "the identified scene")
     return path, check_folder(path.with_suffix(""))
 
 

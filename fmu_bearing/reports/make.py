@@ -163,7 +163,7 @@ def make(
     """
     need("plotly.graph_objects", "a report")
     need("jinja2", "a report")
-    path = check_file(output)
+    path = check_file(output, ".html", "a report")
     rough = surface if surface is None or isinstance(surface, Surface) else read_surface(surface)
     _check(duration, settle, radius, run_up, run_up_time)
     given = _set_of(source)

@@ -63,9 +63,7 @@ def check_picture(path: str | os.PathLike[str]) -> pathlib.Path:
     MissingExtra
         Without Matplotlib (extra ``plots``).
     """
-    target = check_file(path)
-    if target.suffix not in _METADATA:
-        raise ValueError(f"{target}: pictures are written as {', '.join(_METADATA)}")
+    target = check_file(path, tuple(_METADATA), "a picture")
     need("matplotlib", "a picture")
     return target
 

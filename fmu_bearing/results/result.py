@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import NETCDF, RESULT, absent, instead, one_line, why
-from fmu_bearing.files import plain_file, write_whole
+from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.results.column_units import unit_of_suffix, written_unit
 from fmu_bearing.results.levels import present, shown
@@ -105,8 +105,10 @@ class Run(Series):
 
         Raises
         ------
-        ResultError
+        ValueError
             For another ending.
+        OSError
+            Where it cannot be written.
         MissingExtra
             For netCDF without xarray.
         """
@@ -302,21 +304,21 @@ def _listed(names: str | Sequence[str] | None) -> Sequence[str] | None:
     return [names] if isinstance(names, str) else names
 
 
-def check_target(path: str | os.PathLike[str]) -> pathlib.Path:
+def check_target(path: str | os.PathLike[str], what: str = "a result") -> pathlib.Path:
     """Return the path of a result, or raise if it cannot be written there; called before a long run.
+
+    ``what`` is written, for the message.
 
     Raises
     ------
-    ResultError
-        For an ending other than those of `ENDINGS`, or a folder of that name.
+    ValueError
+        For an ending other than those of `ENDINGS`.
+    OSError
+        As `check_file`.
     MissingExtra
         For netCDF without xarray and h5netcdf.
     """
-    target = pathlib.Path(path)
-    if target.suffix not in ENDINGS:
-        raise ResultError(f"{target}: results are written as {' or '.join(ENDINGS)}")
-    if target.is_dir():
-        raise ResultError(f"{target} is a folder: name the file to write")
+    target = check_file(path, ENDINGS, what)
     if target.suffix == ".nc":
         need("xarray", "netCDF")
         need("h5netcdf", "netCDF")

@@ -82,7 +82,7 @@ def build_fmu(
     if output is None:
         check_folder(".")
     else:
-        check_file(output)
+        check_file(output, ".fmu", "an FMU")
     model = source if isinstance(source, Model) else model_of(source, tell)
     return build(model, None if output is None else os.fspath(output), flavour, platforms, tell, only_here)
 

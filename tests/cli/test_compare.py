@@ -88,7 +88,7 @@ def test_refusals(run, rings_file, tmp_path):
         ((rings_file, tmp_path / "none.toml"), "none.toml: there is no such scene file"),
         ((rings_file, tmp_path / "none.npz"), "none.npz: there is no such file"),
         ((tmp_path / "run.csv", rings_file, "--fidelity", "full"), "A is a finished run"),
-        ((rings_file, rings_file, "--plot", "both.txt"), "pictures are written as .png, .svg, .pdf"),
+        ((rings_file, rings_file, "--plot", "both.txt"), "a picture is written as .png, .svg or .pdf"),
         ((rings_file, rings_file, "-m", "P9"), "there is no microphone 'P9'; there are P1, P2, P3, P4"),
         ((rings_file, rings_file, "--fidelity", "best"), "fidelity.model = 'best' is refused"),
         ((rings_file, rings_file, "-t", -1), "duration = -1.0 s"),

@@ -125,7 +125,7 @@ def test_the_scene_of_a_set_is_written_as_a_set(run, tmp_path):
             ("--free", KEY, "--free", "mounting.housing.mass_kg", "--free", "mounting.rotor.mass_kg"),
             "carry 2 free",
         ),
-        (("--free", KEY, "-o", "identified.csv"), "ends in .toml"),
+        (("--free", KEY, "-o", "identified.csv"), "the identified scene is written as .toml"),
         (("--free", KEY, "--background", "none.csv"), "there is no such file"),
         (("--free", KEY, "--fidelity", "best"), "fidelity 'best' is unknown"),
     ],

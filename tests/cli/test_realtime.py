@@ -55,7 +55,7 @@ def test_json_of_a_held_speed_without_sound(run, rings_file):
         (("--silent", "--microphones", 1), "--silent and --microphones are refused together"),
         (("--microphones", 9), "microphones = 9 is refused: the scene has 4"),
         (("--fidelity", "auto"), "fidelity = 'auto' is refused: known are full, rings, response"),
-        (("-o", "a.txt"), "--output a.txt is refused: the table is written as .csv"),
+        (("-o", "a.txt"), "a.txt: the table is written as .csv"),
     ],
 )
 def test_refusals_leave_no_trace(options, words, run, rings_file, tmp_path, monkeypatch):

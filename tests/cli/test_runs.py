@@ -139,7 +139,7 @@ def test_plot(run, rings_file, tmp_path):
     first = (tmp_path / "one.svg").read_bytes()
     assert first.startswith(b"<?xml") and first == (tmp_path / "two.svg").read_bytes()
     for arguments, reason in (
-        ((result, "-o", tmp_path / "run.bmp"), "written as .png, .svg, .pdf"),
+        ((result, "-o", tmp_path / "run.bmp"), "written as .png, .svg or .pdf"),
         ((result, "-v", "heat.oils", "-o", tmp_path / "new.png"), "did you mean 'heat.oil'"),
         ((tmp_path / "none.csv",), "there is no such file"),
     ):

@@ -80,7 +80,7 @@ def test_json_holds_all(run, silent_file, tmp_path):
         (("--format", "xls"), "--format xls is refused: it is csv, netcdf, ross"),
         (
             ("--format", "netcdf", "-o", "k.csv"),
-            "--output k.csv: --format netcdf writes files that end in .nc",
+            "k.csv: --format netcdf is written as .nc",
         ),
         (("--mirrored",), "--mirrored is for --format ross"),
         (
@@ -88,7 +88,7 @@ def test_json_holds_all(run, silent_file, tmp_path):
             "3 speeds are refused: ROSS interpolates between at",
         ),
         (("--format", "ross", "--frequencies", "10,20"), "2 frequencies are refused: ROSS interpolates"),
-        (("--plot", "k.doc"), "k.doc: pictures are written as .png, .svg, .pdf"),
+        (("--plot", "k.doc"), "k.doc: a picture is written as .png, .svg or .pdf"),
         (("--set", "preload=300"), "preload is an axis of the table: give preloads, in N"),
         (("--set", "mounting.prelaod_N=300"), "mounting.prelaod_N is not a key of a scene"),
     ],

@@ -46,9 +46,9 @@ def test_a_file_in_place_of_the_folder(run, rings_file, blocked, words):
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
-        (("tradeoff", "--plot", "chart.bmp"), "pictures are written as .png, .svg, .pdf"),
+        (("tradeoff", "--plot", "chart.bmp"), "a picture is written as .png, .svg or .pdf"),
         (("tradeoff", "--plot", "."), "is a folder"),
-        (("report", "--keep", "run.csv"), "a run is kept as .npz"),
+        (("report", "--keep", "run.csv"), "a run is written as .npz"),
         (("report", "-o", "."), "is a folder"),
         (("build", "-o", "."), "is a folder"),
     ],

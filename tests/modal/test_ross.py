@@ -212,6 +212,6 @@ def test_short_axes_and_other_endings_are_refused(table, tmp_path):
     few = dataclasses.replace(table, speeds=table.speeds[:3], K=table.K[:3], C=table.C[:3])
     with pytest.raises(ValueError, match="3 speeds are refused: ROSS interpolates between at least 5"):
         few.to_ross(tmp_path / "a.toml", 500.0)
-    with pytest.raises(ValueError, match=r"elements for ROSS are written as \.toml"):
+    with pytest.raises(ValueError, match=r"an element for ROSS is written as \.toml"):
         table.to_ross(tmp_path / "a.json", 500.0)
     assert not list(tmp_path.iterdir())

@@ -349,7 +349,7 @@ def test_netcdf_holds_every_number(table, tmp_path):
 
 
 def test_other_endings_are_refused(table, tmp_path):
-    with pytest.raises(ValueError, match=r"tables of stiffness are written as \.csv or \.nc"):
+    with pytest.raises(ValueError, match=r"a table of stiffness is written as \.csv or \.nc"):
         table.save(tmp_path / "k.xls")
     assert not list(tmp_path.iterdir())
 

@@ -113,7 +113,7 @@ def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | Non
     >>> modes_page(found, "modes.html").name
     'modes.html'
     """
-    target = check_file(path)
+    target = check_file(path, ".html", "a page")
     scene, own = found.scene, found.scene.operation.speed_rpm
     point = point or nearest_point(found, own)
     diagram: list[Block] = [campbell_chart(found), moving_shapes(found)]

@@ -70,9 +70,7 @@ class NoseStiffness:
         OSError
             Where it cannot be written.
         """
-        target = check_file(path)
-        if target.suffix != ".csv":
-            raise ValueError(f"{target}: the stiffness of a shaft at its nose is written as .csv")
+        target = check_file(path, ".csv", "the stiffness of a shaft at its nose")
         target.parent.mkdir(parents=True, exist_ok=True)
         entries = [(force, motion) for force in FREEDOMS for motion in FREEDOMS]
         columns = ["speed_rpm", "preload_N"]

@@ -28,22 +28,6 @@ FEWEST = 5  # values of an axis, below which ROSS warns of its interpolation
 _ENTRIES = {"xx": ("y", "y"), "xy": ("y", "z"), "yx": ("z", "y"), "yy": ("z", "z"), "zz": ("x", "x")}
 
 
-def check_element(path: str | os.PathLike[str]) -> Path:
-    """Return the path from which the names of the files are made; called before a long computation.
-
-    Raises
-    ------
-    ValueError
-        For an ending other than ``.toml``.
-    OSError
-        Where it cannot be written.
-    """
-    target = check_file(path)
-    if target.suffix != ".toml":
-        raise ValueError(f"{target}: elements for ROSS are written as .toml")
-    return target
-
-
 def check_axes(speeds: int, frequencies: int) -> None:
     """Raise ``ValueError`` unless both axes have one value or enough to interpolate; by their lengths."""
     for name, count in (("speeds", speeds), ("frequencies", frequencies)):
@@ -59,7 +43,7 @@ def write(
     nodes: tuple[int, int, int],
 ) -> tuple[Path, Path, Path]:  # fmt: skip
     """Write the elements; see `BearingStiffness.to_ross`."""
-    target = check_element(path)
+    target = check_file(path, ".toml", "an element for ROSS")
     check_axes(len(found.speeds), len(found.frequencies))
     planes = found.planes(preload, mirrored)
     of = f"preload {found.preloads[found.at_preload(preload)]:g} N{', mirrored' if mirrored else ''}"

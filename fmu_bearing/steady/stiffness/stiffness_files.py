@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
-from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.results.result import written
+from fmu_bearing.files import write_whole
+from fmu_bearing.results.result import check_target, written
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
@@ -20,35 +20,13 @@ from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 if TYPE_CHECKING:
     import xarray
 
-ENDINGS = (".csv", ".nc")
 _TILTS = ("by", "bz")
 STATIC, DYNAMIC = "static", "dynamic"
 
 
-def check_table(path: str | os.PathLike[str]) -> Path:
-    """Return the path of a table that is going to be written; called before a long computation.
-
-    Raises
-    ------
-    ValueError
-        For an ending other than `ENDINGS`.
-    OSError
-        Where it cannot be written.
-    MissingExtra
-        For netCDF without xarray.
-    """
-    target = check_file(path)
-    if target.suffix not in ENDINGS:
-        raise ValueError(f"{target}: tables of stiffness are written as {' or '.join(ENDINGS)}")
-    if target.suffix == ".nc":
-        need("xarray", "netCDF")
-        need("h5netcdf", "netCDF")
-    return target
-
-
 def save(found: StiffnessTable, path: str | os.PathLike[str]) -> Path:
     """Write a table to ``.csv`` or ``.nc``; see `BearingStiffness.save`."""
-    target = check_table(path)
+    target = check_target(path, "a table of stiffness")
     target.parent.mkdir(parents=True, exist_ok=True)
     if target.suffix == ".csv":
         write_csv(target, columns(), list(_rows(found)))

@@ -4,10 +4,11 @@ import contextlib
 import errno
 import os
 import re
+import shutil
 import stat
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ __all__ = [
     "read_own",
     "read_text",
     "real_path",
+    "rescued",
     "write_whole",
 ]
 
@@ -320,3 +322,28 @@ def write_whole(path: Path, data: bytes) -> Path:
         temporary.unlink(missing_ok=True)
         raise
     return path
+
+
+def rescued(write: Callable[[Path], Any], path: Path) -> None:
+    """Write what took long to compute; where its place does not take it, among the temporary files.
+
+    Raises
+    ------
+    OSError
+        That names the other place.
+    """
+    try:
+        write(path)
+    except OSError as problem:
+        from fmu_bearing.file_words import why  # which imports this module
+
+        words, folder = f"{path}: {why(problem)}", ""
+        try:
+            folder = tempfile.mkdtemp(prefix="fmu-bearing-")
+            other = Path(folder) / path.name
+            write(other)
+        except OSError:
+            if folder:
+                shutil.rmtree(folder, ignore_errors=True)
+            raise OSError(f"{words}, and as little room among the temporary files") from None
+        raise OSError(f"{words}; what was computed is in {other}") from None

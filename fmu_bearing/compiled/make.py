@@ -27,6 +27,7 @@ from fmu_bearing.compiled.show import Display
 from fmu_bearing.compiled.units import SINGLE, UNITS, object_name
 from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.files import cache_root, own_folder
+from fmu_bearing.progress import work
 
 __all__ = ["PREBUILT", "bitcode", "folder", "kept", "objects", "prebuilt", "sources_key"]
 
@@ -154,7 +155,8 @@ def _compile(platform: Platform, missing: list[tuple[str, str]]) -> dict[tuple[s
         if (lacking := [unit for unit in together if unit in units - codes.keys()])
     ]
     due += [_Worker([unit], platform, one) for unit, one in missing]
-    with Display(f"compiling the kernels for {platform.name}, once for this version") as display:
+    what = f"compiling the kernels for {platform.name}, once for this version"
+    with work(what, elsewhere=True), Display(what) as display:
         if not lean(version("numba")):
             # Portable code with Numba 0.68, processor's time: init 326 s, step 402 s; lean 21 s and 28 s.
             display.tell(

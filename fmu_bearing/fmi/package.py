@@ -15,7 +15,8 @@ from fmu_bearing.compiled import BuildError
 from fmu_bearing.compiled.platforms import PLATFORMS, host, narrowed, platform_named
 from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.sources import engine_digest
-from fmu_bearing.files import write_whole
+from fmu_bearing.file_words import why
+from fmu_bearing.files import rescued, write_whole
 from fmu_bearing.fmi import documentation, resources
 from fmu_bearing.fmi.description import FLAVOURS, description_xml, identifier, interface_guid
 from fmu_bearing.fmi.fmu_model import as_fmu_model
@@ -23,7 +24,7 @@ from fmu_bearing.fmi.native.link import library
 from fmu_bearing.fmi.native.model_file import MODEL_FILE, model_bytes
 from fmu_bearing.fmi.reference import NoReference, reference_files, run_instance, run_library
 from fmu_bearing.fmi.terminals import TERMINALS_FILE, terminals_xml
-from fmu_bearing.progress import Tell, silent
+from fmu_bearing.progress import Tell, silent, work
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -123,7 +124,7 @@ def build(
     Raises
     ------
     OSError
-        If the file cannot be written.
+        If the file cannot be written: the FMU is among the temporary files then, where these take it.
     ChoiceError
         If there is no such flavour or platform, or platforms are named for a Python build or one only for
         here.
@@ -145,16 +146,19 @@ def build(
             if flavour == "native" or platforms:
                 raise
             flavour, remarks = "python", (f"native FMU: {problem}",)
-    inside = contents(model, flavour, binaries)
+    with work("reference results") as display:
+        inside = contents(model, flavour, binaries)
+        try:
+            inside |= _reference(model, flavour, binaries, inside)
+        except NoReference as problem:
+            remarks = (*remarks, f"reference results: {problem}")
+        display.named(f"packing {path.name}")
+        data = _zip(inside)
     try:
-        inside |= _reference(model, flavour, binaries, inside)
-    except NoReference as problem:
-        remarks = (*remarks, f"reference results: {problem}")
-    data = _zip(inside)
-    try:
-        write_whole(path, data)
+        rescued(partial(write_whole, data=data), path)
     except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror or error}") from error
+        size = f"it has {1e-6 * len(data):.2g} MB: make room, or name another file to write"
+        raise OSError(f"cannot write {why(error)}; {size}") from error
     counts = Counter("constant" if v.variability == "constant" else v.causality for v in model.variables)
     return BuiltFmu(
         path,

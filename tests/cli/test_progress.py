@@ -1,10 +1,14 @@
 """A command whose output is redirected says now and then what goes on, on standard error."""
 
 import re
+import time
 
 import pytest
 
 from fmu_bearing import progress
+from fmu_bearing.compiled.platforms import host
+from fmu_bearing.fmi import package
+from fmu_bearing.fmi.native import link
 
 
 @pytest.mark.parametrize("as_json", [(), ("--json",)], ids=["tables", "json"])
@@ -46,3 +50,23 @@ def test_lines_of_modes_and_stiffness_of_a_set(run, words, what, tmp_path, monke
     done = run(*(word.format(set=file, folder=tmp_path) for word in words))
     assert done.exit_code == 0, done.output
     assert any(what in line for line in done.stderr.splitlines()), done.stderr
+
+
+def test_lines_of_a_build(run, silent_file, tmp_path, monkeypatch):
+    """Each of the long parts has a name: linking, which takes minutes the first time, and packing."""
+    monkeypatch.setattr(progress, "EVERY", 0.02)
+    monkeypatch.setattr(link, "prebuilt", lambda name: None)
+    monkeypatch.setattr(link.disk_cache, "read", lambda path, tell: None)
+    monkeypatch.setattr(link.disk_cache, "write", lambda path, data, tell: None)
+    monkeypatch.setattr(link, "compiler_for", lambda *given: link.Compiler(("zig",), "zig 1"))
+    monkeypatch.setattr(link, "kernels_of", lambda *given: [])
+    monkeypatch.setattr(link, "link", lambda *given: time.sleep(0.2) or b"library")
+    packed = package._zip
+    monkeypatch.setattr(package, "_zip", lambda inside: time.sleep(0.2) or packed(inside))
+    # not of this machine, whose library would be run
+    other = "win64" if host() is None or host().name != "win64" else "linux64"
+    done = run("build", silent_file, "--platforms", other, "-o", tmp_path / "a.fmu")
+    assert done.exit_code == 0, done.output
+    assert f"linking {other} (zig 1)" in done.stderr.splitlines()
+    for what in (f"linking {other} (zig 1)", "packing a.fmu"):
+        assert re.search(rf"^fmu-bearing: after \d s; {re.escape(what)}: after \d s$", done.stderr, re.M)

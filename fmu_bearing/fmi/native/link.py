@@ -23,8 +23,8 @@ from fmu_bearing.compiled.units import SINGLE
 from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.sources import digest, engine_digest
 from fmu_bearing.extras import install_command
-from fmu_bearing.files import own_folder
-from fmu_bearing.progress import Tell, silent
+from fmu_bearing.files import no_room, own_folder
+from fmu_bearing.progress import Tell, silent, work
 
 __all__ = [
     "LINKED",
@@ -170,9 +170,11 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent, units
     data = disk_cache.read(path, tell)
     if data is None:
         kernels = kernels_of(platform, units)
-        tell(f"linking {platform.name} ({compiler.name})")
+        what = f"linking {platform.name} ({compiler.name})"
+        tell(what)
         alone = units == "single"
-        data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex(), alone)
+        with work(what):
+            data = link(compiler, platform, shim_sources(), kernels, engine_digest().hex(), alone)
         disk_cache.write(path, data, tell)
     return data
 
@@ -220,8 +222,12 @@ def link(
     with tempfile.TemporaryDirectory() as temporary:
         made = Path(temporary) / f"bearing{platform.suffix}"
         files = [Path(temporary) / f"kernels{k}.o" for k in range(len(kernels))]
-        for file, data in zip(files, kernels, strict=True):
-            file.write_bytes(data)
+        try:
+            for file, data in zip(files, kernels, strict=True):
+                file.write_bytes(data)
+        except OSError as problem:
+            words = no_room(tempfile.gettempdir(), problem) or str(problem)
+            raise BuildError(f"{platform.name}: the kernels cannot be linked: {words}") from None
         command = [
             *compiler.command, *FLAGS, *defines, f"-I{headers()}", "-shared",
             *map(str, sources), *map(str, files), "-o", str(made), "-lm",

@@ -21,22 +21,25 @@ EVERY = 10.0
 
 
 class Stopped(KeyboardInterrupt):
-    """Ctrl-C within a study; ``found`` is the study of what was finished until then."""
+    """Ctrl-C within a study; ``found`` is the study of what was finished until then, ``missing`` the rest."""
 
-    def __init__(self, found: Any) -> None:
+    def __init__(self, found: Any, missing: str = "") -> None:
         super().__init__("interrupted")
-        self.found = found
+        self.found, self.missing = found, missing
 
 
 @contextmanager
-def keeping(done: Sized, made: Callable[[], Any]) -> Iterator[None]:
-    """On Ctrl-C in the block raise `Stopped` with what ``made`` makes, unless nothing is done."""
+def keeping(done: Sized, made: Callable[[], Any], missing: Callable[[], str] = str) -> Iterator[None]:
+    """On Ctrl-C in the block raise `Stopped` with what ``made`` makes, unless nothing is done.
+
+    ``missing`` says in words what is not done. What a study within the block has kept is of another kind.
+    """
     try:
         yield
     except KeyboardInterrupt:
         if not len(done):
-            raise
-        raise Stopped(made()) from None
+            raise KeyboardInterrupt from None
+        raise Stopped(made(), missing()) from None
 
 
 def silent(text: str) -> None:

@@ -11,13 +11,12 @@ import math
 import os
 import re
 import sys
-import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, Self, TypeVar
 
 import typer
 from rich.console import Console
@@ -56,8 +55,8 @@ class Commands(TyperGroup):
         try:
             with quiet_warnings(), _one_line(), lines(tell), work("fmu-bearing", shown=False):
                 return super().invoke(ctx)
-        except KeyboardInterrupt:
-            typer.echo("interrupted", err=True)
+        except KeyboardInterrupt as stop:
+            typer.echo(str(stop) or "interrupted", err=True)
             raise typer.Exit(INTERRUPTED) from None
         except BrokenPipeError:
             # who reads has read enough, as `head` does: what is left in the buffer goes nowhere
@@ -122,17 +121,17 @@ def refusals() -> Iterator[None]:
     except Exception as error:
         if not isinstance(error, _refused()) or isinstance(error, BrokenPipeError):
             raise
-        message = "; ".join(line.strip() for line in _words(error).splitlines() if line.strip())
-        typer.echo(f"error: {message}", err=True)
+        tell(f"error: {_words(error)}")
         raise typer.Exit(REFUSED) from None
 
 
 def _words(error: Exception) -> str:
-    """Return the message of a refusal; those of the operating system name the file first."""
+    """Return the message of a refusal in one line; those of the operating system name the file first."""
     from fmu_bearing.file_words import why
 
     name = getattr(error, "filename", None)
-    return f"{name}: {why(error)}" if name is not None else why(error)
+    words = f"{name}: {why(error)}" if name is not None else why(error)
+    return "; ".join(line.strip() for line in words.splitlines() if line.strip())
 
 
 @contextmanager
@@ -188,33 +187,37 @@ def so_far(study: Callable[[], Result]) -> tuple[Result, int]:
     try:
         return study(), 0
     except Stopped as stop:
-        tell("interrupted: these are the results up to that point")
+        missing = f"; missing: {stop.missing}" if stop.missing else ""
+        tell(f"interrupted: these are the results up to that point{missing}")
         return stop.found, INTERRUPTED
 
 
-def rescued(write: Callable[[Path], Any], path: Path) -> None:
-    """Write what took long to compute; where its place does not take it, among the temporary files.
+class Writing(list[Path]):
+    """The files that a command has written, in a block that writes them.
 
-    Raises
-    ------
-    OSError
-        That names the other place.
+    What cannot be written, as on a full disk, ends the block and not the command: it prints what it has
+    computed, and `end` says the error after that.
     """
-    try:
-        write(path)
-    except OSError as problem:
-        from fmu_bearing.file_words import why
 
-        other = Path(tempfile.mkdtemp(prefix="fmu-bearing-")) / path.name
-        try:
-            write(other)
-        except OSError:
-            raise problem from None
-        raise OSError(f"{path}: {why(problem)}; what was computed is in {other}") from None
+    problem = ""
+
+    def __enter__(self) -> Self:
+        """Begin to write; several blocks in turn may."""
+        return self
+
+    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> bool:
+        """Keep the first error of the operating system for `end`."""
+        if not isinstance(error, OSError):
+            return False
+        self.problem = self.problem or _words(error)
+        return True
 
 
-def end(code: int) -> None:
-    """End a command with a code that is not 0."""
+def end(code: int, files: Writing | None = None) -> None:
+    """Say which file could not be written, and end a command with a code that is not 0."""
+    if files is not None and files.problem:
+        tell(f"error: {files.problem}")
+        code = code or REFUSED
     if code:
         raise typer.Exit(code)
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import app, check_new, check_new_in, print_json, refusals, tell
+from fmu_bearing.cli.base import Writing, app, check_new, check_new_in, end, print_json, refusals, tell
 from fmu_bearing.cli.options import (
     DURATION,
     SEEDS,
@@ -83,15 +83,17 @@ def compare(
         both = bool(found.a.levels.keys() & found.b.levels.keys())
         track = partial(steps, what="draws of the surfaces")
         finding = found.finding(microphone, seeds, track) if both else None
-        files = [] if output is None else found.save(output, microphone)
-        if plot is not None:
-            save(found.plot(microphone), plot)
-            files.append(plot)
+        with Writing() as files:
+            if output is not None:
+                files += found.save(output, microphone)
+            if plot is not None:
+                save(found.plot(microphone), plot)
+                files.append(plot)
     if as_json:
         print_json(
             found.summary() | {"finding": None if finding is None else finding.summary(), "files": files}
         )
-        return
+        return end(0, files)
     for title, table in tables.items():
         show(f"levels, {found.conditions()}" if title == "levels" else title, *table)
     if not found.keys and found.a.scene is not None and found.b.scene is not None:
@@ -103,3 +105,4 @@ def compare(
         tell(line)
     if files:
         tell(f"written: {', '.join(map(str, files))}")
+    end(0, files)

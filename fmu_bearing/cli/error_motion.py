@@ -8,6 +8,7 @@ import typer
 
 from fmu_bearing.cli.base import (
     Refusal,
+    Writing,
     app,
     check_new,
     check_new_in,
@@ -89,13 +90,14 @@ def error_motion(
             track=partial(steps, what="error motion", unit="speeds"),
         ))  # fmt: skip
         drawn = available("matplotlib", "a picture", "no polar.png", tell)
-        files = found.save(output, direction, picture=drawn)
-        if plot is not None:
-            save(found.polar(direction), plot)
-            files.append(plot)
+        with Writing() as files:
+            files += found.save(output, direction, picture=drawn)
+            if plot is not None:
+                save(found.polar(direction), plot)
+                files.append(plot)
     if as_json:
         print_json(found.summary() | {"files": files})
-        return end(code)
+        return end(code, files)
     place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
     show(f"error motion, {place}", *found.table())
     show("largest lines, amplitudes", *found.lines())
@@ -109,5 +111,6 @@ def error_motion(
         )
     for line in found.remarks():
         tell(f"remark: {line}")
-    tell(f"written: {', '.join(map(str, files))}")
-    end(code)
+    if files:
+        tell(f"written: {', '.join(map(str, files))}")
+    end(code, files)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import app, check_new, print_json, refusals, tell
+from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals, tell
 from fmu_bearing.cli.options import (
     Catalogues,
     Force,
@@ -54,20 +54,24 @@ def fits(
         found = study(
             source_of(scene, at_speed(speed, settings)), partial(steps, what="fits", unit="columns")
         )
-        if plot is not None:
-            save(picture(found, curves(found, partial(steps, what="curves", unit="fits"))), plot)
-        if output is not None:
-            output.parent.mkdir(parents=True, exist_ok=True)
-            numbers = [one.number for one in found.columns[0].bearings]
-            rows = [[str(number), *row] for number in numbers for row in fit_rows(found, number)]
-            write_csv(output, ("bearing", *head(found)), rows)
-    files = [one for one in (output, plot) if one is not None]
+        drawn = None if plot is None else curves(found, partial(steps, what="curves", unit="fits"))
+        with Writing() as files:
+            if output is not None:
+                output.parent.mkdir(parents=True, exist_ok=True)
+                numbers = [one.number for one in found.columns[0].bearings]
+                rows = [[str(number), *row] for number in numbers for row in fit_rows(found, number)]
+                write_csv(output, ("bearing", *head(found)), rows)
+                files.append(output)
+            if plot is not None and drawn is not None:
+                save(picture(found, drawn), plot)
+                files.append(plot)
     if as_json:
         print_json(found.summary() | {"files": files})
-        return
+        return end(0, files)
     for table in shown_tables(found):
         show(*table)
     for line in found.remarks:
         typer.echo(line)
     if files:
         tell(f"written: {', '.join(map(str, files))}")
+    end(0, files)

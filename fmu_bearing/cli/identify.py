@@ -5,7 +5,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import INTERRUPTED, app, check_new, check_new_in, print_json, refusals, tell
+from fmu_bearing.cli.base import (
+    INTERRUPTED,
+    Writing,
+    app,
+    check_new,
+    check_new_in,
+    end,
+    print_json,
+    refusals,
+    tell,
+)
 from fmu_bearing.cli.options import (
     Catalogues,
     Force,
@@ -117,26 +127,27 @@ def identify(
         except Interrupted as stop:
             found, code = stop.best, INTERRUPTED
             tell(f"{stop}; the same command with --force goes on, from {folder / 'runs.jsonl'}")
-        _write(found, path, scene if source == scene else None, plot, as_json, anyway)
-    if code:
-        raise typer.Exit(code)
+        files = _write(found, path, scene if source == scene else None, plot, as_json, anyway)
+    end(code, files)
 
 
 def _write(
     found: "Identified", path: Path, scene: Path | None, plot: Path | None, as_json: bool, anyway: bool
-) -> None:  # fmt: skip
-    """Print values, levels and remarks, and write the files."""
+) -> Writing:  # fmt: skip
+    """Print values, levels and remarks, and write the files, which are returned."""
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import levels_table, values_table
     from fmu_bearing.results.table import show
 
     refused = bool(found.doubts) and not anyway
-    files = [] if refused else write_all(found, path, scene, tell, anyway=anyway)
-    if plot is not None and not refused:
-        from fmu_bearing.identification.picture import identified_picture, save
+    with Writing() as files:
+        if not refused:
+            files += write_all(found, path, scene, tell, anyway=anyway)
+        if plot is not None and not refused:
+            from fmu_bearing.identification.picture import identified_picture, save
 
-        save(identified_picture(found), plot)
-        files.append(plot)
+            save(identified_picture(found), plot)
+            files.append(plot)
     if as_json:
         print_json(found.summary() | {"files": files})
     else:
@@ -149,3 +160,4 @@ def _write(
             typer.echo(f"written: {', '.join(map(str, files))}")
     if refused:
         write_all(found, path, scene, tell)  # which says why not
+    return files

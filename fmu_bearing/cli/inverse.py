@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, check_new, print_json, tell
+from fmu_bearing.cli.base import Refusal, Writing, check_new, end, print_json, tell
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
@@ -95,19 +95,23 @@ def find(
         exact_law=asked.exact_law, speed_rpm=speed, load_N=load,
         bar=partial(steps, what="sources of the vibration test, once per bearing", unit="runs"),
     )  # fmt: skip
-    write_surface(found, path)
+    with Writing() as files:
+        write_surface(found, path)
+        files.append(path)
     if as_json:
         law = {name: one._asdict() for name, one in found.law._asdict().items()}
         print_json({
             "bearing": found.bearing, "measured": found.measured, "law": law,
             "order_12_nm": found.order()._asdict(), "correlation": found.correlation,
-            "remarks": list(found.remarks), "files": [path],
+            "remarks": list(found.remarks), "files": files,
         })  # fmt: skip
-        return
+        return end(0, files)
     show(f"surfaces of {found.words}", *found.rows())
     for line in found.remarks:
         typer.echo(line)
-    tell(f"written: {path}")
+    if files:
+        tell(f"written: {path}")
+    end(0, files)
 
 
 def _bands(text: str) -> dict[str, float]:

@@ -8,9 +8,11 @@ import typer
 
 from fmu_bearing.cli.base import (
     Refusal,
+    Writing,
     app,
     check_new,
     check_new_in,
+    end,
     print_json,
     refusals,
     shaft_speed,
@@ -94,13 +96,15 @@ def modes(
                 chosen, rows, inputs=rest, highest=1e3 * highest, tell=tell,
                 track=partial(steps, what="Campbell diagram", unit="speeds"),
             )  # fmt: skip
-        files = [] if output is None else _write(output, found, diagram)
-        if plot is not None and diagram is not None:
-            save(diagram.picture(), plot)
-            files.append(plot)
+        with Writing() as files:
+            if output is not None:
+                _write(output, found, diagram, files)
+            if plot is not None and diagram is not None:
+                save(diagram.picture(), plot)
+                files.append(plot)
     if as_json:
         print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
-        return
+        return end(0, files)
     _show(found, 1e3 * highest, "contacts stick" if free else "")
     if free:
         _show(free, 1e3 * highest, "without friction")
@@ -110,6 +114,7 @@ def modes(
         tell(f"caution: {line}")
     if files:
         tell(f"written: {', '.join(map(str, files))}")
+    end(0, files)
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:
@@ -167,30 +172,29 @@ def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict
     return result
 
 
-def _write(folder: Path, found: "Modes", diagram: "Campbell | None") -> list[Path]:
-    """Write tables, and for a diagram its picture and page; return the files."""
+def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list[Path]) -> None:
+    """Write tables, and for a diagram its picture and page; add each to the files."""
     from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)
-    files = [_csv(folder / "modes.csv", [_flat(row) for row in found.table()])]
+    files.append(_csv(folder / "modes.csv", [_flat(row) for row in found.table()]))
     if diagram is None:
         tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
-        return files
+        return
     files.append(_csv(folder / "campbell.csv", diagram.table()))
     files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))
     if available("matplotlib", "a picture", "no campbell.png", tell):
+        save(diagram.picture(), folder / "campbell.png")
         files.append(folder / "campbell.png")
-        save(diagram.picture(), files[-1])
     if found.on_shaft:
         if available("matplotlib", "a picture", "no shaft.png", tell):
+            save(found.picture(), folder / "shaft.png")
             files.append(folder / "shaft.png")
-            save(found.picture(), files[-1])
-        return files  # the page draws one bearing
+        return  # the page draws one bearing
     if available("plotly", "a page", "no modes.html", tell):
         from fmu_bearing.reports.modes.modes_section import modes_page
 
         files.append(modes_page(diagram, folder / "modes.html", found))
-    return files
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:

@@ -6,7 +6,18 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, shaft_speed, tell
+from fmu_bearing.cli.base import (
+    Refusal,
+    Writing,
+    app,
+    check_new,
+    end,
+    print_json,
+    refusals,
+    shaft_speed,
+    so_far,
+    tell,
+)
 from fmu_bearing.cli.options import (
     DURATION,
     Catalogues,
@@ -73,21 +84,25 @@ def realtime(
             check_new(force, check_file(output, ".csv", "the table"))
         held = shaft_speed(speed)
         speeds = (held, held) if held is not None else span(run_up) if run_up is not None else None
-        found = time_it(
-            source_of(scene, settings), step, duration=duration, speeds=speeds, fidelities=split(fidelity),
-            microphones=0 if silent else microphones, track=partial(steps, what="fidelities"),
-        )  # fmt: skip
-        if output is not None:
-            output.parent.mkdir(parents=True, exist_ok=True)
-            write_csv(output, *found.table())
+        found, code = so_far(partial(
+            time_it, source_of(scene, settings), step, duration=duration, speeds=speeds,
+            fidelities=split(fidelity), microphones=0 if silent else microphones,
+            track=partial(steps, what="fidelities"),
+        ))  # fmt: skip
+        with Writing() as files:
+            if output is not None:
+                output.parent.mkdir(parents=True, exist_ok=True)
+                write_csv(output, *found.table())
+                files.append(output)
     if as_json:
-        print_json(found.summary() | {"files": [] if output is None else [output]})
-        return
+        print_json(found.summary() | {"files": files})
+        return end(code, files)
     count = found.timed[0].cpu.size
     show(f"{found.scene.name}: {count} steps of {1e3 * step:g} ms, us of the processor", *found.table(SHORT))
     typer.echo(found.machine)
     typer.echo(found.advice())
     for name, reason in found.left_out.items():
         tell(f"not timed: {name}: {reason}")
-    if output is not None:
+    if files:
         typer.echo(f"written: {output}")
+    end(code, files)

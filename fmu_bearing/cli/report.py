@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, rescued, shaft_speed, tell
+from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, shaft_speed, tell
 from fmu_bearing.cli.options import (
     DURATION,
     SETTLE,
@@ -22,7 +22,7 @@ from fmu_bearing.cli.options import (
     output as target,
 )
 from fmu_bearing.cli.settings import source_of
-from fmu_bearing.files import check_file
+from fmu_bearing.files import check_file, rescued
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.exclusions import require
 

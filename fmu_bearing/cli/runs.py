@@ -11,11 +11,12 @@ from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
     Refusal,
+    Writing,
     app,
     check_new,
+    end,
     print_json,
     refusals,
-    rescued,
     shaft_speed,
 )
 from fmu_bearing.cli.options import (
@@ -32,6 +33,7 @@ from fmu_bearing.cli.options import (
     settle as time_left_out,
 )
 from fmu_bearing.cli.settings import changed, start_of
+from fmu_bearing.files import rescued
 
 if TYPE_CHECKING:
     from fmu_bearing.results.result import Run
@@ -95,25 +97,28 @@ def simulate(
         )  # fmt: skip
         if settle and run.time[-1] >= settle:
             run = replace(run, table=run.table[run.time >= settle])
-        rescued(run.save, output)
-        files = [output]
-        if plot is not None:
-            draw(run, plot, split(variables))
-            files.append(plot)
+        with Writing() as files:
+            rescued(run.save, output)
+            files.append(output)
+        with files:
+            if plot is not None:
+                draw(run, plot, split(variables))
+                files.append(plot)
         doubted = "" if run.scene is None else _doubt(run, start, inputs is not None)
     if as_json:
         print_json(run.summary() | {"files": files, "doubt": doubted})
     else:
         if run.note:
             typer.echo(f"error: {run.note}", err=True)
-        typer.echo(
-            f"written: {', '.join(map(str, files))}, {len(run)} points to {run.time[-1]:g} s, "
-            f"{len(run.names)} variables, in {run.wall:.2g} s"
-        )
+        if files:
+            typer.echo(
+                f"written: {', '.join(map(str, files))}, {len(run)} points to {run.time[-1]:g} s, "
+                f"{len(run.names)} variables, in {run.wall:.2g} s"
+            )
         if doubted:
             typer.echo(f"{doubted}.")
-    if not run.complete:
-        raise typer.Exit(INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY)
+    early = INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY
+    end(0 if run.complete else early, files)
 
 
 @app.command()

@@ -11,8 +11,10 @@ from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
     Refusal,
+    Writing,
     check_new,
     check_new_in,
+    end,
     named,
     print_json,
     tell,
@@ -80,21 +82,22 @@ def several(
         tell(f"{stop} and kept; the same command runs those that are left")
         raise typer.Exit(INTERRUPTED) from None
     found = evaluated(layout, outcomes)
-    _report(found, picture, output, as_json)
-    if any(not outcome.lasting for outcome in outcomes.values()):
-        raise typer.Exit(ENDED_EARLY)
+    early = any(not outcome.lasting for outcome in outcomes.values())
+    end(ENDED_EARLY if early else 0, _report(found, picture, output, as_json))
 
 
-def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> None:
-    """Write table and picture; print the table."""
+def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> Writing:
+    """Write table and picture; print the table; return what was written."""
     from fmu_bearing.results.picture_parts import save
     from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.global_sensitivity import COLUMNS
     from fmu_bearing.sweeps.index_picture import index_picture
 
-    files = found.write(output)
-    save(index_picture(found), picture)
-    files["picture"] = picture
+    files: dict[str, Path] = {}
+    with Writing() as written:
+        files |= found.write(output)
+        save(index_picture(found), picture)
+        files["picture"] = picture
     columns, cells = COLUMNS[found.layout.method], found.cells()
     if as_json:
         print_json(
@@ -107,7 +110,7 @@ def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bo
                 "files": files,
             }
         )
-        return
+        return written
     size = len(found.keys)
     for at in range(0, len(cells), size):  # a table per figure: it fits the terminal
         name, unit = cells[at][:2]
@@ -117,4 +120,6 @@ def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bo
         show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
     for line in (found.conditions(), *found.remarks()):
         typer.echo(textwrap.fill(line, 80))
-    typer.echo(f"written: {', '.join(map(str, files.values()))}")
+    if files:
+        typer.echo(f"written: {', '.join(map(str, files.values()))}")
+    return written

@@ -13,7 +13,6 @@ from fmu_bearing.cli.base import (
     check_new_in,
     print_json,
     refusals,
-    rescued,
     shaft_speed,
     tell,
 )
@@ -34,7 +33,7 @@ from fmu_bearing.cli.options import (
     SurfaceFile,
 )
 from fmu_bearing.cli.settings import source_of
-from fmu_bearing.files import check_folder
+from fmu_bearing.files import check_folder, rescued
 from fmu_bearing.progress import steps, work
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ import typer
 
 from fmu_bearing.cli.base import (
     Refusal,
+    Writing,
     app,
     check_new,
     check_new_in,
@@ -99,13 +100,14 @@ def stiffness(
             table_of, chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"],
             inputs=inputs, spacing=_spacing(spacing), track=partial(steps, what="stiffness", unit="speeds"),
         ))  # fmt: skip
-        files = [*found.save(target)] if form != "ross" else _elements(found, target, mirrored)
-        if plot is not None:
-            save(found.picture(), plot)
-            files.append(plot)
+        with Writing() as files:
+            files += found.save(target) if form != "ross" else _elements(found, target, mirrored)
+            if plot is not None:
+                save(found.picture(), plot)
+                files.append(plot)
     if as_json:
         print_json(_document(found, form) | {"files": files})
-        return end(code)
+        return end(code, files)
     if found.nose is not None:
         _show_nose(found.nose)
     _show(found)
@@ -113,8 +115,9 @@ def stiffness(
         _show_planes(one)
     for line in found.cautions():
         tell(f"caution: {line}")
-    tell(f"written: {', '.join(map(str, files))}")
-    end(code)
+    if files:
+        tell(f"written: {', '.join(map(str, files))}")
+    end(code, files)
 
 
 def _spacing(text: str) -> "Spacing":

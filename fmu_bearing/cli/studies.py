@@ -9,6 +9,7 @@ import typer
 
 from fmu_bearing.cli.base import (
     Refusal,
+    Writing,
     app,
     check_new,
     check_new_in,
@@ -67,13 +68,16 @@ def choose(
     from fmu_bearing.scene import scene_of
 
     with refusals(), work("short runs of all candidates"):
-        choice = choosing.chosen(scene_of(source_of(scene, at_speed(speed, settings))))
+        choice, code = so_far(partial(choosing.chosen, scene_of(source_of(scene, at_speed(speed, settings)))))
+    summary = None if choice.chosen == choosing.NONE else choice.summary
     if as_json:
-        print_json({"chosen": choice.summary, "candidates": named(choosing.COLUMNS, choice.cells())})
+        print_json({"chosen": summary, "candidates": named(choosing.COLUMNS, choice.cells())})
     else:
         where = " / ".join(choice.probed)
         show(f"{choice.scene}: errors against fidelity full at {where}", choosing.SHORT, choice.table())
-        typer.echo(choice.summary)
+        if summary is not None:
+            typer.echo(summary)
+    end(code)
 
 
 @app.command()
@@ -118,15 +122,18 @@ def tradeoff(
                 trading.tradeoff, source, trading.QUICK if quick else trading.SETTINGS,
                 track=partial(steps, what="variants"), **times,
             ))  # fmt: skip
-        trading.write(study, output)
-        draw(study, chart)
-    files = [output / "tradeoff.md", output / "tradeoff.csv", chart]
+        with Writing() as files:
+            trading.write(study, output)
+            files += [output / "tradeoff.md", output / "tradeoff.csv"]
+            draw(study, chart)
+            files.append(chart)
     if as_json:
         print_json({"settings": named(trading.COLUMNS, study.cells()), "files": files})
     else:
         show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
-        typer.echo(f"written: {', '.join(map(str, files))}")
-    end(code)
+        if files:
+            typer.echo(f"written: {', '.join(map(str, files))}")
+    end(code, files)
 
 
 @app.command()
@@ -224,14 +231,16 @@ def _each_alone(
         study, code = so_far(
             partial(moving.sensitivity, source, keys, track=partial(steps, what="moves"), **spans)
         )
-    moving.write(study, output)
-    files = [output / "sensitivity.md", output / "sensitivity.csv"]
+    with Writing() as files:
+        moving.write(study, output)
+        files += [output / "sensitivity.md", output / "sensitivity.csv"]
     if as_json:
         print_json({"moves": named(moving.COLUMNS, study.cells()), "files": files})
     else:
         show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
-        typer.echo(f"written: {', '.join(map(str, files))}")
-    end(code)
+        if files:
+            typer.echo(f"written: {', '.join(map(str, files))}")
+    end(code, files)
 
 
 @app.command()

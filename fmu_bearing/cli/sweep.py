@@ -8,9 +8,11 @@ import typer
 from fmu_bearing.cli.base import (
     ENDED_EARLY,
     INTERRUPTED,
+    Writing,
     app,
     check_new,
     check_new_in,
+    end,
     print_json,
     refusals,
     tell,
@@ -160,13 +162,11 @@ def _run(
         tell(f"{stop} and kept; `{again}` runs the {left} that are left")
     if any(not outcome.lasting for outcome in outcomes.values()):
         code = code or ENDED_EARLY
-    _write(made, outcomes, output, plot, as_json)
-    if code:
-        raise typer.Exit(code)
+    end(code, _write(made, outcomes, output, plot, as_json))
 
 
-def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, as_json: bool) -> None:
-    """Write the results so far and print a summary."""
+def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, as_json: bool) -> Writing:
+    """Write the results so far and print a summary; return what was written."""
     from fmu_bearing.extras import available
     from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.figures import figures_of
@@ -174,15 +174,19 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, 
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
 
     data = dataset(made, outcomes)
-    files = save(data, output)
+    files: dict[str, Path] = {}
+    with Writing() as written:
+        files |= save(data, output)
     drawable = outcomes and sum(size > 1 for size in made.shape) in (1, 2)
     if plot is not None and not drawable:
         tell(f"no {plot}: one or two axes with two values or more can be drawn")
     if drawable and available("matplotlib", "a picture", "sweep.png", tell):
-        files["picture"] = plot or output / "sweep.png"
+        picture = plot or output / "sweep.png"
         asked = made.figures != figures_of(made.scene, None)
         drawn = [figure.name for figure in made.figures][:MOST] if asked else None
-        save_picture(sweep_picture(data, drawn), files["picture"])
+        with written:
+            save_picture(sweep_picture(data, drawn), picture)
+            files["picture"] = picture
     bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}
     found = extremes(data)
     if as_json:
@@ -198,13 +202,14 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, 
                 "files": files,
             }
         )
-        return
+        return written
     rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in found]
     show(str(data.attrs["title"]), COLUMNS, rows)
     counted = f"{len(outcomes)} of {len(made.tasks)} points"
     typer.echo(f"{counted}, {len(bad)} refused; written: {', '.join(map(str, files.values()))}")
     for reason in sorted(set(bad.values()))[:5]:
         typer.echo(f"refused: {reason}")
+    return written
 
 
 def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) -> None:

@@ -10,11 +10,14 @@ import typer
 from fmu_bearing.cli import inverse
 from fmu_bearing.cli.base import (
     Refusal,
+    Writing,
     app,
     check_new_in,
+    end,
     print_json,
     refusals,
     shaft_speed,
+    so_far,
     tell,
 )
 from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Settings
@@ -111,22 +114,25 @@ def vibration(
         check_new_in(force, output, *FILES)
         need("matplotlib", "a picture")
         allowed = None if limits is None else _limits(limits)
-        found = test(
-            scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
+        found, code = so_far(partial(
+            test, scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
             speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
             bar=partial(steps, what="vibration test", unit="runs"),
-        )  # fmt: skip
-        files = found.save(output, known[unit])
+        ))  # fmt: skip
+        with Writing() as files:
+            files += found.save(output, known[unit])
     if as_json:
         print_json(found.summary() | {"files": files})
-        return
+        return end(code, files)
     at = found.scene.operation.speed_rpm
     heading = f"{found.scene.name}: vibration test, {at:g} r/min, {found.scene.mounted.preload_N:g} N"
     show(heading, *found.table(known[unit]))
     show(f"strongest lines, {_SHOWN} of each band", *found.lines_table(_SHOWN))
     for remark in found.remarks:
         typer.echo(remark)
-    tell(f"written: {', '.join(map(str, files))}")
+    if files:
+        tell(f"written: {', '.join(map(str, files))}")
+    end(code, files)
 
 
 def _check_rig(settings: Sequence[str] | None) -> None:

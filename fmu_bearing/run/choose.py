@@ -31,6 +31,7 @@ from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.modal.campbell import weak
 from fmu_bearing.prepare.sound import Sounds
+from fmu_bearing.progress import Stopped, keeping
 from fmu_bearing.results.table import number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
@@ -65,6 +66,7 @@ CANDIDATES = (
     Setting("full", "esdirk4", 1e-4, 5e-6),
 )
 FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
+NONE = -1
 
 _LEFT_OUT = "left out: "
 
@@ -176,7 +178,7 @@ class Choice:
     probes : tuple of Probe
         In the order of ``CANDIDATES``, ``FINEST`` last.
     chosen : int
-        Place of the chosen one among them.
+        Place of the chosen one among them; `NONE` where Ctrl-C came before all were probed.
     probed : tuple of str
         Names of the conditions, the scene's own speed first.
     missing : str
@@ -289,6 +291,8 @@ def choose(
     ------
     Refused
         If fidelity ``full`` itself is refused.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with the candidates that are finished as ``found``; none is chosen.
     """
     sounds = Sounds(scene)
     candidates = [c for c in candidates if c.carries(scene)]
@@ -305,42 +309,47 @@ def choose(
             )
         except Refused as problem:
             missing += f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
-    probes = []
+    probes: list[Probe] = []
     # bounds of the scene may make two candidates one
     variants = {(made := bounded(candidate, scene)).fidelity: made for candidate in candidates}
-    for fidelity, variant in variants.items():
-        found, pace, reasons = list[Errors](), math.nan, list[str]()
-        if against and fidelity.model != "full":
-            reasons.append(f"{_LEFT_OUT}{against}")
-        else:
-            try:
-                own = sounds.at(fidelity.model)
-                run = measure(variant, own, warm_up, window, budget=budget)
-                pace = run.cpu
-                for one, true in truth.items():
-                    figures = run.figures
-                    if one is not planned[0]:
-                        figures = measure_between(variant, own, warm_up, window, one.first, one.last)
-                    silent = SILENT if one.first == one.last else SILENT_RAMP
-                    found.append(errors(figures, true, silent))
-                    reasons.append(too_far(found[-1], scene))
-            except Refused as problem:
-                reasons.append(f"refused: {problem}")
-        probes.append(
-            Probe(fidelity.model, fidelity.method, fidelity.tolerance, 1e-6 * fidelity.max_internal_step_us,
-                  tuple(found), pace, tuple(reasons))
-        )  # fmt: skip
-    f = finest.fidelity
-    none = tuple(errors(true, true) for true in truth.values())
-    probes.append(
-        Probe(f.model, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, first.cpu,
-              ("",) * len(none))
-    )  # fmt: skip
     accuracy = scene.fidelity.accuracy
-    return Choice(
-        scene.name, accuracy.level_dB, accuracy.relative, tuple(probes), _cheapest(probes),
-        tuple(one.name for one in truth), missing,
-    )  # fmt: skip
+
+    def study(place: int = NONE) -> Choice:
+        f, none = finest.fidelity, tuple(errors(true, true) for true in truth.values())
+        last = Probe(f.model, f.method, f.tolerance, 1e-6 * f.max_internal_step_us, none, first.cpu,
+                     ("",) * len(none))  # fmt: skip
+        return Choice(
+            scene.name, accuracy.level_dB, accuracy.relative, (*probes, last), place,
+            tuple(one.name for one in truth), missing,
+        )  # fmt: skip
+
+    def left() -> str:
+        return f"{len(variants) - len(probes)} of {len(variants)} candidates, so that none is chosen"
+
+    with keeping(probes, study, left):
+        for fidelity, variant in variants.items():
+            found, pace, reasons = list[Errors](), math.nan, list[str]()
+            if against and fidelity.model != "full":
+                reasons.append(f"{_LEFT_OUT}{against}")
+            else:
+                try:
+                    own = sounds.at(fidelity.model)
+                    run = measure(variant, own, warm_up, window, budget=budget)
+                    pace = run.cpu
+                    for one, true in truth.items():
+                        figures = run.figures
+                        if one is not planned[0]:
+                            figures = measure_between(variant, own, warm_up, window, one.first, one.last)
+                        silent = SILENT if one.first == one.last else SILENT_RAMP
+                        found.append(errors(figures, true, silent))
+                        reasons.append(too_far(found[-1], scene))
+                except Refused as problem:
+                    reasons.append(f"refused: {problem}")
+            probes.append(
+                Probe(fidelity.model, fidelity.method, fidelity.tolerance,
+                      1e-6 * fidelity.max_internal_step_us, tuple(found), pace, tuple(reasons))
+            )  # fmt: skip
+    return study(_cheapest(study().probes))
 
 
 def _against(scene: Scene, planned: Sequence[Condition]) -> str:
@@ -351,7 +360,7 @@ def _against(scene: Scene, planned: Sequence[Condition]) -> str:
     return ""
 
 
-def _cheapest(probes: list[Probe]) -> int:
+def _cheapest(probes: Sequence[Probe]) -> int:
     """Place of the first accurate probe, unless another is clearly faster."""
     places = [k for k, probe in enumerate(probes) if not probe.reason]
     best = places[0]
@@ -384,7 +393,10 @@ def resolve(scene: Scene) -> tuple[Scene, Choice | None]:
     """Return the scene with a concrete fidelity, and the choice; None where nothing was probed."""
     if scene.fidelity.model != "auto":
         return scene, None
-    choice = chosen(scene)
+    try:
+        choice = chosen(scene)
+    except Stopped:  # no study of the caller's
+        raise KeyboardInterrupt from None
     return choice.apply(scene), choice
 
 

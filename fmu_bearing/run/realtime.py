@@ -19,6 +19,7 @@ from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine
 from fmu_bearing.run.step_times import HELD, Realtime, Timed, name_of
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
@@ -45,6 +46,11 @@ class _Case:
     def microphones(self) -> int:
         """Number of microphones that are computed."""
         return 0 if self.scene.sound is None else len(self.scene.sound.points())
+
+    @property
+    def name(self) -> str:
+        """Fidelity and sound in words."""
+        return name_of(self.fidelity, self.microphones)
 
 
 def realtime(
@@ -87,6 +93,8 @@ def realtime(
         For a step, a duration or a name that is refused, and where no fidelity can run.
     SceneError
         For a scene that is refused.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
 
     Examples
     --------
@@ -101,15 +109,22 @@ def realtime(
     left_out: dict[str, str] = {}
     cases = list(_cases(scene, _known(fidelities), microphones, left_out))
     found: list[Timed] = []
-    for case in track(cases):
-        try:
-            found += _timed(case, step, steps, first, last)
-        except (ValueError, Refused) as problem:
-            left_out[name_of(case.fidelity, case.microphones)] = str(problem)
+    due = [case.name for case in cases]
+
+    def study() -> Realtime:
+        return Realtime(scene, step, tuple(found), left_out, machine())
+
+    with keeping(found, study, lambda: ", ".join(due)):
+        for case in track(cases):
+            try:
+                found += [*_timed(case, step, steps, first, last)]
+            except (ValueError, Refused) as problem:
+                left_out[case.name] = str(problem)
+            due.remove(case.name)
     if not found:
         reasons = "; ".join(dict.fromkeys(left_out.values()))
         raise ValueError(f"no fidelity of {scene.name} could be timed: {reasons}")
-    return Realtime(scene, step, tuple(found), left_out, machine())
+    return study()
 
 
 def _steps(step: float, duration: float) -> int:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.progress import keeping
 from fmu_bearing.scene import Scene, SceneSource
 from fmu_bearing.vibration_test.anderon import Unit, micrometres
 from fmu_bearing.vibration_test.band import Band
@@ -283,6 +284,8 @@ def vibration(
     ------
     ValueError
         For values that are refused before the first run; see `subject` and `rig`.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with the seeds that are finished as ``found``.
 
     Examples
     --------
@@ -304,19 +307,29 @@ def vibration(
     assert flaws is not None, "a subject has imperfections"
     drawn = [flaws, *flaws.redrawn(seeds - 1)]
     runs: list[_Run] = [
-        (piece, rigs[piece].model_copy(update={"imperfections": one})) for piece in PIECES for one in drawn
+        (piece, rigs[piece].model_copy(update={"imperfections": one})) for one in drawn for piece in PIECES
     ]
     runs += [(one, first.model_copy(update={"imperfections": flaws.alone(one)})) for one in flaws.sources]
-    found: dict[str, list[Reading]] = {}
-    for name, scene in bar(runs):
-        found.setdefault(name, []).append(reading(scene))
-    return Vibration(
-        first,
-        tuple(one.seed for one in drawn),
-        {piece: tuple(found[piece]) for piece in PIECES},
-        {one: found[one][0] for one in flaws.sources},
-        allowed,
-    )
+    found: dict[str, list[Reading]] = {name: [] for name, _ in runs}
+    whole = found[PIECES[-1]]  # a seed is run on all pieces, on this one last
+
+    def study() -> Vibration:
+        return Vibration(
+            first,
+            tuple(one.seed for one in drawn[: len(whole)]),
+            {piece: tuple(found[piece][: len(whole)]) for piece in PIECES},
+            {one: found[one][0] for one in flaws.sources if found[one]},
+            allowed,
+        )
+
+    def missing() -> str:
+        left = [f"{seeds - len(whole)} of {seeds} seeds"] if len(whole) < seeds else []
+        return ", ".join([*left, *(f"{one} alone" for one in flaws.sources if not found[one])])
+
+    with keeping(whole, study, missing):
+        for name, scene in bar(runs):
+            found[name].append(reading(scene))
+    return study()
 
 
 def checked_values(values: Sequence[float], scene: Scene, unit: Unit, name: str) -> tuple[float, ...]:

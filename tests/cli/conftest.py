@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 
 from fmu_bearing import cli
 from fmu_bearing.scene.read import with_fidelity
+from tests.design.test_fits import SHAFT, bearing
 
 
 @pytest.fixture(scope="session")
@@ -37,4 +38,12 @@ def rings_file(scene, tmp_path_factory):
     """The bare 7003C at fidelity rings, with compact sound."""
     path = tmp_path_factory.mktemp("scene") / "rings.toml"
     path.write_text(with_fidelity(scene("7003C-bare"), model="rings").to_toml(), "utf-8")
+    return path
+
+
+@pytest.fixture(scope="session")
+def fitted_file(tmp_path_factory):
+    """A steel bearing with fits, without sound."""
+    path = tmp_path_factory.mktemp("scene") / "fitted.toml"
+    path.write_text(bearing(shaft=SHAFT).model_copy(update={"sound": None}).to_toml(), "utf-8")
     return path

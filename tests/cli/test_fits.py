@@ -12,11 +12,9 @@ from tests.design.test_fits import HOUSING, SHAFT, STEEL, bearing, tight
 DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 
-@pytest.fixture(scope="module")
-def file(tmp_path_factory):
-    path = tmp_path_factory.mktemp("fits") / "fitted.toml"
-    path.write_text(bearing(shaft=SHAFT).model_copy(update={"sound": None}).to_toml(), "utf-8")
-    return path
+@pytest.fixture
+def file(fitted_file):
+    return fitted_file
 
 
 def test_table_csv_and_numbers(run, file, tmp_path):

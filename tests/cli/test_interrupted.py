@@ -1,6 +1,5 @@
 """Ctrl-C ends a command with code 130 and one line, whatever it does at that moment."""
 
-import errno
 import importlib
 import itertools
 import os
@@ -11,15 +10,16 @@ import time
 
 import pytest
 
-from fmu_bearing import Run, files
+from fmu_bearing import files
 from tests.conftest import EXAMPLES
 
 # of these names the packages also have functions
-changes, error_motion, scene_stiffness, sensitivity, tradeoff = (
+changes, choose, error_motion, realtime, scene_stiffness, sensitivity, tradeoff, vibration = (
     importlib.import_module(f"fmu_bearing.{name}")
     for name in (
-        "accuracy.changes", "metrology.error_motion", "steady.stiffness.scene_stiffness",
-        "accuracy.sensitivity", "accuracy.tradeoff",
+        "accuracy.changes", "run.choose", "metrology.error_motion", "run.realtime",
+        "steady.stiffness.scene_stiffness", "accuracy.sensitivity", "accuracy.tradeoff",
+        "vibration_test.vibration",
     )
 )  # fmt: skip
 
@@ -90,6 +90,17 @@ PER_ROW = {
     "changes": (changes, "_changed", 1),
     "stiffness": (scene_stiffness, "_at", 1),
     "error-motion": (error_motion, "followed", 1),
+    "vibration": (vibration, "reading", 3),  # a seed on two pieces
+    "realtime": (realtime, "_timed", 1),
+    "choose": (choose, "measure", 2),
+}
+
+
+#: What a study says that it lacks.
+MISSING = {
+    "vibration": "missing: 1 of 3 seeds, inner race alone, ",
+    "realtime": "missing: response without sound\n",  # the third fidelity; the scene is silent
+    "choose": "missing: 1 of 5 candidates, so that none is chosen\n",  # two are left out, two were run
 }
 
 
@@ -101,6 +112,9 @@ PER_ROW = {
         (["changes", "--no-levels"], []),
         (["stiffness", "--speeds", "9000,12000,15000", "--frequencies", "100"], ["stiffness.csv"]),
         (["error-motion", "--speeds", "2000,3000,4000", "--revolutions", "20"], ["lines.csv"]),
+        (["vibration", "--rigid", "--fidelity", "rings", "--seeds", "3"], ["lines.csv", "bands.png"]),
+        (["realtime", "--duration", "0.01"], ["realtime.csv"]),
+        (["choose"], []),
     ],
     ids=lambda words: words[0] if words else "",
 )
@@ -116,30 +130,16 @@ def test_a_study_keeps_what_is_finished(words, files, run, silent_file, tmp_path
         return whole(*given, **more)
 
     monkeypatch.setattr(module, name, row)
-    target = tmp_path / "stiffness.csv" if words[0] == "stiffness" else tmp_path
-    where = [] if words[0] == "changes" else ["-o", target]
+    monkeypatch.setattr(choose, "cache_file", lambda scene: tmp_path / "none")
+    target = tmp_path / f"{words[0]}.csv" if words[0] in ("stiffness", "realtime") else tmp_path
+    where = [] if words[0] in ("changes", "choose") else ["-o", target]
     done = run(words[0], silent_file, *words[1:], *where)
     assert done.exit_code == 130
     assert done.stderr.count("interrupted") == 1
+    assert MISSING.get(words[0], "") in done.stderr
+    assert done.stdout
     for file in files:
         assert (tmp_path / file).stat().st_size > 0
-
-
-def test_a_run_that_its_place_does_not_take_is_not_lost(run, silent_file, tmp_path, monkeypatch):
-    """The disk of the result is full, that of temporary files is not."""
-    whole = files.os.replace
-
-    def full(source, target):
-        if str(target).startswith(str(tmp_path / "full")):
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        whole(source, target)
-
-    monkeypatch.setattr(files.os, "replace", full)
-    done = run("simulate", silent_file, "-t", "0.002", "-o", tmp_path / "full" / "a.csv")
-    assert done.exit_code == 2
-    (line,) = done.stderr.splitlines()
-    assert line.startswith(f"error: {tmp_path}/full/a.csv: no space left on device; what was computed is in ")
-    assert len(Run.load(line.rpartition(" ")[2]).time) == 3
 
 
 def test_files_follow_the_users_mask(run, silent_file, tmp_path):

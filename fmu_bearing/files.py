@@ -335,9 +335,8 @@ def rescued(write: Callable[[Path], Any], path: Path) -> None:
     try:
         write(path)
     except OSError as problem:
-        from fmu_bearing.file_words import why  # which imports this module
-
-        words, folder = f"{path}: {why(problem)}", ""
+        reason, folder = problem.strerror or str(problem), ""
+        words = f"{path}: {reason[:1].lower()}{reason[1:]}"
         try:
             folder = tempfile.mkdtemp(prefix="fmu-bearing-")
             other = Path(folder) / path.name

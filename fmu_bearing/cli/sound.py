@@ -7,13 +7,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fmu_bearing.cli.base import (
+    INTERRUPTED,
     Refusal,
+    Writing,
     app,
     check_new,
     check_new_in,
+    end,
     print_json,
     refusals,
     shaft_speed,
+    so_far,
     tell,
 )
 from fmu_bearing.cli.options import (
@@ -131,6 +135,7 @@ def sound(
         turning = shaft_speed(speed)
         rough = None if surface is None else read_surface(surface)
         places = _places(microphone, microphone_at)
+        files, code = Writing(), 0
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
@@ -145,24 +150,34 @@ def sound(
             found = found if rough is None else rough.scene(found)
             require(found, "measurement")
             named_places(found.microphones, places)
-            recording = record(
-                found, duration, speed=turning, settle=settle,
-                radiation_model=radiation_model, warn=False,
-            )  # fmt: skip
-            output.mkdir(parents=True, exist_ok=True)
-            rescued(recording.save, output / _RECORDING)
+            recording, code = so_far(partial(
+                record, found, duration, speed=turning, settle=settle, radiation_model=radiation_model,
+                warn=False, keep=True,
+            ))  # fmt: skip
+            with files:
+                output.mkdir(parents=True, exist_ok=True)
+                rescued(recording.save, output / _RECORDING)
+                files.append(output / _RECORDING)
+            if code:
+                directivity = spread = False
+                tell(f"without directivity and range: `fmu-bearing sound {output / _RECORDING}` gives them")
         with work("sound at the microphones"):
             analysis = analyse_sound(recording, places, radiation_model, resolution)
             sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
-        with work("directivity, tables and pictures"):
-            files = [output / _RECORDING] if source.suffix not in (".npz", ".csv") else []
-            files += write_all(
-                recording, analysis, output, radiation_model, wav, directivity, tell, wav_format
-            )
-            if plot is not None:
-                save(spectra_picture(recording, analysis), plot)
-                files.append(plot)
-        sure = _spread(recording, places, radiation_model, rough, as_json) if spread else None
+        sure = None
+        try:
+            with work("directivity, tables and pictures"), files:
+                files += write_all(
+                    recording, analysis, output, radiation_model, wav, directivity, tell, wav_format
+                )
+                if plot is not None:
+                    save(spectra_picture(recording, analysis), plot)
+                    files.append(plot)
+            if spread:
+                sure = _spread(recording, places, radiation_model, rough, as_json)
+        except KeyboardInterrupt:
+            tell("interrupted: these are the levels; missing: files that are not named below, their range")
+            code = INTERRUPTED
         doubted = doubt_of(recording)
     if as_json:
         print_json(
@@ -182,7 +197,9 @@ def sound(
         if sure is not None:
             show("uncertainty of these levels", *sure.rows())
             tell(sure.remark())
-        tell(f"written: {output}: {', '.join(path.name for path in files)}")
+        if files:
+            tell(f"written: {output}: {', '.join(path.name for path in files)}")
+    end(code, files)
 
 
 def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Position] | None":

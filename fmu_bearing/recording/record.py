@@ -5,6 +5,7 @@ import os
 import pathlib
 import warnings
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -20,11 +21,12 @@ from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.prepare.sound import from_lines
-from fmu_bearing.progress import work
+from fmu_bearing.progress import Stopped, work
 from fmu_bearing.recording.channels.turning import WHIRL
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.rates import RatesWatch
+from fmu_bearing.run.simulate import stoppable
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.sound import Microphone, Sound
@@ -43,6 +45,7 @@ OUTPUTS = (
     "contact.inner.angle_mean",
     "contact.outer.angle_mean",
 )
+SHORTEST = 0.02  # s of a recording that Ctrl-C ends: periods of 50 Hz and more
 DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
 _FAR = 2000.0  # mm: place of the one microphone of a recording; its flight lengthens the channel history
 
@@ -62,6 +65,7 @@ def record(
     progress: bool | None = None,
     watch: Callable[[Instance], None] | None = None,
     warn: bool = True,
+    keep: bool = False,
 ) -> Recording:
     """Run a scene and keep its channels at 51.2 kHz, so that any microphone can be set up afterwards.
 
@@ -98,6 +102,8 @@ def record(
         Warn (``UserWarning``) where figures of fidelity rings or response are in doubt: a ring that whirls by
         itself, rings that depart from full in a short run, weakly damped modes. It takes 0.3 to 1 s for each
         scene, of sets up to 5 s, once per process, at constant inputs.
+    keep : bool
+        On Ctrl-C raise `Stopped` with what was recorded until then as ``found``, 20 ms or more of it.
 
     Returns
     -------
@@ -107,6 +113,8 @@ def record(
     ------
     ValueError
         For a refused time or input; `EngineError` and `SceneError` are subclasses.
+    KeyboardInterrupt
+        On Ctrl-C; with ``keep`` it is `Stopped`, or says why nothing is kept.
 
     Examples
     --------
@@ -147,14 +155,24 @@ def record(
     whirl = () if scene.bearing.cage is None else WHIRL
     names = variables_of(scene, dict.fromkeys((*outputs, RESTARTS, *whirl)))
     kept = _Readings(bearing, names, first + size + TAIL, watch)
-    _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress)
-    return Recording(
-        scene, wanted, SD.RATE, first / SD.RATE, size, np.array(kept.time), np.array(kept.speed),
+    with stoppable() if keep else nullcontext(lambda: False) as stop:
+        _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress, stop)
+    done = min(size, kept.count - first - TAIL)
+    if done < min(size, SHORTEST * SD.RATE):
+        raise KeyboardInterrupt(
+            f"interrupted at {bearing.time:.3g} s of the run: nothing is kept, as levels need {SHORTEST:g} s "
+            f"behind the {settle:g} s that are left out"
+        )
+    found = Recording(
+        scene, wanted, SD.RATE, first / SD.RATE, done, np.array(kept.time), np.array(kept.speed),
         {name: np.array(values) for name, values in kept.outputs.items()} | kept.rates.outputs(scene),
-        kept.rows,
+        kept.rows[: first + done + TAIL],
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
         harmonics=kept.histories[0].harmonics,
     )  # fmt: skip
+    if done < size:
+        raise Stopped(found, f"{(size - done) / SD.RATE:.3g} s of the {duration:g} s of the run")
+    return found
 
 
 def recording_of(source: RecordingSource, duration: float = DURATION, **options: Any) -> Recording:
@@ -283,15 +301,16 @@ class _Readings:
 
 
 def _march(
-    bearing: Instance, drives: Mapping[str, Signal], kept: _Readings, step: float, progress: bool | None
-) -> None:
-    """Step until all rows are read."""
+    bearing: Instance, drives: Mapping[str, Signal], kept: _Readings, step: float, progress: bool | None,
+    stop: Callable[[], bool],
+) -> None:  # fmt: skip
+    """Step until all rows are read, or ``stop`` is true."""
     total = len(kept.rows)
     shown = False if progress is None and total <= SD.RATE / 2 else progress
     with work(f"{bearing.model.scene.name}: recording", total / SD.RATE, "s", shown=shown) as bar:
         kept.read()
         number = 0
-        while not kept.full:
+        while not (kept.full or stop()):
             number += 1
             _drive(bearing, drives, number * step)
             bearing.step(number * step - bearing.time)

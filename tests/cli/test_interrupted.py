@@ -3,16 +3,20 @@
 import importlib
 import itertools
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
-from fmu_bearing import files
+from fmu_bearing import Recording, files, record
+from fmu_bearing.acoustics.analysis.field import TAIL
 from tests.conftest import EXAMPLES
 
+record_module = importlib.import_module("fmu_bearing.recording.record")
 # of these names the packages also have functions
 changes, choose, error_motion, realtime, scene_stiffness, sensitivity, tradeoff, vibration = (
     importlib.import_module(f"fmu_bearing.{name}")
@@ -140,6 +144,52 @@ def test_a_study_keeps_what_is_finished(words, files, run, silent_file, tmp_path
     assert done.stdout
     for file in files:
         assert (tmp_path / file).stat().st_size > 0
+
+
+@pytest.fixture
+def press(monkeypatch):
+    """Press Ctrl-C at a step of a recording, by its number."""
+
+    def at(number):
+        steps, whole = itertools.count(), record_module._drive
+
+        def drive(*given):
+            if next(steps) == number:
+                os.kill(os.getpid(), signal.SIGINT)
+            whole(*given)
+
+        monkeypatch.setattr(record_module, "_drive", drive)
+
+    return at
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_sound_keeps_what_was_recorded(run, rings_file, tmp_path, press):
+    """200 steps of 0.4 ms are 80 ms, 10 of them left out."""
+    press(200)
+    done = run("sound", rings_file, "--duration", "0.5", "--settle", "0.01", "-o", tmp_path / "out", "--json")
+    assert done.exit_code == 130
+    first, second = done.stderr.splitlines()[:2]
+    assert re.fullmatch(r"interrupted: .*; missing: 0\.4[23]\d s of the 0\.5 s of the run", first)
+    assert second.startswith("without directivity and range: `fmu-bearing sound ")
+    kept = Recording.load(tmp_path / "out" / "recording.npz")
+    # the flight to the farthest place lies behind what is analysed
+    assert kept.size / kept.rate == pytest.approx(0.07 - TAIL / kept.rate, abs=0.001)
+    assert len(done.data["levels"]) and (tmp_path / "out" / "levels.csv").is_file()
+    whole = record(rings_file, 0.08, settle=0.01, warn=False).history
+    assert np.array_equal(kept.history, whole[: len(kept.history)])
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_sound_says_why_nothing_is_kept(run, rings_file, tmp_path, press):
+    press(20)
+    done = run("sound", rings_file, "--duration", "0.5", "--settle", "0.01", "-o", tmp_path / "out")
+    assert done.exit_code == 130 and done.stdout == "" and not (tmp_path / "out").exists()
+    assert re.fullmatch(
+        r"interrupted at 0\.008\d* s of the run: nothing is kept, as levels need 0\.02 s behind the 0\.01 s "
+        r"that are left out\n",
+        done.stderr,
+    )
 
 
 def test_files_follow_the_users_mask(run, silent_file, tmp_path):

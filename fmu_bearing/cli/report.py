@@ -1,11 +1,23 @@
 """``fmu-bearing report``: one HTML page about a run."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, check_new, print_json, refusals, shaft_speed, tell
+from fmu_bearing.cli.base import (
+    Refusal,
+    Writing,
+    app,
+    check_new,
+    end,
+    print_json,
+    refusals,
+    shaft_speed,
+    so_far,
+    tell,
+)
 from fmu_bearing.cli.options import (
     DURATION,
     SETTLE,
@@ -94,23 +106,25 @@ def report(
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         chosen = source_of(source, settings, fidelity)
-        made = make(
-            chosen, output, duration=duration, settle=settle, radiation_model=radiation_model, radius=radius,
-            title=title, speed=turning, run_up=speeds, run_up_time=run_up_time, changes=changes,
-            surface=surface, tell=tell,
-        )  # fmt: skip
-        if keep is not None and made.recording is not None:
-            keep.parent.mkdir(parents=True, exist_ok=True)
-            rescued(made.recording.save, keep)
+        made, code = so_far(partial(
+            make, chosen, output, duration=duration, settle=settle, radiation_model=radiation_model,
+            radius=radius, title=title, speed=turning, run_up=speeds, run_up_time=run_up_time,
+            changes=changes, surface=surface, tell=tell,
+        ))  # fmt: skip
+        with Writing() as files:
+            if keep is not None and made.recording is not None:
+                keep.parent.mkdir(parents=True, exist_ok=True)
+                rescued(made.recording.save, keep)
     missing = {key: reason for key, reason in made.sections.items() if reason}
     if as_json:
         print_json({
             "path": made.path, "bytes": made.size, "figures": made.figures, "missing": missing,
             "sections": list(made.sections), "warnings": made.warnings, "verdict": made.verdict,
         })  # fmt: skip
-        return
+        return end(code, files)
     for key, reason in missing.items():
         tell(f"not in the report: {key}: {reason}")
     for warning in made.warnings:
         tell(f"warning: {warning}")
     typer.echo(f"written: {made.path} ({made.size / 1e6:.1f} MB)")
+    end(code, files)

@@ -3,23 +3,25 @@
 import os
 import pathlib
 import warnings as python_warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
-from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.progress import Tell, silent
+from fmu_bearing.files import check_file, rescued, write_whole
+from fmu_bearing.progress import Stopped, Tell, silent
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.recording.studies.spread import Spread, spread
 from fmu_bearing.reports.data.microphones import Microphones, at_microphones
 from fmu_bearing.reports.data.observed_run import STEP, observed
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.modes.modes_section import section as what_vibrates
-from fmu_bearing.reports.page.blocks import Absent, Section
+from fmu_bearing.reports.page.blocks import CUT, Absent, Section
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections import (
     ball_contacts,
@@ -47,6 +49,7 @@ SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
 RUN_UP = 1.0  # s a run-up takes
 RADIUS = 1.0  # m: of the sphere on which directivity is shown
 _SHORTEST = 0.02  # s
+_SLOW = ("changes", "directivity")  # sections
 
 
 @dataclass(frozen=True)
@@ -160,6 +163,9 @@ def make(
         When the page cannot be written; raised before the run.
     ValueError
         For a source, a time or a speed that is refused.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt`, after the page was written with what is finished: ``found`` is the
+        report. Before 20 ms of the run are there, no page is written.
     """
     need("plotly.graph_objects", "a report")
     need("jinja2", "a report")
@@ -175,14 +181,20 @@ def make(
             "run_up_time": (run_up_time, RUN_UP), "surface": (surface, None),
         }  # fmt: skip
         return _of_set(given, path, speed, title, tell, runs, source)
-    subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress)
-    rising = _run_up(subject, run_up, run_up_time, tell, progress) if run_up else None
+    left: list[str] = []  # what Ctrl-C leaves out
+    subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress, left)
+    rising, sure = None, None
+    if run_up and not left:
+        with _leaving(left, "the run-up"):
+            rising = _run_up(subject, run_up, run_up_time, tell, progress)
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
-        sections, microphones = _sections(subject, rising, changes, tell)
+        sections, microphones = _sections(subject, rising, changes, tell, left)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
-    sure = _spread(subject, microphones, rough, tell)
+    if not left:
+        with _leaving(left, "the range of the level"):
+            sure = _spread(subject, microphones, rough, tell)
     shown = summary.tiles(subject, microphones, sure)
     verdicts = judged(subject)
     overall = None if verdicts is None else overall_of(verdicts.found)
@@ -194,13 +206,30 @@ def make(
         summary.sentences(subject, microphones, sure), notes, None if verdicts is None else verdicts.table,
         overall=overall,
     )  # fmt: skip
-    data = text.encode("utf-8")
-    write_whole(path, data)
-    return Report(
-        path, len(data), {section.key: section.missing for section in sections},
+    return _written(
+        text, left, path, {section.key: section.missing for section in sections},
         {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
         "" if overall is None else overall.judgement,
     )  # fmt: skip
+
+
+@contextmanager
+def _leaving(left: list[str], what: str) -> Iterator[None]:
+    """On Ctrl-C in the block leave ``what`` out and go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        left.append(what)
+
+
+def _written(text: str, left: list[str], path: pathlib.Path, *more: Any) -> Report:
+    """Write the page and return the report; `Stopped` with it where something was left out."""
+    data = text.encode("utf-8")
+    rescued(partial(write_whole, data=data), path)
+    made = Report(path, len(data), *more)
+    if left:
+        raise Stopped(made, ", ".join(left))
+    return made
 
 
 def _check(
@@ -218,9 +247,9 @@ def _check(
 
 def _subject(
     source: Source, duration: float, settle: float, speed: float | None, radiation_model: str | None,
-    radius: float, surface: Surface | None, tell: Tell, progress: bool | None,
+    radius: float, surface: Surface | None, tell: Tell, progress: bool | None, left: list[str],
 ) -> Subject:  # fmt: skip
-    """Load a recording, or run a scene."""
+    """Load a recording, or run a scene; ``left`` gets what Ctrl-C leaves out."""
     text, whence = "", []
     if isinstance(source, str | os.PathLike):
         file = pathlib.Path(source)
@@ -239,10 +268,16 @@ def _subject(
     if choice is not None:
         tell(choice.summary)
     tell(f"running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")
-    recording, notes = observed(
-        scene, duration, speed=speed, settle=settle, radiation_model=radiation_model, progress=progress
-    )
-    origin = f"scene {scene.name}, run for {settle + duration:g} s of which the last {duration:g} s are shown"
+    try:
+        recording, notes = observed(
+            scene, duration, speed=speed, settle=settle, radiation_model=radiation_model, progress=progress
+        )
+    except Stopped as stop:
+        recording, notes = stop.found
+        left.append(stop.missing)
+        duration = recording.size / recording.rate
+    whole = settle + duration
+    origin = f"scene {scene.name}, run for {whole:.4g} s of which the last {duration:.4g} s are shown"
     if choice is not None:
         origin += f"; {choice.summary}"
     if surface is not None:
@@ -274,10 +309,9 @@ def _of_set(
             raise ValueError(f"{name}: {refusal(scene, 'run report')}")
     if speed is not None:
         scene = scene.replace({"operation.speed_rpm": speed / RPM})
-    page = set_page(scene, title, tell, whence, text)
-    data = page.text.encode("utf-8")
-    write_whole(path, data)
-    return Report(path, len(data), page.sections, page.figures, page.warnings, None, page.verdict)
+    left: list[str] = []
+    page = set_page(scene, title, tell, whence, text, left)
+    return _written(page.text, left, path, page.sections, page.figures, page.warnings, None, page.verdict)
 
 
 def _spread(
@@ -336,9 +370,13 @@ def _run_up(
 
 
 def _sections(
-    subject: Subject, rising: Subject | None, changes: bool | None, tell: Tell
+    subject: Subject, rising: Subject | None, changes: bool | None, tell: Tell, left: list[str]
 ) -> tuple[list[Section], Microphones | None]:
-    """All sections in the page's order; one that cannot be made gives the reason."""
+    """All sections in the page's order; one that cannot be made gives the reason.
+
+    After Ctrl-C in a run or the sound what takes longest is left out, after Ctrl-C in a section all that
+    follows.
+    """
     microphones: Microphones | None = None
     reason = ""
     tell("sound at the microphones")
@@ -346,6 +384,8 @@ def _sections(
         microphones = at_microphones(subject)
     except (Absent, ValueError) as problem:
         reason = str(problem)
+    except KeyboardInterrupt:
+        reason = CUT
 
     def with_sound(make_one: Callable[[Microphones], Section]) -> Callable[[], Section]:
         def made() -> Section:
@@ -377,13 +417,21 @@ def _sections(
         plan.insert(
             1, ("fits", "Fits of the rings", lambda: Section("fits", "Fits of the rings", seats(turning)))
         )
-    found = []
+    found: list[Section] = []
+    stopped = False
     for key, title, make_one in plan:
         if key == "changes" and changes is False:
+            continue
+        if stopped or (left or reason == CUT) and key in _SLOW:
+            found.append(Section(key, title, (), CUT))
             continue
         tell(f"section: {title.lower()}")
         try:
             found.append(make_one())
         except Absent as problem:
             found.append(Section(key, title, (), str(problem)))
+        except KeyboardInterrupt:
+            found.append(Section(key, title, (), CUT))
+            stopped = True
+    left += [one.key for one in found if one.missing == CUT]
     return found, microphones

@@ -15,7 +15,7 @@ from fmu_bearing.instance import EngineError
 from fmu_bearing.progress import Tell
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import Absent, Block, Card, Chart, Section, Table
+from fmu_bearing.reports.page.blocks import CUT, Absent, Block, Card, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections.error_motion import error_motion
@@ -62,10 +62,13 @@ class SetPage:
     verdict: str
 
 
-def set_page(scene: Scene, title: str, tell: Tell, whence: Sequence[Origin] = (), text: str = "") -> SetPage:
+def set_page(
+    scene: Scene, title: str, tell: Tell, whence: Sequence[Origin], text: str, left: list[str]
+) -> SetPage:  # fmt: skip
     """Return the page about a scene's set.
 
-    ``whence``, ``text``: origins of its values and the text of its file, where it has one.
+    ``whence``, ``text``: origins of its values and the text of its file, where it has one; ``left`` gets the
+    keys of sections that Ctrl-C leaves out.
 
     Raises
     ------
@@ -90,11 +93,16 @@ def set_page(scene: Scene, title: str, tell: Tell, whence: Sequence[Origin] = ()
     sections = []
     for key, heading, blocks in plan:
         try:
-            sections.append(Section(key, heading, blocks()))
+            sections.append(Section(key, heading, [], CUT) if left else Section(key, heading, blocks()))
         except Absent as problem:
             sections.append(Section(key, heading, [], str(problem)))
+        except KeyboardInterrupt:
+            sections.append(Section(key, heading, [], CUT))
+        left += [key] if sections[-1].missing == CUT else []
     loudest: list[Tile] = []
     try:
+        if left:
+            raise KeyboardInterrupt
         sounding, microphones, run = sound_of_set(scene, tell)
         sections += [*sounding, _error_motion(run, tell)]
         level = float(microphones.levels["A"]["total"][microphones.loudest])
@@ -109,6 +117,11 @@ def set_page(scene: Scene, title: str, tell: Tell, whence: Sequence[Origin] = ()
             f"it is of the run for the sound, and there is none: {problem}; or give the command error-motion"
         )
         sections.append(Section("error-motion", "Error motion", [], why))
+    except KeyboardInterrupt:
+        both = {"levels": "Levels and sources", "error-motion": "Error motion"}
+        due = both.keys() - {one.key for one in sections}
+        sections += [Section(key, both[key], [], CUT) for key in sorted(due, reverse=True)]
+        left += sorted(due, reverse=True) or ["the range of the level"]
     sections.append(Section("assumptions", "Assumptions", set_assumptions(scene, whence, text)))
     tiles, cards = _tiles(point) + loudest, [_card(point, k) for k in range(len(point.bearings))]
     whole = overall_of(judged, several=True)

@@ -192,6 +192,64 @@ def test_sound_says_why_nothing_is_kept(run, rings_file, tmp_path, press):
     )
 
 
+REPORT = ("--duration", "0.5", "--settle", "0.01", "--json")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_report_of_a_run_that_was_cut(run, rings_file, tmp_path, press):
+    """The page is made of 0.1 s less the flight to microphones; what takes longest is left out."""
+    press(1408)  # steps of 1/25600 s, after 10 ms and 45 ms
+    page, kept = tmp_path / "page.html", tmp_path / "run.npz"
+    done = run("report", rings_file, *REPORT, "-o", page, "--keep", kept)
+    assert done.exit_code == 130, done.output
+    assert re.search(r"missing: 0\.4[56]\d* s of the 0\.5 s of the run, changes, directivity\n", done.stderr)
+    cut = {key for key, reason in done.data["missing"].items() if reason.startswith("interrupted")}
+    assert cut == {"changes", "directivity"} and page.stat().st_size > 1e6
+    found = Recording.load(kept)
+    assert found.size / found.rate == pytest.approx(0.045 - TAIL / found.rate, abs=0.001)
+    assert "of which the last 0.04" in page.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("place", "cut"),
+    [
+        ("error_motion.error_motion", {"error-motion", "contacts", "friction", "assumptions"}),
+        ("at_microphones", {"levels", "spectra", "audio", "waterfall", "directivity"}),
+        ("_spread", set()),
+    ],
+)
+def test_a_report_has_the_sections_that_are_finished(run, rings_file, tmp_path, monkeypatch, place, cut):
+    def pressed(*given, **more):
+        raise KeyboardInterrupt
+
+    home = importlib.import_module("fmu_bearing.reports.make")
+    module, _, name = place.rpartition(".")
+    monkeypatch.setattr(getattr(home, module) if module else home, name, pressed)
+    page = tmp_path / "page.html"
+    done = run("report", rings_file, "--duration", "0.05", "--no-changes", "--json", "-o", page)
+    assert done.exit_code == 130, done.output
+    missing = {key for key, reason in done.data["missing"].items() if reason.startswith("interrupted")}
+    assert missing == cut and page.stat().st_size > 5e5
+    assert (
+        f"missing: {', '.join(key for key in done.data['sections'] if key in cut) or 'the range'}"
+        in done.stderr
+    )
+
+
+def test_the_report_of_a_set_has_the_sections_that_are_finished(run, tmp_path, monkeypatch):
+    def pressed(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("fmu_bearing.reports.set_page._axial", pressed)
+    page = tmp_path / "page.html"
+    done = run("report", EXAMPLES.parent / "spindle_set" / "7003C-DB.toml", "--json", "-o", page)
+    assert done.exit_code == 130, done.output
+    assert [key for key, reason in done.data["missing"].items() if reason] == [
+        "axial", "warmth", "levels", "error-motion"
+    ]  # fmt: skip
+    assert "missing: axial, warmth, levels, error-motion\n" in done.stderr and page.is_file()
+
+
 def test_files_follow_the_users_mask(run, silent_file, tmp_path):
     before = os.umask(0o077)
     try:

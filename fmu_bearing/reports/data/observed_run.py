@@ -6,6 +6,7 @@ from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface.outputs import internals, outputs
 from fmu_bearing.metrology.axis_watch import AxisWatch
+from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.balls import Watch
 from fmu_bearing.scene import Scene
@@ -54,6 +55,8 @@ def observed(
     ------
     ValueError
         As ``record``.
+    Stopped
+        On Ctrl-C, as ``record``, with both as ``found``.
     """
     watch, axis = Watch(), AxisWatch()
 
@@ -63,9 +66,16 @@ def observed(
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        recording = record(
-            scene, duration, speed=speed, settle=settle, step=STEP, radiation_model=radiation_model,
-            outputs=variables_of(scene), progress=progress, watch=both, warn=False,
-        )  # fmt: skip
+        missing = ""
+        try:
+            recording = record(
+                scene, duration, speed=speed, settle=settle, step=STEP, radiation_model=radiation_model,
+                outputs=variables_of(scene), progress=progress, watch=both, warn=False, keep=True,
+            )  # fmt: skip
+        except Stopped as stop:
+            recording, missing = stop.found, stop.missing
     recording.outputs.update(watch.outputs() | axis.outputs(scene))
-    return recording, list(dict.fromkeys(str(each.message) for each in caught))
+    found = recording, list(dict.fromkeys(str(each.message) for each in caught))
+    if missing:
+        raise Stopped(found, missing)
+    return found

@@ -148,6 +148,10 @@ class Shapes:
 Block = Words | Table | Chart | Sound | Folded | Shapes
 
 
+#: Why a section is missing that Ctrl-C ended or came before.
+CUT = "interrupted before it was computed"
+
+
 @dataclass(frozen=True)
 class Section:
     """A heading and its blocks; ``missing``: why there are none."""

@@ -35,9 +35,13 @@ def point(*given, **keys):
     return whole(*given, **keys).bearings[0]
 
 
-def at_end(name, end):
+def greased():
+    return whole(lubricant__supply="grease")
+
+
+def at_end(name, end, of=None):
     """Friction torque with one input at an end, N m."""
-    (found,) = (one for one in whole().torque_range.inputs if one.name == name)
+    (found,) = (one for one in (of or whole()).torque_range.inputs if one.name == name)
     return getattr(found, end).torques[0]
 
 
@@ -211,6 +215,11 @@ FIGURES = {
         "29.66 N mm, 40": lambda: 1e3 * at_end("supply", "high"),
         "40 % more": lambda: 100.0 * (at_end("supply", "high") / point().friction_torque - 1.0),
         "1 % of the torque": lambda: 100.0 * (at_end("drag_density", "high") / point().friction_torque - 1.0),
+        "43.96 W in": lambda: greased().bearings[0].heat.total,
+        "21.71 29.53": lambda: 1e3 * at_end("grease", "low", greased()),
+        "29.53 ```": lambda: 1e3 * at_end("grease", "high", greased()),
+        "1.54 times": lambda: 2.0 / 1.3,
+        "1.49 times": lambda: 2.0 / 1.34,
         "32.7 degC, its": lambda: settled(SET)[0][0, "shaft"],
         "22.8 degC. The": lambda: settled(SET)[0][0, "housing"],
         "9.9 K.": lambda: settled(SET)[0][0, "shaft"] - settled(SET)[0][0, "housing"],

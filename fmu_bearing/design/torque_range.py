@@ -49,6 +49,12 @@ CLEARANCE = 0.5
 #: Few drops and close conformity, or room for oil: both were measured on one rig (Balan, Houpert, Tufescu and
 #: Olaru 2015). Replenishment constants of SKF's friction model for oil-air and for jets.
 SUPPLY = (("starved", 6e-8), ("flooded", 3e-8))
+#: The same ends with grease: bled oil alone, as SKF's model has it after some hours with 30 % of the space
+#: filled (general catalogue, p. 97 f.), or inlets into which grease still comes, as in an oil bath. Makers'
+#: factors f0 of what depends on speed, bath over grease: 2/1.3 (Schaeffler HR 1, 2006, p. 59) and 2/1.34
+#: (KRW, p. 117); the ends are 1.5 to 1.7 apart. Fresh grease churns at two to five times f0 (HR 1, p. 56): in
+#: no end.
+GREASED = ("settled, starved", "flooded")
 
 #: What `TorqueRange.table` shows, in words.
 CAPTION = "friction torque, N mm, with one input at its low and its high end"
@@ -224,6 +230,8 @@ def _traction(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 def _density(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     if p[P.DRAG] == 0.0 or p[P.DRAG_FACTOR] == 0.0:
         return None
+    if scene.lubricant.greased:  # the balls go through air
+        return None
     return _widest("lubricant.oil_air_density_kg_m3", scene.lubricant.oil_air_density_kg_m3, DENSITY)
 
 
@@ -263,11 +271,19 @@ def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 
 
 def _supply(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    return None if scene.lubricant.greased else _inlets(p, (SUPPLY[0][0], SUPPLY[1][0]))
+
+
+def _grease(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    return _inlets(p, GREASED) if scene.lubricant.greased else None
+
+
+def _inlets(p: NDArray[np.float64], words: tuple[str, str]) -> _Ends | None:
     if p[P.ROLLING] == 0.0:
         return None
     keys = ("lubricant.rolling_law", "lubricant.replenishment_constant")
-    low, high = ((one[0], dict(zip(keys, one, strict=True))) for one in SUPPLY)
-    return low, high
+    low, high = (dict(zip(keys, one, strict=True)) for one in SUPPLY)
+    return (words[0], low), (words[1], high)
 
 
 #: By name: what the input is, in words, and its ends in a scene with these parameters of its first bearing.
@@ -279,6 +295,7 @@ _INPUTS: dict[str, tuple[str, Callable[[Scene, NDArray[np.float64]], _Ends | Non
     "hysteresis": ("hysteresis loss", _hysteresis),
     "lands": ("oil between cage and lands", _lands),
     "supply": ("oil at the inlets", _supply),
+    "grease": ("grease at the inlets", _grease),
 }
 
 

@@ -22,7 +22,8 @@ _ROLLING_LAWS: dict[Supply, RollingLaw] = {
 _MIST = 0.006  # Pa s
 _LANDS: dict[Supply, float | None] = {"oil-air": _MIST, "grease": _MIST, "jet": None, "bath": None}
 _AIR = 1.2  # kg/m3
-# SKF has one constant for oil-air and grease that has settled; what fresh grease churns is in no model.
+# SKF has one constant for oil-air and grease that has settled (general catalogue, p. 97 f.), Schaeffler one
+# factor for oil mist and grease (HR 1, 2006, p. 59). What fresh grease churns is in no model.
 _REPLENISHMENT: dict[Supply, float] = {"oil-air": 6e-8, "grease": 6e-8, "jet": 3e-8, "bath": 3e-8}
 
 

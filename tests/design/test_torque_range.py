@@ -130,8 +130,30 @@ def test_an_end_without_equilibrium_is_left_out_and_named(monkeypatch):
 )
 def test_what_does_not_act_is_left_out(changes, without):
     scene = single({"fidelity.terms.rolling_hysteresis": True})
-    assert set(inputs(torque_range(scene))) == set(module._INPUTS)
-    assert set(module._INPUTS) - set(inputs(torque_range(scene.replace(changes)))) == without
+    every = set(module._INPUTS) - {"grease"}
+    assert set(inputs(torque_range(scene))) == every
+    assert every - set(inputs(torque_range(scene.replace(changes)))) == without
+
+
+def test_grease_is_uncertain_at_the_inlets_not_in_the_density_of_oil_and_air():
+    """Makers' factors of what depends on speed, in an oil bath over settled grease: 1.49 and 1.54.
+
+    KRW 2 over 1.34, Schaeffler HR 1 2 over 1.3; ours over two scenes 1.46 to 1.7, hysteresis in the rolling.
+    """
+    for file in (SINGLE, SET):
+        greased = read_scene(file).replace({"lubricant.supply": "grease"})
+        found = inputs(torque_range(greased))
+        assert not {"drag_density", "supply"} & set(found)
+        assert found["grease"].words == "grease at the inlets"
+        settled, flooded = (
+            operating_point(greased.replace(end.values)).bearings
+            for end in (found["grease"].low, found["grease"].high)
+        )
+        for one, other in zip(settled, flooded, strict=True):
+            fast, slow = (b.heat.rolling + b.heat.cage + b.heat.drag for b in (other, one))
+            assert 1.4 < fast / slow < 1.75
+    without = {"lubricant.supply": "grease", "fidelity.terms.rolling_resistance": False}
+    assert "grease" not in inputs(torque_range(single(without)))
 
 
 def test_a_value_beyond_an_end_becomes_that_end():

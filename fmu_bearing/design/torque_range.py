@@ -54,7 +54,7 @@ SUPPLY = (("starved", 6e-8), ("flooded", 3e-8))
 #: factors f0 of what depends on speed, bath over grease: 2/1.3 (Schaeffler HR 1, 2006, p. 59) and 2/1.34
 #: (KRW, p. 117); the ends are 1.5 to 1.7 apart. Fresh grease churns at two to five times f0 (HR 1, p. 56): in
 #: no end.
-GREASED = ("settled, starved", "flooded")
+GREASED = ("settled", "flooded")
 
 #: What `TorqueRange.table` shows, in words.
 CAPTION = "friction torque, N mm, with one input at its low and its high end"

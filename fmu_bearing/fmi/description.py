@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any
 from uuid import UUID
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-import numpy as np
-
 from fmu_bearing import __version__
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
@@ -122,13 +121,15 @@ def fmi_type(variable: Variable) -> str:
 
 
 def interface_guid(model: "Model", flavour: str = FLAVOURS[0]) -> str:
-    """Return the GUID: a hash of the description, of the scene and of every number in the parameters.
+    """Return the GUID: a hash of the description with its version, of the scene and of the equations.
 
-    Two FMUs with the same GUID have the same variables, the same model and the same abilities.
+    Two FMUs of one version with the same GUID have the same variables, the same model and the same abilities.
+    It is equal on all machines: numbers computed from the scene, whose last bits differ between processors,
+    are left out.
     """
     digest = hashlib.sha256(_serialise(_root(model, flavour, guid="")))
     digest.update(model.scene.to_toml().encode("utf-8"))
-    digest.update(np.ascontiguousarray(model.parameters, dtype="<f8").tobytes())
+    digest.update(engine_digest())
     return f"{{{UUID(bytes=digest.digest()[:16])}}}"
 
 

@@ -41,6 +41,8 @@ from fmu_bearing.files import check_folder, rescued
 from fmu_bearing.progress import steps, work
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from fmu_bearing.acoustics.analysis.field import Position
     from fmu_bearing.recording.channels.microphone_places import Places
     from fmu_bearing.recording.recording import Recording
@@ -51,7 +53,7 @@ _RECORDING = "recording.npz"
 #: What may be written into the folder.
 _FILES = (
     _RECORDING, "levels.csv", "spectrum.csv", "third-octaves.csv", "planes.csv", "spectrum.png",
-    "third-octaves.png", "planes.png", "lines.md", "spectra.nc", "*.wav",
+    "third-octaves.png", "planes.png", "lines.md", "orders.csv", "orders.png", "spectra.nc", "*.wav",
 )  # fmt: skip
 
 
@@ -67,6 +69,15 @@ def sound(
     duration: Duration = DURATION,
     settle: Settle = SETTLE,
     speed: Speed = None,
+    run_up: Annotated[
+        str | None,
+        typer.Option(
+            "--run-up",
+            metavar="FROM,TO",
+            help="Speed in r/min at the beginning and at the end of --duration; levels over order and speed "
+            "are then written, too.",
+        ),
+    ] = None,
     settings: Settings = None,
     fidelity: Fidelity = None,
     radiation_model: RadiationModel = None,
@@ -111,7 +122,8 @@ def sound(
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV.
 
-    --plot writes the picture of the spectra, as spectrum.png in the folder, to a file.
+    Where the speed changes, of a recording or result too, an order map is written in place of the strongest
+    lines. --plot writes the picture of the spectra, as spectrum.png in the folder, to a file.
     """
     from fmu_bearing.acoustics.analysis.audio import check_format
     from fmu_bearing.recording.channels.microphone_places import named_places
@@ -132,7 +144,7 @@ def sound(
         if plot is not None:
             check_new(force, check_picture(plot))
         chosen = source_of(source, settings, fidelity)
-        turning = shaft_speed(speed)
+        turning = shaft_speed(speed) if run_up is None else _ramp(run_up, source, speed, settle, duration)
         rough = None if surface is None else read_surface(surface)
         places = _places(microphone, microphone_at)
         files, code = Writing(), 0
@@ -200,6 +212,23 @@ def sound(
         if files:
             tell(f"written: {output}: {', '.join(path.name for path in files)}")
     end(code, files)
+
+
+def _ramp(
+    text: str, source: Path, speed: float | None, settle: float, duration: float
+) -> "Callable[[float], float]":
+    """Return the shaft's speed (rad/s) over time (s) of a run-up, which begins after the start-up."""
+    if source.suffix in (".npz", ".csv"):
+        raise Refusal(f"--run-up is refused: {source.name} has a speed of its own; leave it out")
+    if speed is not None:
+        raise Refusal("--run-up and --speed are refused together: give one of them")
+    try:
+        low, high = (shaft_speed(float(part), "--run-up") or 0.0 for part in text.split(","))
+    except ValueError as problem:
+        if isinstance(problem, Refusal):
+            raise
+        raise Refusal(f"--run-up {text} is refused: write two speeds in r/min, as 4000,36000") from None
+    return lambda time: low + (high - low) * min(max(time - settle, 0.0) / duration, 1.0)
 
 
 def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Position] | None":

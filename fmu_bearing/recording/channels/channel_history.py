@@ -111,6 +111,11 @@ class ChannelHistory(Turning):
         return np.interp(self.time, self.output_time, self.speed_points)
 
     @property
+    def changes_speed(self) -> bool:
+        """Whether the shaft's speed changes, by more than 1 % of its mean."""
+        return bool(np.ptp(self.speed) > 0.01 * abs(float(np.mean(self.speed))))
+
+    @property
     def angle(self) -> NDArray[np.float64]:
         """Angle (rad) the shaft has turned since initialisation at each sample, shape (size,)."""
         t, w = self.output_time, self.speed_points

@@ -76,6 +76,8 @@ class NoiseAt:
         end = self.excitation_end
         if end is not None and self.frequency > end:
             return [*found, f"no surface of the scene excites it: they end at {1e-3 * end:.3g} kHz"]
+        if self.line is None and self.nearest is None:
+            return found  # neither bearing nor speed is known, or the speed changes
         if self.line is None:
             found.append("no line stands out in the band")
             place = self.frequency
@@ -142,7 +144,7 @@ def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) 
     levels = {"total": found.third_octaves[:, place]}
     levels |= {name: values[:, place] for name, values in found.third_octave_parts.items()}
     line, nearest = None, None
-    if recording.scene is not None:
+    if recording.scene is not None and not recording.changes_speed:
         spectrum = found.spectra["total"][int(np.argmax(levels["total"]))]
         lines = strongest(recording, found.frequency, spectrum, len(found.frequency))
         line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 _SETTLE = 0.02  # s left to filters of third octaves, at most a fifth of the recording
 _LINES = 12
 _BARS = 8  # microphones side by side in a picture
+_TURNS = 10  # of the shaft in a block of an order map; fewer where there would be less than
+_BLOCKS = 8  # of them, one after the other
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,7 @@ class SoundAnalysis:
     third_octave_parts : dict of str to ndarray, shape (mics, bands)
         Those (dB) of each component alone; empty for a recording of pressures.
     lines : list of Line
-        Strongest lines at the first microphone; empty where the bearing is not known.
+        Strongest lines at the first microphone; empty where the bearing is not known or the speed changes.
     positions : tuple of (x, y, z)
         Places (m) of the microphones.
     """
@@ -152,7 +154,7 @@ def analyse_sound(
     bands, thirds = octaves.pop("total")
     lines = (
         []
-        if recording.scene is None
+        if recording.scene is None or recording.changes_speed
         else measure.strongest(recording, frequency, spectra["total"][0], _LINES)
     )
     return SoundAnalysis(
@@ -185,6 +187,8 @@ def write_all(
     wav_format: str = "float",
 ) -> list[pathlib.Path]:
     """Write tables (CSV) and sounds (WAV), and as far as installed pictures (PNG) and spectra (netCDF).
+
+    Where the speed changes, levels over order and speed at the first microphone are among them.
 
     Parameters
     ----------
@@ -231,6 +235,8 @@ def write_all(
         head = f"Strongest lines at {found.names[0]}\n\n"
         (folder / "lines.md").write_text(head + markdown(*tables.lines_table(found.lines)), "utf-8")
         files.append("lines.md")
+    if recording.changes_speed:
+        files += _orders(recording, found, folder, radiation_model, drawn, tell)
     if wav:
         files += _sounds(recording, found, folder, radiation_model, wav_format)
     if directivity and recording.history.size:
@@ -258,7 +264,8 @@ def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure"
     from fmu_bearing.recording.measurements import pictures
 
     audible = found.frequency <= 20_000.0
-    kinematics = None if recording.scene is None else recording.kinematics()
+    still = recording.scene is not None and not recording.changes_speed
+    kinematics = recording.kinematics() if still else None
     shown = {name: levels[0][audible] for name, levels in found.spectra.items()}
     frequency, end = found.frequency[audible], recording.excitation_end
     return pictures.spectrum_picture(frequency, shown, kinematics, found.names[0], end, found.lines)
@@ -282,6 +289,35 @@ def _sounds(
     for file, pressure in zip(files, pressures, strict=True):
         write_wav(folder / file, pressure, recording.rate, scale, wav_format)
     return files
+
+
+def _orders(
+    recording: ChannelHistory,
+    found: SoundAnalysis,
+    folder: pathlib.Path,
+    radiation_model: str | None,
+    drawn: bool,
+    tell: Tell,
+) -> list[str]:
+    """Write the order map at the first microphone; ``drawn``: a picture too."""
+    from fmu_bearing.recording.measurements import pictures
+
+    name = found.names[0]
+    place = name if name in dict(recording.microphones) else found.positions[0]
+    turns = abs(float(recording.angle[-1] - recording.angle[0])) / (2.0 * math.pi)
+    whole = min(_TURNS, max(1, int(turns / _BLOCKS)))
+    try:
+        orders = measure.run_up(recording, place, resolution=1.0 / whole, radiation_model=radiation_model)
+    except ValueError as problem:
+        tell(f"no order map: {problem}")
+        return []
+    write_csv(folder / "orders.csv", *tables.order_table(orders))
+    if not drawn:
+        return ["orders.csv"]
+    kinematics = None if recording.scene is None else recording.kinematics()
+    picture = pictures.order_picture(orders, kinematics, name, recording.excitation_end)
+    pictures.save(picture, folder / "orders.png")
+    return ["orders.csv", "orders.png"]
 
 
 def _stems(names: Sequence[str]) -> list[str]:

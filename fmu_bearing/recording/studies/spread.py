@@ -266,9 +266,8 @@ def at_speed(recording: Recording) -> Scene:
     """
     if recording.scene is None:
         raise ValueError("the recording does not know its scene: give the scene")
-    speed = recording.speed
-    mean = float(np.mean(speed))
-    if np.ptp(speed) > 0.01 * abs(mean):
+    mean = float(np.mean(recording.speed))
+    if recording.changes_speed:
         raise ValueError("the recording's speed changes: levels belong to one operating point")
     operation = recording.scene.operation.model_copy(update={"speed_rpm": mean / RPM})
     return recording.scene.model_copy(update={"operation": operation})

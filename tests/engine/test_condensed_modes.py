@@ -69,22 +69,37 @@ def assert_equal_poles(scene, tolerance, fidelity="rings"):
     assert max(slow_enough(quick).real) <= max(max(slow_enough(full).real), 0.0) + 0.05
 
 
-def poles_of_rings(scene, rpm, spacing=1e-5, count=300):
-    """Poles (1/s) that the free decay of `rings` shows after a radial kick of the inner ring."""
+def poles_of_rings(scene, rpm, spacing=1e-5, count=300, axis=1):
+    """Poles (1/s) that the free decay of `rings` shows after a kick of the inner ring; radial, or axis 0."""
     run = Run(quiet(scene), rpm, FIDELITY=FIDELITIES["rings"], GRAVITY=0.0, CAGE=0.0, MAX_STEP=5e-6).init()
-    history(run)[H.V0, 1] += 1e-5
+    history(run)[H.V0, axis] += 1e-5
     rows = run.run(count * spacing, spacing)
-    return pencil(rows[:, 1:2] + 1j * rows[:, 2:3], spacing, 20)
+    return pencil(rows[:, axis : axis + 1] + 1j * rows[:, 2:3] * (axis == 1), spacing, 20)
 
 
 SPEEDS = (3_000, 10_000, 20_000, 28_000)  # r/min
 
 
-@pytest.mark.parametrize("damping", [0.5, 10.0])
+@pytest.mark.parametrize("damping", [0.5, 10.0, 12.0, 20.0])
 @pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic", "7009C-steel"])
 def test_the_operator_has_the_modes_of_full(scene, example, name, damping):
     for folder in (scene, example):
         assert_equal_poles(folder(name).replace({"bearing.contact_damping_us": damping}), 2e-6)
+
+
+@pytest.mark.parametrize("damping", [12.0, 20.0])
+def test_the_axial_mode_is_damped_as_in_full_by_strong_contacts(scene, damping):
+    """2.46 kHz. Contacts that store all of its energy would have a damping ratio of pi f tau: 0.09 and 0.15.
+
+    Operators to 1e-6; the free decay of `rings` to 0.1 %, by its steps of 5 us.
+    """
+    spindle = scene("7003C-spindle")
+    damped, plain = (spindle.replace({"bearing.contact_damping_us": us}) for us in (damping, 0.0))
+    full, undamped = (nearest(full_and_quick(one)[0], 2_460) for one in (damped, plain))
+    assert 0.8 < (full[1] - undamped[1]) / (np.pi * full[0] * 1e-6 * damping) < 1.0
+    for fidelity in FIDELITIES:
+        assert nearest(full_and_quick(damped, fidelity)[1], 2_460) == pytest.approx(full, rel=1e-6)
+    assert nearest(poles_of_rings(damped, 20_000, axis=0), 2_460) == pytest.approx(full, rel=1e-3)
 
 
 @pytest.mark.parametrize(

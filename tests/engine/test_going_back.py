@@ -9,13 +9,13 @@ from tests.engine.test_response_sound import PLACES
 from tests.spindle.test_sound import pair, sound
 
 _STEP = 1e-4
-_STEPS = 150
+_STEPS = 220
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
 @pytest.mark.parametrize("bearings", [1, 2])
 def test_going_back_on_one_instance(scene, bearings, fidelity):
-    """In a run-up with microphones, back by 1 to 100 steps: pieces of renewals go on where they were."""
+    """In a run-up with microphones, back by 1 to 200 steps: pieces of renewals go on where they were."""
     given = scene("7003C-spindle") if bearings == 1 else pair(sound("compact", *PLACES), flaws=True)
     run = Instance(prepare(given, fidelity=fidelity), tell=lambda _: None)
     run.initialise()
@@ -30,7 +30,7 @@ def test_going_back_on_one_instance(scene, bearings, fidelity):
     for number in range(_STEPS):
         states.append(run.s.copy())
         once.append(step(number))
-    for back in (1, 2, 7, 25, 60, 100):
+    for back in (1, 2, 7, 25, 60, 100, 200):
         begin = _STEPS - back
         run.s[:] = states[begin]
         again = [step(number) for number in range(begin, min(begin + 40, _STEPS))]

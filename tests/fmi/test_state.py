@@ -42,6 +42,17 @@ def test_continuing_after_restore_gives_the_same_bits(master):
     assert bearing.release(state) == fresh.release(copy) == OK
 
 
+def test_going_back_200_steps_gives_the_same_bits(master):
+    """Of motion, work space and sound filters: nothing is left over from the steps that were taken back."""
+    bearing = master().start(preload=300.0)
+    bearing.run(2)
+    state = bearing.keep()
+    after = bearing.run(200, 2 * STEP)
+    assert bearing.put_back(state) == OK
+    assert bearing.run(200, 2 * STEP) == after
+    assert bearing.release(state) == OK
+
+
 def test_state_before_initialisation_can_be_kept(master):
     bearing, other = master(), master().start(preload=300.0)
     assert bearing.set("preload", 300.0) == OK

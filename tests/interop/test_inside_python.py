@@ -62,6 +62,24 @@ def test_ecospy(fmu, expected):
 
 
 @needs_linux64
+def test_one_instance_of_ecospy_after_the_other(fmu, expected):
+    """The same FMU twice in one process, by name in one structure and in simulations one after the other."""
+    from run import load_ecos
+
+    ecospy = load_ecos()
+    for _ in range(2):
+        with ecospy.EcosSimulationStructure() as structure:
+            for each in ("one", "other"):
+                structure.add_model(each, str(fmu))
+            with ecospy.EcosSimulation(structure=structure, step_size=EXACT_STEP) as run:
+                assert run.init()
+                run.step(STEPS)
+                for each in ("one", "other"):
+                    assert [run.get_real(f"{each}::{name}") for name in WATCHED] == expected[-1].tolist()
+                run.terminate()
+
+
+@needs_linux64
 def test_libcosimpy(fmu, expected):
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimLogging import CosimLogLevel, log_output_level

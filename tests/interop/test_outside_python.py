@@ -133,19 +133,21 @@ def test_ecos_simulate(ecos, native, expected, tmp_path):
 
 @pytest.fixture
 def lone(native, tmp_path):
-    """An archive with the bearing alone, and parameters for it."""
+    """An archive with the bearing alone, or some of one source; and parameters for the first."""
 
-    def write(source, **values):
+    def write(source, *others, **values):
         from write import _element, bind, parameter_set
 
         root = _element(None, "ssd:SystemStructureDescription", version="1.0", name="lone")
         elements = _element(_element(root, "ssd:System", name="lone"), "ssd:Elements")
         kind = "application/x-fmu-sharedlibrary"
-        component = _element(elements, "ssd:Component", name="bearing", type=kind, source=source)
-        connectors = _element(component, "ssd:Connectors")
-        for name in WATCHED:
-            _element(_element(connectors, "ssd:Connector", name=name, kind="output"), "ssc:Real")
-        bind(component, "resources/bearing.ssv")
+        for each in ("bearing", *others):
+            component = _element(elements, "ssd:Component", name=each, type=kind, source=source)
+            connectors = _element(component, "ssd:Connectors")
+            for name in WATCHED:
+                _element(_element(connectors, "ssd:Connector", name=name, kind="output"), "ssc:Real")
+            if each == "bearing":
+                bind(component, "resources/bearing.ssv")
         path = tmp_path / "lone.ssp"
         with zipfile.ZipFile(path, "w") as archive:
             archive.writestr("SystemStructure.ssd", ElementTree.tostring(root, xml_declaration=True))
@@ -176,6 +178,25 @@ def test_ecos_simulate_archive(ecos, lone, start, model, tmp_path):
     expected = alone(model, STEPS, preload=450.0, shaft_speed=2200.0)
     for name, values in zip(WATCHED, expected.T, strict=True):
         assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
+
+
+@needs_linux64
+def test_one_fmu_twice_in_ecos_simulate(ecos, lone, model, expected, tmp_path):
+    """ecos closes and opens the library of two components of one source; each has its own values."""
+    path = lone("resources/Bearing7003C.fmu", "other", preload=450.0, shaft_speed=2200.0)
+    config = csv_config(tmp_path / "csv.xml", {"bearing": WATCHED, "other": WATCHED})
+    ran = ecos(
+        "simulate",
+        *("--path", path, "--csvConfig", config, "--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP),
+        *("--parameterSet", "operation"),
+        cwd=tmp_path,
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    found = read_csv(tmp_path / "lone.csv", instances=True)
+    own = alone(model, STEPS, preload=450.0, shaft_speed=2200.0)
+    for instance, values in (("bearing", own), ("other", expected)):
+        for name, column in zip(WATCHED, values.T, strict=True):
+            assert found[f"{instance}::{name}"] == pytest.approx(column, abs=CSV_ERROR), (instance, name)
 
 
 @needs_linux64

@@ -6,47 +6,81 @@
 import difflib
 import re
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from fmu_bearing.scene.dimension_series import boundary
-from fmu_bearing.scene.symbols import CERAMIC, STEEL, meaning
+from fmu_bearing.scene.symbols import CERAMIC, SILENT, STEEL, meaning
 
 # 70, 79 or 719; two digits of the bore; letters of the contact angle
 _SIZE = re.compile(r"7(0|19|9)(\d\d)(AC|A5|C)?")
 _BORES = {"00": 10, "01": 12, "02": 15, "03": 17}  # mm; from 04 on five times the digits
-#: Series of single-row angular contact ball bearings that no entry has: two digits of the bore follow.
-_SERIES = re.compile(r"7(2|3|4|18|8)(\d\d)(?!\d)(B|AC|A5|A|C)?")
+#: Figures behind the 7 of makers' series, by which their dimensions go.
+_FIGURES = {
+    **{f"7{one}": one for one in ("0", "9", "2", "3", "4", "18", "8")}, "719": "9", "60": "0", "62": "2",
+    "618": "18", "619": "9", **dict.fromkeys(("EX", "VEX", "HX", "HSE0"), "0"),
+    **dict.fromkeys(("SEB", "VEB", "HB", "HSE9"), "9"), "SEA": "18",
+    **{f"{kind}{size}": one for kind in ("BNR", "BER", "BGR", "BAR", "BTR")
+       for size, one in (("10", "0"), ("19", "9"))},
+}  # fmt: skip
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
 _ALIKE = 0.5  # likeness of letters below which a suggestion is a guess
 _MOST = 3  # names that a suggestion lists
 
 ANGULAR = "angular contact ball bearing"
-MAKERS = ("NSK", "SKF", "FAG", "NTN", "GMN")
-_NAMED = re.compile(rf"^({'|'.join(MAKERS)})\b[\s_-]*")
-#: Makers' forms: of each size, what is before and behind it. Only signs that no other maker writes are ones.
+MAKERS = ("NSK", "SKF", "FAG", "NTN", "GMN", "SNFA")
+_NAMED = re.compile(rf"^({'|'.join(MAKERS)})[\s_-]*")
+#: Makers' forms: of each size, what is before and behind it.
 _FORMS = {
     "SKF": re.compile(
         r"^(?P<prefix>SV|S|V|)(?P<series>70|72|718|719)(?P<slash>/?)(?P<bore>\d{1,2}) ?"
-        r"(?P<angle>AC|C|F)(?P<design>[BDE])\b ?(?P<rest>.*)$"
+        r"(?P<angle>AC|C|F)[BDE](?P<rest>(?:D?G[A-D]|TNHA|MA)?(?![A-Z]).*)$"
+    ),
+    "SKF industrial": re.compile(
+        r"^(?P<prefix>)(?P<series>70|72|73|74)(?P<bore>\d\d) ?(?P<angle>AC|A|B)E?(?P<rest>.*)$"
     ),
     "FAG": re.compile(
-        r"^(?P<prefix>(?:HC|XC)?(?:RS|B|M)|H[SC]S?|XCS?)(?P<series>70|72|718|719)(?P<bore>\d\d)-?"
+        r"^(?P<prefix>(?:HC|XC)?(?:RS|B|M)|H[SC]S?|XCS?)-?(?P<series>70|72|718|719)(?P<bore>\d\d)-?"
         r"(?P<angle>[CDE])(?=-|$)(?P<rest>.*)$"
+    ),
+    "FAG industrial": re.compile(
+        r"^(?P<prefix>)(?P<series>70|72|73|74)(?P<bore>\d\d)-(?P<angle>B)(?=-|$)(?P<rest>.*)$"
     ),
     "GMN": re.compile(
         r"^(?P<prefix>(?:HY)? ?(?:SM|S|KH)) ?(?P<series>60|62|618|619)(?P<bore>\d\d) ?"
         r"(?P<angle>[CE])\b ?(?P<rest>.*)$"
     ),
-    "NTN": re.compile(
-        r"^(?P<prefix>(?:5S-)?(?:2LA-)?)(?P<series>70|72|78|79)(?P<bore>\d\d)U?"
-        r"(?P<angle>AD|C|B|)(?P<rest>(?:DB|DF|DT|DTBT|D2|G|T1|T2|/|P\d|L1|$).*)$"
+    "GMN hybrid": re.compile(
+        r"^(?P<prefix>HY ?(?:SM|S|KH)) ?(?P<series>60|62|618|619)(?P<bore>\d\d)(?P<angle>)(?P<rest>.*)$"
     ),
-    "NSK": re.compile(r"^(?P<prefix>)(?P<series>70|72|79)(?P<bore>\d\d)(?P<angle>A5|AC|C|A|B)(?P<rest>.*)$"),
+    "NTN": re.compile(
+        r"^(?P<prefix>(?:5S-?)?(?:2LA-?)?)(?P<series>70|72|73|78|79)(?P<bore>\d\d)U?"
+        r"(?P<angle>AD|C|B|)(?P<rest>(?:D|G|T1|T2|LLB|/|P\d|L1|$).*)$"
+    ),
+    "NTN high speed": re.compile(
+        r"^(?P<prefix>(?:5S-?)?(?:2LA-?)?)(?P<series>HSE[09])(?P<bore>\d\d)"
+        r"(?:(?P<angle>AD|C)(?![A-CE-Z]))?(?P<rest>.*)$"
+    ),
+    # DU behind the bore may be a seal or a set: asked for
+    "NSK": re.compile(
+        r"^(?P<prefix>)(?P<series>70|72|73|79)(?P<bore>\d\d)(?P<angle>A5|AC|C|A|B|(?!DU))(?P<rest>.*)$"
+    ),
 }
 #: NSK's series that letters name: bore in mm, type, dimension series, balls.
-_LETTERS = re.compile(r"^(?P<bore>\d{2,3}) ?(?P<series>BNR|BER|BGR) ?\d\d ?(?P<balls>[SHX])(?P<rest>.*)$")
-_PLAIN = re.compile(r"^(?P<series>70|72|79|718|719)(?P<bore>\d\d)(?P<angle>A5|AC|C|A|B|E)?\b")
+_LETTERS = re.compile(
+    r"^(?P<bore>\d{2,3})(?P<series>(?P<type>BNR|BER|BGR|BAR|BTR)\d\d)(?P<balls>[SHX])(?P<rest>.*)$"
+)
+#: SNFA's: series, bore in mm, seal, balls, class of ABEC, cage, angle.
+_SNFA = re.compile(
+    r"^(?P<series>SEA|SEB|VEB|VEX|EX|HB|HX)(?P<bore>\d{1,3})(?:/S)?(?P<balls>/NS)?"
+    r"(?P<grade>[579])(?P<cage>C[A-Z])(?P<angle>\d)(?P<rest>.*)$"
+)
+#: Of these no cage is read: without a sign it is of several materials.
+_INDUSTRIAL = tuple(pattern for form, pattern in _FORMS.items() if form.endswith("industrial"))
+_ABEC = {"5": "P5", "7": "P4", "9": "P2"}
+_PLAIN = re.compile(
+    r"^(?P<series>718|719|70|72|73|74|79)(?P<bore>\d\d)(?!\d)[ -]?(?P<angle>A5|AC|C|A|B|E|)(?P<rest>.*)$"
+)
 _TOLERANCE = re.compile(r"P([A-Z]?)(\d)")
 #: Kinds of bearings that are not modelled, by how their designations begin (ISO, SKF, NSK, FAG).
 _OTHERS = (
@@ -54,7 +88,8 @@ _OTHERS = (
     (r"(?:QJF?)(?=\d)", "four-point contact ball bearing"),
     (r"(?:R?NA|NKI?S?|HK|BK|K)(?=\d)", "needle roller bearing"),
     (r"C[234][0-9]{3}(?!\d)", "toroidal roller bearing"),
-    (r"(?:6\d{2,4}|16\d{3}|4[23]\d\d)(?!\d)", "deep groove ball bearing"),
+    (r"[SW]?(?:6\d{2,4}|16\d{3}|4[23]\d\d)(?!\d)", "deep groove ball bearing"),
+    (r"(?:234[47]\d\d|BT[WM]\d+)", "double-direction angular contact thrust ball bearing"),
     (r"(?:32|33|52|53)\d\d(?!\d)", "double-row angular contact ball bearing"),
     (r"(?:1[0234]|2[23])\d\d(?!\d)", "self-aligning ball bearing"),
     (r"(?:213|22[234]|23[0-9]|24[01])\d\d(?!\d)", "spherical roller bearing"),
@@ -93,6 +128,8 @@ class Designation(NamedTuple):
         ``"P5"``, ``"P4"`` or ``"P2"``, which makers' P4A, P4S and PA9A come near.
     symbols : dict of str to str
         The sign behind ``angle`` and ``balls``, for people: ``{"angle": "AC"}``.
+    unread : str
+        The part that no table knows; from there on angle and balls are None, unless a sign before says them.
     """
 
     text: str
@@ -105,6 +142,7 @@ class Designation(NamedTuple):
     cage: str | None = None
     tolerance: str | None = None
     symbols: dict[str, str] = {}
+    unread: str = ""
 
     def why(self, field: str) -> str:
         """Return maker and sign behind a value, as ``SKF: AC``."""
@@ -115,34 +153,50 @@ class Designation(NamedTuple):
 def read_designation(text: str) -> Designation | None:
     """Return what a designation says; None where it is not one that is known.
 
-    Tables of signs and their sources are in ``symbols``. ``7010C`` without a maker has what all makers mean:
-    15 deg and steel balls.
+    Tables of signs and their sources are in ``symbols``. Capitals, blanks and dashes do not matter. ``7010C``
+    without a maker has what all makers mean: 15 deg and steel balls.
     """
     folded = re.sub(r"\s+", " ", text.upper()).strip()
     named = _NAMED.match(folded)
     maker = named[1] if named else ""
     body = folded[named.end() :] if named else folded
-    if maker in ("", "NSK") and (match := _LETTERS.match(body)):
-        return _lettered(text, match)
-    for whose in (maker,) if maker else ("SKF", "FAG", "GMN"):
-        if match := _FORMS[whose].match(body):
-            return _of(text, whose, match)
-    if not maker and (body.startswith("5S-") or re.match(r"^7\d{3}U", body)):
-        if match := _FORMS["NTN"].match(body):
-            return _of(text, "NTN", match)
-    nsk = _FORMS["NSK"].match(body)
-    if not maker and nsk and (nsk["angle"] == "A5" or re.match(r"(SN24|TYN|TR)", nsk["rest"])):
-        return _of(text, "NSK", nsk)
-    if plain := _PLAIN.match(body):
-        angle = _AGREED.get(plain["angle"] or "")
-        signs = {"angle": plain["angle"] or "", "balls": ""}
-        tolerance = _class(body[plain.end() :])
-        return Designation(
-            text, maker, ANGULAR, plain["series"], _bore(plain["bore"], False), angle, STEEL,
-            tolerance=tolerance, symbols=signs,
-        )  # fmt: skip
+    for whose, match in _matches(body, maker):
+        if whose == "SNFA":
+            return _snfa(text, match)
+        return _lettered(text, match) if match.re is _LETTERS else _of(text, whose, match)
     other = _other_kind(text)
     return Designation(text, maker, other, "") if other else None
+
+
+def _matches(body: str, maker: str) -> Iterator[tuple[str, "re.Match[str]"]]:
+    """Yield makers and matches of their forms; without a maker those of signs that no other maker writes."""
+    closed = re.sub(r"[ _-]", "", body)
+    dashed = re.sub(r"[ ._]+", "-", body)
+    texts = {"NSK": closed, "NTN": closed, "FAG": dashed}
+    if maker in ("", "NSK") and (match := _LETTERS.match(closed)):
+        yield "NSK", match
+    if maker in ("", "SNFA", "SKF") and (match := _SNFA.match(closed)):
+        yield "SNFA", match
+    for form, pattern in _FORMS.items():
+        whose = form.partition(" ")[0]
+        match = pattern.match(texts.get(whose, body))
+        if match and (whose == maker or (not maker and _OWN[form](match))):
+            yield whose, match
+    if match := _PLAIN.match(body):
+        yield "", match
+
+
+def _always(match: "re.Match[str]") -> bool:
+    return True
+
+
+#: Whether a form without its maker has signs that no other maker writes.
+_OWN: dict[str, Callable[["re.Match[str]"], object]] = {
+    **dict.fromkeys(("SKF", "FAG", "FAG industrial", "GMN", "GMN hybrid", "NTN high speed"), _always),
+    "SKF industrial": lambda match: re.match(r".*BE(?:C[ABC]|G[ABC]|[PJMYF])", match[0]),
+    "NTN": lambda match: re.match(r"5S|7\d{3}U|7\d{3}(?:AD|C)?T[12]", match[0]),
+    "NSK": lambda match: match["angle"] == "A5" or re.match(r"SN24|TYN|TR|EA", match["rest"]),
+}
 
 
 def _other_kind(text: str) -> str:
@@ -153,33 +207,70 @@ def _other_kind(text: str) -> str:
 
 
 def _of(text: str, maker: str, match: "re.Match[str]") -> Designation:
-    """Return what a form of a maker says."""
-    prefix, sign, rest = match["prefix"].replace(" ", "").strip("-"), match["angle"], match["rest"]
-    if maker == "NTN":
-        prefix = prefix.partition("-")[0].replace("2LA", "")
-    angle = None if "M" in prefix and maker == "FAG" else meaning(maker, "angle", sign, "angle")
-    balls, whose = meaning(maker, "prefix", prefix, "balls"), prefix
-    for ceramic in ("SN24", "HC"):
-        if meaning(maker, "suffix", ceramic, "balls") == CERAMIC and ceramic in rest:
-            balls, whose = CERAMIC, ceramic
-    if balls is None:
-        balls = meaning(maker, "suffix", "", "balls")
-    cage = next((one for one in _CAGES[maker] if re.search(rf"(?:^|[ /-])?{one}(?![A-Z]*LU)", rest)), "")
-    slash = bool(match.groupdict().get("slash"))
+    """Return what a form of a maker says; without a maker what all mean."""
+    said = match.groupdict()
+    prefix, sign, rest = said.get("prefix") or "", match["angle"], match["rest"]
+    prefix = prefix.replace(" ", "").replace("2LA", "").strip("-")
+    if not maker:
+        angle = _AGREED.get(sign)
+    else:
+        angle = _number(None if sign is None else meaning(maker, "angle", sign, "angle"))
+    if maker == "FAG" and "M" in prefix:
+        angle = None
+    unread = _unread(maker, rest)
+    if unread and not sign or rest[:1].isalnum() and rest.startswith(unread or " "):
+        angle = None  # the sign may be longer
+    balls, whose = _balls(maker, prefix, rest, unread)
+    cages = _CAGES.get(maker, ())
+    cage = next((one for one in cages if re.search(rf"{one}(?!85|[A-Z]*LU)", rest)), "")
     return Designation(
-        text, maker, ANGULAR, match["series"], _bore(match["bore"], slash), _number(angle), _word(balls),
-        _word(meaning(maker, "suffix", cage, "cage")), _class(rest), {"angle": sign, "balls": whose},
+        text, maker, ANGULAR, match["series"], _bore(match["bore"], bool(said.get("slash"))), angle, balls,
+        None if match.re in _INDUSTRIAL else _word(meaning(maker, "suffix", cage, "cage")), _class(rest),
+        {"angle": sign or "", "balls": whose}, unread,
     )  # fmt: skip
+
+
+def _balls(maker: str, prefix: str, rest: str, unread: str) -> tuple[str | None, str]:
+    """Return the balls and the sign for them; None where an unknown part may say it."""
+    for ceramic in ("SN24", "HC"):
+        if meaning(maker, "suffix", ceramic, "balls") == CERAMIC and ceramic in rest.removesuffix(unread):
+            return CERAMIC, ceramic
+    by_prefix = _word(meaning(maker, "prefix", prefix, "balls"))
+    if by_prefix == CERAMIC or not unread:
+        return by_prefix or STEEL, prefix
+    return None, ""
+
+
+def _unread(maker: str, rest: str) -> str:
+    """Return the suffixes from the first one on that no table of the maker knows."""
+    known = SILENT[maker]
+    if known.fullmatch(rest):
+        return ""
+    found = known.match(rest)
+    return rest[found.end() if found else 0 :].strip()
 
 
 def _lettered(text: str, match: "re.Match[str]") -> Designation:
     """Return what NSK's series with letters say."""
-    cage = next((one for one in _CAGES["NSK"] if match["rest"].strip().startswith(one)), "")
+    cage = next((one for one in _CAGES["NSK"] if match["rest"].startswith(one)), "")
     return Designation(
         text, "NSK", ANGULAR, match["series"], float(match["bore"]),
-        _number(meaning("NSK", "type", match["series"], "angle")),
+        _number(meaning("NSK", "type", match["type"], "angle")),
         _word(meaning("NSK", "type", match["balls"], "balls")), _word(meaning("NSK", "suffix", cage, "cage")),
-        _class(match["rest"]), {"angle": match["series"], "balls": match["balls"]},
+        _class(match["rest"]), {"angle": match["type"], "balls": match["balls"]},
+        _unread("NSK", match["rest"]),
+    )  # fmt: skip
+
+
+def _snfa(text: str, match: "re.Match[str]") -> Designation:
+    """Return what SNFA's designations say."""
+    balls = (match["balls"] or "").strip("/")
+    return Designation(
+        text, "SNFA", ANGULAR, match["series"], float(match["bore"]),
+        _number(meaning("SNFA", "angle", match["angle"], "angle")),
+        _word(meaning("SNFA", "suffix", balls, "balls")),
+        _word(meaning("SNFA", "suffix", match["cage"], "cage")), _ABEC[match["grade"]],
+        {"angle": match["angle"], "balls": balls}, _unread("SNFA", match["rest"]),
     )  # fmt: skip
 
 
@@ -200,19 +291,20 @@ def _class(rest: str) -> str | None:
     """Return the tolerance class; makers' classes in letters come near P4 (PA7) and P2 (PA9)."""
     found = _TOLERANCE.search(rest)
     if found is None:
-        return None
+        scale = re.search(r"ABEC ?([579])", rest)
+        return None if scale is None else _ABEC[scale[1]]
     by_letter = {"7": "P4", "9": "P2"}
     name = by_letter.get(found[2]) if found[1] == "A" else f"P{found[2]}"
     return {"P3": "P4"}.get(name or "", name) if name in ("P6", "P5", "P4", "P3", "P2") else None
 
 
-class _Designation(NamedTuple):
-    """What a designation says: letters ahead of the size, series, bore (mm), letters of the angle or none."""
+class _Size(NamedTuple):
+    """What a size is near by: maker, figures of the series, bore (mm), contact angle (deg) or None."""
 
     maker: str
     series: str
-    bore: int
-    angle: str
+    bore: float
+    angle: float | None
 
 
 def suggestion(wanted: str, names: Iterable[str]) -> str:
@@ -233,36 +325,37 @@ def suggestion(wanted: str, names: Iterable[str]) -> str:
     def distance(name: str) -> tuple[float, ...]:
         one = read[name]
         maker = difflib.SequenceMatcher(None, asked.maker, one.maker).ratio()
-        angle = bool(asked.angle) and one.angle != asked.angle
+        angle = asked.angle is not None and one.angle != asked.angle
         return abs(one.bore - asked.bore), one.series != asked.series, angle, 1.0 - maker
 
     least = min(map(distance, read))
     nearest = " or ".join(f"'{name}'" for name in [name for name in read if distance(name) == least][:_MOST])
-    if least[:2] == (0, 0):
+    if least[:3] == (0, 0, 0):
         return f"did you mean {nearest}? "
-    way = _by_dimensions(asked.series, asked.bore, asked.angle)
+    way = _by_dimensions(*asked[1:])
+    if least[:2] == (0, 0):
+        return f"of this size with {asked.angle:g} deg it has none, {nearest} is the nearest, or {way}"
     return f"the nearest in size is {nearest}, or {way}"
 
 
 def _not_there(wanted: str, known: Sequence[str]) -> str:
     """Say what a designation names that no catalogue has: another series or kind; empty: it may be one."""
     folded = _folded(wanted)
-    if _SIZE.search(folded) or any(folded == _folded(name) for name in known):
+    size = _read(wanted)
+    if (size and size.series in ("0", "9")) or any(folded == _folded(name) for name in known):
         return ""
-    of_series = _SERIES.search(folded)
-    if of_series is not None:
-        series, digits, letters = of_series.groups()
-        way = _by_dimensions(series, _bore(digits, False), letters or "")
-        return f"it is of series 7{series}, and the catalogue has 70 and 79 (719): {way}"
+    if size is not None:
+        series = getattr(read_designation(wanted), "series", "")
+        return f"it is of series {series}, and the catalogue has 70 and 79 (719): {_by_dimensions(*size[1:])}"
     if kind := _other_kind(wanted):
         return f"it is a {kind}, which is not modelled: single-row angular contact ball bearings are; "
     return ""
 
 
-def _by_dimensions(series: str, bore: float, letters: str) -> str:
+def _by_dimensions(series: str, bore: float, contact_angle: float | None) -> str:
     """Say how a bearing is given by its dimensions, with those that its series has."""
     outside, width = boundary(series, bore) or ("D", "B")
-    angle = f"{_AGREED[letters]:g}" if letters in _AGREED else "DEG"
+    angle = "DEG" if contact_angle is None else f"{contact_angle:g}"
     return (
         f"give its dimensions, `fmu-bearing scene new --bore {bore:g} --outside-diameter {outside} --width "
         f"{width} --contact-angle {angle}`, and for its own balls the maker's C and C0 "
@@ -284,11 +377,14 @@ def ascii_word(text: str) -> str:
     return re.sub(r"\W", "_", bare, flags=re.ASCII)
 
 
-def _read(text: str) -> _Designation | None:
-    """Return what a designation says, blanks and dashes left out; None: it is of no known series."""
+def _read(text: str) -> _Size | None:
+    """Return the size that a designation names, at least by figures in it; None: it is of no known series."""
+    said = read_designation(text)
+    if said is not None and said.series in _FIGURES and said.bore is not None:
+        return _Size(said.maker, _FIGURES[said.series], said.bore, said.angle)
     folded = _folded(text)
     match = _SIZE.search(folded)
     if match is None:
         return None
-    series, digits, angle = match[1][-1], match[2], (match[3] or "").replace("A5", "AC")
-    return _Designation(folded[: match.start()], series, _BORES.get(digits, 5 * int(digits)), angle)
+    series, digits, angle = match[1][-1], match[2], match[3] or ""
+    return _Size(folded[: match.start()], series, _bore(digits, False), _AGREED.get(angle))

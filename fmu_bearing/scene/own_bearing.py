@@ -1,5 +1,6 @@
 """A bearing of one's own: its dimensions, what its designation says, and its balls by its ratings."""
 
+import re
 from dataclasses import dataclass, replace
 
 from fmu_bearing.scene.base import SceneError
@@ -9,6 +10,8 @@ from fmu_bearing.scene.estimate import Balls, balls_by_rule, balls_of_ratings, c
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.symbols import STEEL
 
+_KINDS = "steel|hybrid|full-ceramic"
+_DIGITS = 2  # of the bore, in every maker's designation
 _KIND, _ANGLE = "hybrid", 15.0  # where neither a value nor a designation says
 
 
@@ -52,6 +55,7 @@ def balls_of(bearing: Dimensions, kind: str | None, designation: str | None = No
         For one rating alone, for dimensions without room for balls, and for ratings that no balls have.
     """
     said = meant(bearing, designation)
+    ask(said, bearing, kind)
     bore, outside, angle = bearing.bore, bearing.outside, angle_of(with_angle(bearing, said))
     check_dimensions(bore, outside, bearing.width)
     if bearing.dynamic is None and bearing.static is None:
@@ -65,9 +69,10 @@ def balls_of(bearing: Dimensions, kind: str | None, designation: str | None = No
 
 
 def meant(bearing: str | Dimensions, designation: str | None = None) -> Designation | None:
-    """Return what the designation of a bearing says; None without one that is known.
+    """Return what the designation of a bearing says; None without one.
 
-    The papers' bearings, which no maker has named, have none.
+    The papers' bearings, which no maker has named, have none; names without two digits name no size.
+    `ask` refuses what it leaves open.
 
     Raises
     ------
@@ -80,13 +85,51 @@ def meant(bearing: str | Dimensions, designation: str | None = None) -> Designat
         designation = str(entry.values.get("designation", "")) if entry is not None and own else bearing
         if not own and bearing not in sizes():
             return None
-    said = None if designation is None else read_designation(designation)
-    if said is not None and said.kind != ANGULAR:
+    if designation is None or len(re.findall("[0-9]", designation)) < _DIGITS:
+        return None
+    said = read_designation(designation) or Designation(designation, "", ANGULAR, "", unread=designation)
+    if said.kind != ANGULAR:
         raise SceneError(
             f"{designation} is a {said.kind}, and this package models angular contact ball bearings: leave "
             "the designation out to model one of these dimensions"
         )
     return said
+
+
+def ask(said: Designation | None, bearing: str | Dimensions, kind: str | None) -> None:
+    """Refuse a designation that leaves contact angle or balls open where no value gives them.
+
+    Raises
+    ------
+    SceneError
+        Naming the part of the designation that no table has, and what to give; and where the designation
+        says another bore.
+    """
+    if said is None:
+        return
+    own = isinstance(bearing, Dimensions)
+    entry = None if isinstance(bearing, Dimensions) else entries("bearings").get(bearing)
+    bore = bearing.bore if isinstance(bearing, Dimensions) else entry and entry.values.get("bore_mm")
+    if said.bore is not None and bore is not None and float(bore) != said.bore:
+        raise SceneError(
+            f"a bore of {bore:g} mm: the designation {said.text} means {said.bore:g} mm: give one of both, "
+            "or a designation of your own with --contact-angle and --kind"
+        )
+    no_angle = isinstance(bearing, Dimensions) and bearing.angle is None and said.angle is None
+    missing = {
+        "contact angle": ("--contact-angle DEG", "Dimensions(angle=)", no_angle),
+        "balls": (f"--kind {_KINDS}", "kind=", kind is None and said.balls is None),
+    }
+    asked = {what: way for what, (*way, open_) in missing.items() if open_}
+    if asked:
+        part = f": '{said.unread}' is in no table of makers' signs" if said.unread else ""
+        verb, them = ("is", "it") if list(asked) == ["contact angle"] else ("are", "them")
+        raise SceneError(
+            f"the designation {said.text} says no {' and no '.join(asked)} that {verb} known{part}: give "
+            f"{them} as the maker prints {them}, {' and '.join(way[0] for way in asked.values())} (in Python "
+            f"{', '.join(way[1] for way in asked.values())})"
+            + (", or leave the designation out for assumed ones" if own else "")
+        )
 
 
 def with_angle(bearing: Dimensions, said: Designation | None) -> Dimensions:
@@ -95,16 +138,11 @@ def with_angle(bearing: Dimensions, said: Designation | None) -> Dimensions:
     Raises
     ------
     SceneError
-        Where both differ, and where a designation says none that is known.
+        Where both differ.
     """
     if said is None:
         return bearing
     if bearing.angle is None:
-        if said.angle is None:
-            raise SceneError(
-                f"the designation {said.text} says no contact angle that is known: give it "
-                "(--contact-angle, Dimensions(angle=)), as the maker prints it"
-            )
         return replace(bearing, angle=said.angle)
     if said.angle is not None and bearing.angle != said.angle:
         raise SceneError(

@@ -12,7 +12,7 @@ from fmu_bearing.scene.designation import Designation
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
-from fmu_bearing.scene.own_bearing import Dimensions, angle_of, balls_of, kind_of, meant, with_angle
+from fmu_bearing.scene.own_bearing import Dimensions, angle_of, ask, balls_of, kind_of, meant, with_angle
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload, preload_key
 from fmu_bearing.scene.read import Scene, read_scene_text
 from fmu_bearing.scene.scene import SLOW_RPM, Tables
@@ -70,7 +70,7 @@ def new_scene(
         A bearing of the catalogue, or dimensions from which the rest is estimated.
     kind : str, optional
         ``steel``, ``hybrid`` (steel rings, ceramic balls) or ``full-ceramic``; default: what the designation
-        says, see `read_designation`, else hybrid, assumed.
+        says, see `read_designation`; without a designation hybrid, assumed.
     speed_rpm, preload_N : float
     grade : str, optional
         Name in the catalogue; default: what the designation says, else P4.
@@ -109,7 +109,7 @@ def new_scene(
     ------
     SceneError
         For names that are not in the catalogue, values outside their range, a designation of another kind of
-        bearing or angle, and one without an angle that is known where none is given.
+        bearing, bore or angle, and one that leaves angle or balls open where they are not given.
     """
     if kind is not None and kind not in MATERIALS:
         raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
@@ -118,6 +118,7 @@ def new_scene(
     if arrangement is None and (distance_mm is not None or spring_N is not None):
         raise SceneError("a distance of ball planes and springs are of a set: give its arrangement, as 'DB'")
     said = meant(bearing, designation)
+    ask(said, bearing, kind)
     materials = _materials(kind, said)
     kind = kind or kind_of(said)
     tolerance = grade or (said and said.tolerance) or _GRADE

@@ -65,6 +65,10 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
         ((), "give --bearing NAME (`fmu-bearing scene catalogue` lists them), or --bore,"),
         ((*KNOWN, "--kind", "glass"), "choose from steel, hybrid, full-ceramic"),
         ((*KNOWN, "--speed", 2e5), "speed_rpm = 200000.0 is refused; allowed: -100000 to 100000 r/min"),
+        (
+            (*DIMENSIONS, "--designation", "7008DU"),
+            "'DU' is in no table of makers' signs: give them as",
+        ),
         ((*KNOWN, "--grade", "P1"), "imperfections.grade"),
         ((*KNOWN, "--distance", 50), "--distance and --spring are of a set: give its --arrangement, as DB"),
         ((*KNOWN, "--arrangement", "db"), "there is no arrangement 'db': choose from DB, DF, DT, TBT"),

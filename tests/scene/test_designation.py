@@ -75,6 +75,16 @@ def test_other_kinds_of_bearings_are_named(wanted, kind):
         ),
         ("NSK-701C", "did you mean 'NSK-7901C'? "),  # no size in it: by letters
         ("honey", ""),
+        # other makers' names of a size, by series, bore and angle
+        ("VEX 50 /NS 7CE3", "did you mean 'NSK-7010AC'? "),
+        ("S 6010 C TA", "did you mean 'NSK-7010C'? "),
+        ("B7010-E-T-P4S-UL", "did you mean 'NSK-7010AC'? "),
+        ("NSK 7003 C TYN DBL P4", "did you mean 'NSK-7003C'? "),
+        (
+            "NTN 7010",
+            "of this size with 30 deg it has none, 'NSK-7010C' or 'NSK-7010AC' is the nearest, or "
+            + WAY.format(50, 80, 16, 30),
+        ),
     ],
 )
 def test_bearings_are_suggested_by_size_and_maker(wanted, words):
@@ -118,6 +128,30 @@ EXAMPLES = {
     "NTN-7020DB": ("NTN", 100, 30, STEEL, None, None),
     "S 61908 E TA P4+": ("GMN", 40, 25, STEEL, "phenolic", "P4"),
     "HY S 6010 C TA": ("GMN", 50, 15, CERAMIC, "phenolic", None),
+    "VEX 50 /NS 7CE3": ("SNFA", 50, 25, CERAMIC, "phenolic", "P4"),
+    "SKF SEB 50 9CE1 DUL": ("SNFA", 50, 15, STEEL, "phenolic", "P2"),
+    "5S-2LA-HSE010C": ("NTN", 50, 15, CERAMIC, None, None),
+    "2LA-HSE910AD/GNP42": ("NTN", 50, 25, STEEL, None, "P4"),
+    "5S-2LA-HSE010": ("NTN", 50, None, CERAMIC, None, None),
+    "7010CT1": ("NTN", 50, 15, STEEL, "phenolic", None),
+    "7310 BEP": ("SKF", 50, 40, STEEL, None, None),
+    "7210 BECBM": ("SKF", 50, 40, STEEL, None, None),
+    "SKF 7218 BCBM": ("SKF", 90, 40, STEEL, None, None),
+    "7014 CD/P4ADGA": ("SKF", 70, 15, STEEL, "phenolic", "P4"),
+    "7010 CDGA/P4A": ("SKF", 50, 15, STEEL, "phenolic", "P4"),
+    "XCB7010-C-T-P4S": ("FAG", 50, 15, CERAMIC, "phenolic", "P4"),
+    "HS7010C.T.P4S.UL": ("FAG", 50, 15, STEEL, "phenolic", "P4"),
+    "7208-B-XL-TVP": ("FAG", 40, 40, STEEL, None, None),
+    "SM 6012 C TA ABEC7": ("GMN", 60, 15, STEEL, "phenolic", "P4"),
+    "HYKH 6010": ("GMN", 50, None, CERAMIC, None, None),
+    "NSK 50BNR10S": ("NSK", 50, 18, STEEL, None, None),
+    "30BAR10STYNDBELP3": ("NSK", 30, 30, STEEL, "polyamide", "P4"),
+    "NSK7003CTYNSULP4": ("NSK", 17, 15, STEEL, "polyamide", "P4"),
+    "nsk 7003 c tyn dbl p4": ("NSK", 17, 15, STEEL, "polyamide", "P4"),
+    "7205BEAT85SU": ("NSK", 25, 40, STEEL, None, None),
+    "NSK 7210": ("NSK", 50, 30, STEEL, None, None),
+    "NSK 7206AW": ("NSK", 30, 30, STEEL, None, None),
+    "7003-C": ("", 17, 15, STEEL, None, None),
     "7008C": ("", 40, 15, STEEL, None, None),
     "7010": ("", 50, None, STEEL, None, None),
 }
@@ -135,12 +169,61 @@ def test_a_designation_says_angle_balls_cage_and_class(text):
     [
         ("6205", "deep groove ball bearing"), ("6205-2RS", "deep groove ball bearing"),
         ("NU210", "cylindrical roller bearing"), ("30205", "tapered roller bearing"),
+        ("S6205-2RS", "deep groove ball bearing"), ("1206 K", "self-aligning ball bearing"),
+        ("BSB 025062", "bearing for screws, of 60 deg"),
+        ("234420 BM1", "double-direction angular contact thrust ball bearing"),
     ],
 )  # fmt: skip
 def test_other_kinds_are_said_and_refused(text, kind):
     assert read_designation(text).kind == kind
     with pytest.raises(SceneError, match=f"{text} is a {kind}, and this package models angular contact"):
         new_scene("a", Dimensions(25.0, 52.0, 15.0), designation=text)
+
+
+#: What no table has: the part, whether the angle and the balls are asked for.
+_OPEN = {
+    "7010DU": ("DU", True, True),  # a seal or a set
+    "7010HVDUJ74": ("HVDUJ74", True, True),  # of a maker without a table
+    "7010CVDUJ74": ("VDUJ74", True, True),  # the sign of the angle may be longer
+    "7010 CD/XYZ P4A": ("XYZ P4A", False, True),  # behind a sign that is read; the balls may be ceramic
+    "HCB7010-C-T-XYZ": ("XYZ", False, False),  # the prefix says ceramic
+    "BNR10H": ("BNR10H", True, True),  # no bore
+    "HYKH 6010": ("", True, False),
+    "NTN HSE010": ("", True, False),
+    "7210": ("", True, False),  # NSK and NTN 30 deg, others 15 or 40
+}
+
+
+@pytest.mark.parametrize("text", _OPEN)
+def test_what_a_designation_leaves_open_is_asked_for(text):
+    part, angle, balls = _OPEN[text]
+    size = Dimensions(50.0, 80.0, 16.0)
+    if not angle and not balls:
+        assert 'balls = "Si3N4" # FAG: HCB' in new_scene("a", size, designation=text, sound=False)
+        return
+    with pytest.raises(SceneError) as refused:
+        new_scene("a", size, designation=text)
+    words = str(refused.value)
+    assert words.startswith(f"the designation {text} says no ") and words.count("\n") == 0
+    assert ("--contact-angle DEG" in words, "--kind steel|hybrid" in words) == (angle, balls)
+    assert (f"'{part}' is in no table" in words) == bool(part)
+    given = Dimensions(50.0, 80.0, 16.0, 25.0 if angle else None)
+    kind = "steel" if balls else None
+    made = read_scene_text(new_scene("a", given, designation=text, kind=kind, sound=False))
+    assert made.bearing.designation == text
+    if angle:
+        assert made.bearing.contact_angle_deg == 25.0
+
+
+def test_a_bore_that_contradicts_the_designation_is_refused():
+    for bearing in (Dimensions(60.0, 95.0, 18.0), "NSK-7012C"):
+        with pytest.raises(SceneError, match="a bore of 60 mm: the designation 7010 CD/P4A means 50 mm"):
+            new_scene("a", bearing, designation="7010 CD/P4A")
+
+
+def test_a_name_that_names_no_size_says_nothing():
+    text = new_scene("a", Dimensions(50.0, 80.0, 16.0), designation="front bearing", sound=False)
+    assert "contact_angle_deg = 15.0 # assumed: no designation says" in text
 
 
 @pytest.mark.parametrize("text", ["honey", "my-7008C", "", "12345", "7-11"])

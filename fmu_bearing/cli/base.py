@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar
 
 import typer
 from rich.console import Console
@@ -25,6 +25,9 @@ from typer.core import TyperGroup
 from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.progress import Stopped, lines, work
+
+if TYPE_CHECKING:
+    from fmu_bearing.scene import Scene
 
 Result = TypeVar("Result")
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
@@ -158,8 +161,10 @@ def _refused() -> tuple[type[Exception], ...]:
     return (ValueError, OSError, BuildError, Refused, MissingExtra)
 
 
-def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
+def shaft_speed(rpm: float | None, source: "Path | Scene", option: str = "--speed") -> float | None:
     """Return a shaft speed of the command line (r/min) in rad/s, None where none is given.
+
+    ``source`` is the scene that is to turn so, or its file. A run that is finished turns no more.
 
     Raises
     ------
@@ -168,14 +173,27 @@ def shaft_speed(rpm: float | None, option: str = "--speed") -> float | None:
     """
     if rpm is None:
         return None
-    from fmu_bearing.scene.operation import Operation
-    from fmu_bearing.scene.problems import allowed
-    from fmu_bearing.scene.values import limits
+    from fmu_bearing.scene.read import read_scene
 
-    low, high = limits(Operation.model_fields["speed_rpm"])
-    if not low <= rpm <= high:
-        raise Refusal(f"{option} {rpm:g} r/min is refused: allowed are {allowed(('operation', 'speed_rpm'))}")
+    if isinstance(source, Path) and source.suffix == ".toml":
+        source = read_scene(source)
+    bearing = getattr(source, "bearing", None)
+    if bearing is not None and not abs(rpm) <= (most := bearing.most_speed):
+        raise Refusal(f"{option} {rpm:g} r/min is refused: allowed are {-most:g} to {most:g} r/min")
     return rpm * RPM
+
+
+def span(text: str, scene: Path) -> tuple[float, float]:
+    """Return two shaft speeds (rad/s) from two in r/min with a colon between."""
+    try:
+        first, last = (float(part) for part in text.split(":"))
+    except ValueError:
+        raise Refusal(
+            f"--run-up {text}: write two speeds in r/min with a colon between, such as 5000:30000"
+        ) from None
+    rising = tuple(shaft_speed(rpm, scene, "--run-up") for rpm in (first, last))
+    assert rising[0] is not None and rising[1] is not None
+    return rising[0], rising[1]
 
 
 class Refusal(ValueError):

@@ -73,8 +73,7 @@ def compare(
         if output is not None:
             check_folder(output)  # refused before the runs
             check_new_in(force, output, *_FILES)
-        values = at_speed(speed, settings)
-        one, other = (source_of(source, values) for source in (a, b))
+        one, other = (source_of(source, at_speed(speed, settings, source)) for source in (a, b))
         found = compare_them(
             one, other, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
             tell=tell,

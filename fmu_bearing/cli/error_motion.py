@@ -75,9 +75,9 @@ def error_motion(
         if direction not in DIRECTIONS:
             raise Refusal(f"--direction {direction} is refused: it is {', '.join(DIRECTIONS)}")
         rpm = numbers("speeds", speeds)
-        for speed in rpm or ():
-            shaft_speed(speed, "--speeds")
         given = read_scene(scene)
+        for speed in rpm or ():
+            shaft_speed(speed, given, "--speeds")
         check_folder(output)
         if plot is not None:
             check_picture(plot)

@@ -52,7 +52,7 @@ def fits(
             check_picture(plot)
         check_new(force, output, plot)
         found = study(
-            source_of(scene, at_speed(speed, settings)), partial(steps, what="fits", unit="columns")
+            source_of(scene, at_speed(speed, settings, scene)), partial(steps, what="fits", unit="columns")
         )
         drawn = None if plot is None else curves(found, partial(steps, what="curves", unit="fits"))
         with Writing() as files:

@@ -63,7 +63,7 @@ def info(
     from fmu_bearing.design.verdicts import cautions, verdicts
 
     with refusals():
-        given = source_of(scene, at_speed(speed, settings))
+        given = source_of(scene, at_speed(speed, settings, scene))
         warm = _warm(given, temperatures, ambient, cooling)
         point = operating_point(given if warm is None else warm.scene)
     found = verdicts(point)

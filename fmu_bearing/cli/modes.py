@@ -80,7 +80,7 @@ def modes(
         if plot is not None:
             check_new(force, check_picture(plot))
         chosen, inputs = changed(read_scene(scene), settings)
-        turning = shaft_speed(speed)
+        turning = shaft_speed(speed, chosen)
         if plot is not None and speeds is None and not chosen.operation.speed_rpm:
             raise Refusal(
                 "--plot draws a Campbell diagram, and the scene's shaft does not turn: give --speeds"

@@ -16,6 +16,7 @@ from fmu_bearing.cli.base import (
     refusals,
     shaft_speed,
     so_far,
+    span,
     tell,
 )
 from fmu_bearing.cli.options import (
@@ -30,7 +31,6 @@ from fmu_bearing.cli.options import (
     Step,
     output as target,
 )
-from fmu_bearing.cli.report import span
 from fmu_bearing.cli.runs import split
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_file
@@ -82,8 +82,8 @@ def realtime(
             raise Refusal("--silent and --microphones are refused together: give one of them")
         if output is not None:
             check_new(force, check_file(output, ".csv", "the table"))
-        held = shaft_speed(speed)
-        speeds = (held, held) if held is not None else span(run_up) if run_up is not None else None
+        held = shaft_speed(speed, scene)
+        speeds = (held, held) if held is not None else span(run_up, scene) if run_up is not None else None
         found, code = so_far(partial(
             time_it, source_of(scene, settings), step, duration=duration, speeds=speeds,
             fidelities=split(fidelity), microphones=0 if silent else microphones,

@@ -7,7 +7,6 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import (
-    Refusal,
     Writing,
     app,
     check_new,
@@ -16,6 +15,7 @@ from fmu_bearing.cli.base import (
     refusals,
     shaft_speed,
     so_far,
+    span,
     tell,
 )
 from fmu_bearing.cli.options import (
@@ -49,19 +49,6 @@ def _check_keep(path: Path, source: Path) -> None:
     if source.suffix == ".toml":
         require(read_scene(source), "run report")
     check_file(path, ".npz", "a run")
-
-
-def span(text: str) -> tuple[float, float]:
-    """Return two shaft speeds (rad/s) from two in r/min with a colon between."""
-    try:
-        first, last = (float(part) for part in text.split(":"))
-    except ValueError:
-        raise Refusal(
-            f"--run-up {text}: write two speeds in r/min with a colon between, such as 5000:30000"
-        ) from None
-    rising = tuple(shaft_speed(rpm, "--run-up") for rpm in (first, last))
-    assert rising[0] is not None and rising[1] is not None
-    return rising[0], rising[1]
 
 
 @app.command()
@@ -98,8 +85,8 @@ def report(
 ) -> None:
     """Write a report of a run: one HTML page that needs a browser and nothing else."""
     with refusals():
-        turning = shaft_speed(speed)
-        speeds = None if run_up is None else span(run_up)
+        turning = shaft_speed(speed, source)
+        speeds = None if run_up is None else span(run_up, source)
         check_new(force, output, keep)
         if keep is not None:  # refused before the run
             _check_keep(keep, source)

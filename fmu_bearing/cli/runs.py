@@ -88,8 +88,8 @@ def simulate(
             raise Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
         if input_from_start and inputs is None:
             raise Refusal("--input-from-start is refused: it shifts the times of --input, which is not given")
-        turning = shaft_speed(speed)
         chosen, start = _begun(source, settings, fidelity)
+        turning = shaft_speed(speed, chosen)
         start |= {} if turning is None else {"shaft_speed": turning}
         run = run_it(
             chosen, stop_time, step=step, inputs=inputs, input_from_start=input_from_start,

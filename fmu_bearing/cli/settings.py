@@ -156,9 +156,9 @@ def numbers(name: str, text: str | None) -> list[float] | None:
     return [float(value) for value in found]
 
 
-def at_speed(rpm: float | None, settings: list[str] | None) -> list[str] | None:
+def at_speed(rpm: float | None, settings: list[str] | None, scene: "Path | Scene") -> list[str] | None:
     """Return settings with the shaft speed of ``--speed`` (r/min), which is checked."""
-    shaft_speed(rpm)
+    shaft_speed(rpm, scene)
     return settings if rpm is None else [*(settings or ()), f"operation.speed_rpm={rpm!r}"]
 
 

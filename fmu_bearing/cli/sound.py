@@ -18,6 +18,7 @@ from fmu_bearing.cli.base import (
     refusals,
     shaft_speed,
     so_far,
+    span,
     tell,
 )
 from fmu_bearing.cli.options import (
@@ -73,7 +74,7 @@ def sound(
         str | None,
         typer.Option(
             "--run-up",
-            metavar="FROM,TO",
+            metavar="FROM:TO",
             help="Speed in r/min at the beginning and at the end of --duration; levels over order and speed "
             "are then written, too.",
         ),
@@ -144,7 +145,9 @@ def sound(
         if plot is not None:
             check_new(force, check_picture(plot))
         chosen = source_of(source, settings, fidelity)
-        turning = shaft_speed(speed) if run_up is None else _ramp(run_up, source, speed, settle, duration)
+        turning = (
+            shaft_speed(speed, chosen) if run_up is None else _ramp(run_up, source, speed, settle, duration)
+        )
         rough = None if surface is None else read_surface(surface)
         places = _places(microphone, microphone_at)
         files, code = Writing(), 0
@@ -222,12 +225,7 @@ def _ramp(
         raise Refusal(f"--run-up is refused: {source.name} has a speed of its own; leave it out")
     if speed is not None:
         raise Refusal("--run-up and --speed are refused together: give one of them")
-    try:
-        low, high = (shaft_speed(float(part), "--run-up") or 0.0 for part in text.split(","))
-    except ValueError as problem:
-        if isinstance(problem, Refusal):
-            raise
-        raise Refusal(f"--run-up {text} is refused: write two speeds in r/min, as 4000,36000") from None
+    low, high = span(text, source)
     return lambda time: low + (high - low) * min(max(time - settle, 0.0) / duration, 1.0)
 
 

@@ -83,9 +83,9 @@ def stiffness(
             name: numbers(name, text)
             for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
         }
-        for speed in asked["speeds"] or ():
-            shaft_speed(speed, "--speeds")
         given = read_scene(scene)
+        for speed in asked["speeds"] or ():
+            shaft_speed(speed, given, "--speeds")
         target = _target(form, output, asked)
         if plot is not None:
             check_picture(plot)

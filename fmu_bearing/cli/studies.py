@@ -68,7 +68,9 @@ def choose(
     from fmu_bearing.scene import scene_of
 
     with refusals(), work("short runs of all candidates"):
-        choice, code = so_far(partial(choosing.chosen, scene_of(source_of(scene, at_speed(speed, settings)))))
+        choice, code = so_far(
+            partial(choosing.chosen, scene_of(source_of(scene, at_speed(speed, settings, scene))))
+        )
     summary = None if choice.chosen == choosing.NONE else choice.summary
     if as_json:
         print_json({"chosen": summary, "candidates": named(choosing.COLUMNS, choice.cells())})
@@ -114,7 +116,7 @@ def tradeoff(
         chart = check_picture(plot or output / "tradeoff.png")
         check_new(force, chart)
         check_new_in(force, output, "tradeoff.md", "tradeoff.csv")
-        source = source_of(scene, at_speed(speed, settings))
+        source = source_of(scene, at_speed(speed, settings, scene))
         times: dict[str, float] = {"warm_up": _QUICK, "window": _QUICK, "budget": 0.01} if quick else {}
         times |= {} if settle is None else {"warm_up": settle}
         with work(f"tradeoff of {scene.stem}"):
@@ -200,7 +202,7 @@ def sensitivity(
     times |= {name: value for name, value in given.items() if value is not None}
     with refusals():
         check_folder(output)  # refused before minutes of measuring
-        source = partial(source_of, scene, at_speed(speed, settings))
+        source = partial(source_of, scene, at_speed(speed, settings, scene))
         if method is None:
             of_several = {
                 "--vary": vary, "--samples": samples, "--variables": variables, "--workers": workers,
@@ -266,7 +268,7 @@ def changes(
     from fmu_bearing.results.table import show
 
     with refusals(), work(f"changes of {scene.stem}"):
-        source = source_of(scene, at_speed(speed, settings), fidelity)
+        source = source_of(scene, at_speed(speed, settings, scene), fidelity)
         found, code = so_far(partial(
             changing, source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell
         ))  # fmt: skip

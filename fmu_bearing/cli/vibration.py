@@ -102,12 +102,12 @@ def vibration(
         known = {str(one): one for one in UNITS}
         if unit not in known:
             raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
-        shaft_speed(speed)
         _check_rig(settings)
         asked.refuse_alone()
+        bearing = scene_with(subject(source, kind, grade), settings, fidelity)
+        shaft_speed(speed, bearing)
         if measured is not None:
             inverse.unused({"--limits": limits, "--rigid": rigid, "--seeds": seeds != SEEDS})
-            bearing = scene_with(subject(source, kind, grade), settings, fidelity)
             inverse.find(bearing, asked, output, force, known[unit], speed, load, as_json)
             return
         check_folder(output)
@@ -115,7 +115,7 @@ def vibration(
         need("matplotlib", "a picture")
         allowed = None if limits is None else _limits(limits)
         found, code = so_far(partial(
-            test, scene_with(subject(source, kind, grade), settings, fidelity), seeds, rigid=rigid,
+            test, bearing, seeds, rigid=rigid,
             speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
             bar=partial(steps, what="vibration test", unit="runs"),
         ))  # fmt: skip

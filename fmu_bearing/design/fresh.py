@@ -10,10 +10,8 @@ from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
 from fmu_bearing.scene.nsk import sizes
-from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.own_bearing import Dimensions
 from fmu_bearing.scene.preload import CLASS, OFFSET, PreloadError, preload
-from fmu_bearing.scene.values import limits
 
 _SPEED_SHARE = 0.5  # of the limiting speed
 _SPEED_NUMBER = 0.75e6  # mm r/min, where no maker gives a limit
@@ -123,7 +121,7 @@ def _speed(scene: Scene, bearing: str | Dimensions) -> tuple[float, str]:
         rule = f"half of makers' n d_m with oil, {1e-6 * limit:.3g}e6 mm r/min"
     else:
         speed, rule = _SPEED_NUMBER / pitch, f"n d_m of {1e-6 * _SPEED_NUMBER:g}e6 mm r/min, no maker's limit"
-    return min(_rounded(speed), limits(Operation.model_fields["speed_rpm"])[1]), rule
+    return min(_rounded(speed), scene.bearing.most_speed), rule
 
 
 def _preload(scene: Scene) -> tuple[float, str, bool]:

@@ -25,7 +25,8 @@ from fmu_bearing.engine.spindle.port import has_port
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
 _LARGEST = 1e15  # of any input, in its unit
-_FASTEST = 1.1e4  # rad/s
+# rad/s; m/s of the balls' circle, were it a wheel: 5 % beyond the ranges of scenes, `Bearing.most_speed`
+_FASTEST, _FASTEST_RIM = 1.1e4, 143.0
 _COLDEST_OIL = 230.0  # K
 _COLDEST_RING = 200.0  # K
 _LONGEST = 1e6  # s: communication step
@@ -35,14 +36,14 @@ _SHORTEST = 1e-15
 
 
 @kernel
-def inputs_usable(u):
-    """Whether every input is finite and within what the equations can take."""
+def inputs_usable(p, u):
+    """Whether every input of a bearing is finite and within what the equations can take."""
     for i in range(U.SIZE):
         if not (abs(u[i]) < _LARGEST):
             return False
     return (
         u[U.PEDESTAL] > 0.0
-        and abs(u[U.SPEED]) <= _FASTEST
+        and abs(u[U.SPEED]) <= max(_FASTEST, _FASTEST_RIM / p[P.PITCH_RADIUS])
         and u[U.OIL_T] >= _COLDEST_OIL
         and u[U.INNER_T] >= _COLDEST_RING
         and u[U.OUTER_T] >= _COLDEST_RING
@@ -55,13 +56,13 @@ def inputs_usable(u):
 def usable(p, u, w):
     """Whether every input is finite and within what the equations can take."""
     if not members.has_shaft(p):
-        return inputs_usable(u)
+        return inputs_usable(p, u)
     if not set_inputs_usable(p, u):
         return False
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     for b in range(members.count(p)):
         bearing_inputs(p, u, b, given)
-        if not inputs_usable(given):
+        if not inputs_usable(p, given):
             return False
     return True
 

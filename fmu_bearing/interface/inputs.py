@@ -1,7 +1,9 @@
 """Continuous inputs, with the scene's values as start values."""
 
+import math
 from typing import Any
 
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
@@ -9,8 +11,6 @@ from fmu_bearing.scene import Scene, si
 #: Units, ranges and nominal values of inputs.
 SPEED = {
     "unit": "rad/s",
-    "min": -10472.0,  # 100,000 r/min
-    "max": 10472.0,
     "nominal": 1000.0,
     "quantity": "AngularVelocity",
     "display_unit": "r/min",
@@ -33,6 +33,14 @@ KELVIN = {
 }
 
 
+def speed(scene: Scene) -> dict[str, Any]:
+    """Return unit, range and nominal value of a shaft speed; the largest, in five digits, is rounded up."""
+    most = scene.bearing.most_speed * RPM
+    digits = 10.0 ** (math.floor(math.log10(most)) - 4)
+    most = math.ceil(most / digits) * digits
+    return {**SPEED, "min": -most, "max": most}
+
+
 def inputs(scene: Scene) -> list[Variable]:
     """Return the inputs of the model, in the order of the engine's array ``u``."""
     mounting, start = si(scene.mounted), si(scene.operation)
@@ -42,7 +50,7 @@ def inputs(scene: Scene) -> list[Variable]:
     if scene.mounted.preload_mode == "rigid":
         preload += ", at standstill and 20 degC; its displacement is then held"
     rows: tuple[tuple[str, str, dict[str, Any], float], ...] = (
-        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", SPEED, start.speed),
+        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", speed(scene), start.speed),
         ("preload", preload, {**FORCE, "min": 0.0, "max": scene.bearing.most_preload}, mounting.preload),
         (
             "pedestal_stiffness",

@@ -8,23 +8,20 @@ from numpy.typing import NDArray
 from fmu_bearing.elastic.shaft import placed
 from fmu_bearing.engine.layout import SP
 from fmu_bearing.formulas.iso76 import static_rating
-from fmu_bearing.interface.inputs import FORCE, KELVIN, SPEED, SPRING
+from fmu_bearing.interface.inputs import FORCE, KELVIN, SPRING, speed
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.member import HELD, preload_asked, set_of
-from fmu_bearing.scene.spindle import Spindle
 
-_MOST = 1e5  # N: of a load, as [spindle.load] has it
-_NOSE = {**FORCE, "min": -_MOST, "max": _MOST}
 _MOMENT = {"unit": "N.m", "quantity": "Torque", "nominal": 10.0}  # with a range of the set's own
 #: Of a moment, in static ratings of all bearings at the distance of the farthest one. With four 7003C
 #: fidelity full computes 10 kN m, this range ends at 12 kN m, and 30 kN m are refused.
 _OVERLOAD = 5.0
 
 _LOADS = (
-    ("nose.force.x", "Load on the shaft's nose along the axis, +X from nose to rear", _NOSE),
-    ("nose.force.y", "Horizontal load on the shaft's nose", _NOSE),
-    ("nose.force.z", "Upward load on the shaft's nose", _NOSE),
+    ("nose.force.x", "Load on the shaft's nose along the axis, +X from nose to rear", FORCE),
+    ("nose.force.y", "Horizontal load on the shaft's nose", FORCE),
+    ("nose.force.z", "Upward load on the shaft's nose", FORCE),
     ("nose.moment.y", "Moment on the nose about +Y, as of an upward force ahead of it", _MOMENT),
     ("nose.moment.z", "Moment on the nose about +Z, as of a force towards -Y ahead of it", _MOMENT),
 )
@@ -75,11 +72,16 @@ def led_inputs(scene: Scene) -> range:
 def inputs_of_set(scene: Scene) -> list[Variable]:
     """Return the inputs of a set that its scene reads, in the order of the engine's array ``u``."""
     start = set_inputs(scene)
-    words = {**_shared(set_of(scene), scene.bearing.most_preload), **_of_bearings(len(start))}
-    most = largest_moment(scene, start)
+    words = {**_shared(scene), **_of_bearings(len(start))}
+    spans = {"nose.moment": largest_moment(scene, start)}
+    spans |= {
+        f"nose.force.{axis}": most
+        for axis, most in zip("xyz", set_of(scene).most_loads(scene.bearing), strict=True)
+    }
     for place, (name, text, more) in words.items():
-        if name.startswith("nose.moment"):
-            words[place] = (name, text, {**more, "min": -most, "max": most})
+        for span, most in spans.items():
+            if name.startswith(span):
+                words[place] = (name, text, {**more, "min": -most, "max": most})
     return [
         Variable(name, "input", "continuous", text, start=float(start[place]), array="u", index=place, **more)
         for place, (name, text, more) in sorted(words.items())
@@ -99,10 +101,11 @@ def _or(value: float | None, other: float) -> float:
     return other if value is None else value
 
 
-def _shared(spindle: Spindle, most_preload: float) -> dict[int, tuple[str, str, dict[str, Any]]]:
+def _shared(scene: Scene) -> dict[int, tuple[str, str, dict[str, Any]]]:
     """Return name, description and range of what shaft and housing are given, by place in ``u``."""
+    spindle, most_preload = set_of(scene), scene.bearing.most_preload
     words = [
-        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", SPEED),
+        ("shaft_speed", "Rotational speed of the shaft, right-handed about +X", speed(scene)),
         *(_PORT if spindle.shaft.external else _LOADS),
     ]
     if spindle.preload is not None and spindle.preload.kind == "spring":

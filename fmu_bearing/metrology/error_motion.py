@@ -19,10 +19,7 @@ from fmu_bearing.results.table import number as digits, write_csv
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
-from fmu_bearing.scene.operation import Operation
-from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.shaft import LONG
-from fmu_bearing.scene.values import limits
 from fmu_bearing.threads import one_thread
 
 if TYPE_CHECKING:
@@ -288,12 +285,10 @@ def _speeds(scene: Scene, speeds: Sequence[float] | float | None) -> list[float]
     found = list(dict.fromkeys(number("speeds", one) for one in asked))
     if not found:
         raise ValueError("speeds: none is given; give r/min, or leave speeds out for the scene's own")
-    low, high = limits(Operation.model_fields["speed_rpm"])
+    most = scene.bearing.most_speed
     for speed in found:
-        if not low <= speed <= high:
-            raise ValueError(
-                f"speeds: {speed:g} r/min is refused: allowed are {allowed(('operation', 'speed_rpm'))}"
-            )
+        if abs(speed) > most:
+            raise ValueError(f"speeds: {speed:g} r/min is refused: allowed are {-most:g} to {most:g} r/min")
         if speed == 0.0:
             raise ValueError("speeds: 0 r/min is refused: an axis of rotation needs a shaft that turns")
     return found

@@ -9,6 +9,7 @@ from fmu_bearing.formulas import iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
 
 MOST_BALLS = 36
+_MOST_RPM, _MOST_SPEED = 1e5, 2.6e6  # r/min, mm r/min: see `Bearing.most_speed`
 _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
 
 
@@ -124,6 +125,16 @@ class Bearing(Part):
     def most_radial(self) -> float:
         """Largest radial load (N) that may be given: twice C0 by ISO 76, 3 kN at least."""
         return max(_MOST_RADIAL, self._twice_static)
+
+    @property
+    def most_speed(self) -> float:
+        """Largest amount of a speed (r/min) that may be given: n d_m of 2.6e6 mm r/min, 100,000 at least.
+
+        Every fidelity and method is run at 100,000 r/min with the 7003C, of 26 mm pitch diameter, and with
+        the 7009C of 60 mm (``tests/extremes``). Smaller bearings of like shape at the 7003C's n d_m have its
+        surface speeds and its stresses by centrifugal force.
+        """
+        return max(_MOST_RPM, float(f"{_MOST_SPEED / self.pitch_diameter_mm:.4g}"))
 
     @property
     def _twice_static(self) -> float:

@@ -4,17 +4,24 @@ from pydantic import Field
 
 from fmu_bearing.scene.base import Part
 
+#: r/min: of the smallest bearing that a scene may have; that of a scene is `Bearing.most_speed`.
+_MOST = 1.3e6
+
 
 class Operation(Part):
     """Speed and temperatures at the start; all are inputs of the FMU, with the same ranges."""
 
     speed_rpm: float = Field(
-        ge=-1e5, le=1e5, examples=[20000.0], description="Shaft speed, right-handed about +X, r/min."
+        ge=-_MOST,
+        le=_MOST,
+        examples=[20000.0],
+        description="Shaft speed, right-handed about +X; up to 2.6e6 mm r/min over the pitch diameter, "
+        "100000 r/min at least, r/min.",
     )
     lowest_speed_rpm: float | None = Field(
         default=None,
         ge=10,
-        le=1e5,
+        le=_MOST,
         examples=[3000.0],
         description=(
             "Lowest speed of a run-up, to which imperfections.highest_frequency_kHz refers; absent: the "

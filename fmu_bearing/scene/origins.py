@@ -83,7 +83,7 @@ def origins(path: str | Path) -> list[Origin]:
     known |= _preload(document, scene)
     known |= dict(_fit(document, scene, known))
     found = [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
-    ends = {key: f"{low:g} to {high:g} N" for key, (low, high) in scene.force_limits().items()}
+    ends = {key: f"{one.low:g} to {one.high:g} {one.unit}" for key, one in scene.size_limits().items()}
     return [replace(one, allowed=ends[one.key]) if one.key in ends else one for one in found]
 
 

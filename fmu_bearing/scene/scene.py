@@ -5,7 +5,7 @@ import re
 import unicodedata
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Self
+from typing import Any, NamedTuple, Self
 
 import tomlkit
 from pydantic import Field
@@ -38,6 +38,15 @@ def scene_name(text: str) -> str:
     return re.sub(r"^[\W_]+", "", plain)[:_LONGEST_NAME].strip() or "scene"
 
 
+class SizeLimit(NamedTuple):
+    """A range that follows the size of the bearing, its unit, and why it ends there."""
+
+    low: float
+    high: float
+    unit: str
+    words: str
+
+
 class Tables(Part):
     """All tables together, with the checks that span several; ``read`` makes a `Scene` of them."""
 
@@ -66,7 +75,7 @@ class Tables(Part):
         """Yield conflicts between tables."""
         if self.bearing.cage is not None and self.materials.cage is None:
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
-        yield from self._forces()
+        yield from self._sizes()
         yield from self._thermal()
         yield from self._set()
         own = None if self.mounting is None else self.mounting.housing
@@ -129,24 +138,39 @@ class Tables(Part):
             if any((x - plane) * (plane - middle) > 0.0 for _, middle in self._middles()):
                 yield Conflict(key, f"is between the bearing and microphone '{place.name}' at x = {x:g} mm")
 
-    def force_limits(self) -> dict[str, tuple[float, float]]:
-        """Return the least and the largest force (N) by key, which grow with the bearing's static rating."""
-        preload, radial = (0.0, self.bearing.most_preload), self.bearing.most_radial
-        if self.mounting is not None:
-            across = dict.fromkeys(("radial_load_y_N", "radial_load_z_N"), (-radial, radial))
-            return {f"mounting.{key}": ends for key, ends in ({"preload_N": preload} | across).items()}
-        if self.spindle is not None and self.spindle.preload is not None:
-            return {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
-        return {}
+    def size_limits(self) -> dict[str, SizeLimit]:
+        """Return by key the ranges that follow the size: forces by C0, speeds by the pitch diameter.
 
-    def _forces(self) -> Iterator[Conflict]:
-        """Yield forces that are far beyond the static rating of the bearing."""
-        for key, (low, high) in self.force_limits().items():
-            part = self.mounting if self.mounting is not None else self.spindle and self.spindle.preload
-            value = getattr(part, key.rpartition(".")[2])
+        A load on a set is carried by all its bearings, each up to what one alone may carry.
+        """
+        speed = self.bearing.most_speed
+        words = "n d_m of 2.6e6 mm r/min or more"
+        found = {
+            "operation.speed_rpm": SizeLimit(-speed, speed, "r/min", words),
+            "operation.lowest_speed_rpm": SizeLimit(10.0, speed, "r/min", words),
+        }
+        axial, radial = self.bearing.most_preload, self.bearing.most_radial
+        words = "twice the static rating C0 or more"
+        preload, across = SizeLimit(0.0, axial, "N", words), SizeLimit(-radial, radial, "N", words)
+        if self.mounting is not None:
+            found |= {"mounting.preload_N": preload}
+            found |= {f"mounting.radial_load_{axis}_N": across for axis in "yz"}
+        if self.spindle is not None:
+            if self.spindle.preload is not None:
+                found |= {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
+            words = f"twice the static rating C0 of its {len(self.spindle.bearing)} bearings or more"
+            for axis, most in zip("xyz", self.spindle.most_loads(self.bearing), strict=True):
+                found[f"spindle.load.force_{axis}_N"] = SizeLimit(-most, most, "N", words)
+        return found
+
+    def _sizes(self) -> Iterator[Conflict]:
+        """Yield forces far beyond the static rating of the bearing, and speeds beyond those of its size."""
+        for key, (low, high, unit, words) in self.size_limits().items():
+            value: Any = self
+            for step in key.split("."):
+                value = getattr(value, step)
             if value is not None and not low <= value <= high:
-                words = "twice the static rating C0 or more"
-                yield Conflict(key, f"is refused; allowed: {low:g} to {high:g} N, {words}")
+                yield Conflict(key, f"is refused; allowed: {low:g} to {high:g} {unit}, {words}")
 
     def _orders(self) -> Iterator[Conflict]:
         """Yield waviness whose highest order nothing decides, because the shaft does not turn."""

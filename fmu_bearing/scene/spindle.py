@@ -7,12 +7,14 @@ from typing import Literal
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.mounting import Flexure
 from fmu_bearing.scene.seats import LARGEST_UM, Fit
 from fmu_bearing.scene.shaft import LONG, Shaft
 
 _MOST = 16  # bearings of a set
+_HEAVY = 1e7  # N: beyond twice C0 of any set
 #: What may be in the place of a preload in newtons.
 OR_CLASS = 'or preload_class = "light", or preload_offset_um = 10.0'
 
@@ -240,9 +242,27 @@ class SetHousing(Part):
 class Load(Part):
     """Force on the shaft, as of the tool."""
 
-    force_x_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[200.0], description="Along the axis, N.")
-    force_y_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[0.0], description="Horizontal, N.")
-    force_z_N: float = Field(default=0.0, ge=-1e5, le=1e5, examples=[-300.0], description="Upwards, N.")
+    force_x_N: float = Field(
+        default=0.0,
+        ge=-_HEAVY,
+        le=_HEAVY,
+        examples=[200.0],
+        description="Along the axis; up to 2 C0 of all bearings, 10 kN each at least, N.",
+    )
+    force_y_N: float = Field(
+        default=0.0,
+        ge=-_HEAVY,
+        le=_HEAVY,
+        examples=[0.0],
+        description="Horizontal; up to 2 C0 of all bearings, 3 kN each at least, N.",
+    )
+    force_z_N: float = Field(
+        default=0.0,
+        ge=-_HEAVY,
+        le=_HEAVY,
+        examples=[-300.0],
+        description="Upwards; up to 2 C0 of all bearings, 3 kN each at least, N.",
+    )
     position_mm: float = Field(
         default=0.0,
         ge=-LONG,
@@ -370,6 +390,12 @@ class Spindle(Part):
                     "has no effect: give housing.mass_kg for a housing that moves, or a bearing with "
                     'seat = "pedestal"',
                 )
+
+    def most_loads(self, bearing: Bearing) -> tuple[float, float, float]:
+        """Return the largest load (N) along x, y and z that its bearings together may be given."""
+        number = len(self.bearing)
+        across = number * bearing.most_radial
+        return number * bearing.most_preload, across, across
 
     @property
     def directions(self) -> str:

@@ -11,7 +11,7 @@ from fmu_bearing.recording.record import Recording
 from fmu_bearing.scene import read_scene
 
 QUICK = ("--no-wav", "--no-spread", "--no-directivity", "--radiation-model", "compact")
-RUN = ("-t", 0.3, "--settle", 0.02, "--run-up", "6000,24000", *QUICK)
+RUN = ("-t", 0.3, "--settle", 0.02, "--run-up", "6000:24000", *QUICK)
 
 
 def table(folder):
@@ -69,11 +69,11 @@ def test_a_recording_has_its_own_speed(made, run, tmp_path):
 @pytest.mark.parametrize(
     ("text", "more", "said"),
     [
-        ("4000", (), "write two speeds in r/min, as 4000,36000"),
-        ("4000,x", (), "write two speeds in r/min, as 4000,36000"),
-        ("4000,5000,6000", (), "write two speeds in r/min, as 4000,36000"),
-        ("4000,900000", (), "allowed are -100000 to 100000 r/min"),
-        ("4000,5000", ("--speed", 4000), "give one of them"),
+        ("4000", (), "write two speeds in r/min with a colon between"),
+        ("4000:x", (), "write two speeds in r/min with a colon between"),
+        ("4000:5000:6000", (), "write two speeds in r/min with a colon between"),
+        ("4000:900000", (), "allowed are -100000 to 100000 r/min"),
+        ("4000:5000", ("--speed", 4000), "give one of them"),
     ],
 )
 def test_what_is_no_run_up_is_refused(run, rings_file, tmp_path, text, more, said):
@@ -84,7 +84,7 @@ def test_what_is_no_run_up_is_refused(run, rings_file, tmp_path, text, more, sai
 
 def test_a_shaft_that_turns_back_has_no_order_map(run, rings_file, tmp_path):
     out = tmp_path / "out"
-    there = ("-t", 0.1, "--settle", 0.02, "--run-up", "3000,-3000", *QUICK)
+    there = ("-t", 0.1, "--settle", 0.02, "--run-up", "3000:-3000", *QUICK)
     made = run("sound", rings_file, *there, "-o", out)
     assert made.exit_code == 0 and "no order map: the shaft stops or turns back" in made.stderr
     assert not (out / "orders.csv").exists()

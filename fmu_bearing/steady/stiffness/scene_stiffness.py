@@ -18,10 +18,7 @@ from fmu_bearing.progress import keeping
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.member import preload_asked, preload_key, still_of
-from fmu_bearing.scene.operation import Operation
-from fmu_bearing.scene.problems import allowed
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.scene.values import limits
 from fmu_bearing.steady.impedance import FREEDOMS, at_rest, impedance, spaced
 from fmu_bearing.steady.statics import Statics, point
 from fmu_bearing.steady.stiffness.bearing_stiffness import BearingStiffness
@@ -209,9 +206,9 @@ def stiffness(
     loads = _axis("preloads", "N", preloads, [_own_preload(scene)])
     if preloads is not None and scene.spindle is not None and scene.spindle.preload is None:
         raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
-    low, high = limits(Operation.model_fields["speed_rpm"])
-    if rpm[0] < low or rpm[-1] > high:
-        raise ValueError(f"speeds are refused: allowed are {allowed(('operation', 'speed_rpm'))}")
+    most = scene.bearing.most_speed
+    if rpm[0] < -most or rpm[-1] > most:
+        raise ValueError(f"speeds are refused: allowed are {-most:g} to {most:g} r/min")
     hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)
     if hertz[0] <= 0.0:
         raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")

@@ -97,7 +97,7 @@ def test_a_step_makes_no_more_pieces_than_its_time(scene, fidelity):
         if fidelity == "response":
             assert after[1] - before[1] <= 1
             assert made < 40
-    assert made > (1 if fidelity == "rings" else 5) - 1
+    assert made > (0 if fidelity == "rings" else 5)
     while pieces(run)[2] == L.GOING:
         step(run, 1)
         searched += 1
@@ -130,13 +130,14 @@ def test_no_loss_is_no_reason_to_search_again(scene, fidelity):
 
 
 def test_short_steps_wait_for_a_millisecond(scene):
-    run = changed(started(scene, "response"))
+    run = started(scene, "response")
+    run.u[U.PRELOAD] = 160.0
     counts = []
     for _ in range(40):
         step(run, 1, 0.25 * STEP)
         counts.append(pieces(run)[1])
     assert np.diff(counts).max() == 1
-    assert counts[-1] <= 10
+    assert 5 <= max(counts) <= 10
 
 
 def test_a_ramp_is_met_in_the_middle_of_the_time_in_which_lines_serve(scene):
@@ -204,7 +205,7 @@ def test_states_of_rings_restored_within_a_run_up_give_equal_bits(scene):
 
     speed_up(10_000.0)
     kept = run.s.copy()
-    assert {(0, L.GOING), (1, L.GOING)} <= speed_up(11_200.0)
+    assert {(0, L.GOING), (2, L.GOING)} <= speed_up(11_200.0)
     wanted = run.s.copy()
     run.s[:] = kept
     speed_up(11_200.0, spoil=True)
@@ -235,3 +236,20 @@ def test_a_set_comes_to_what_its_start_finds(fidelity):
         at = int(run.row(b)[SP.ROW_S]) + S.CONDENSED
         np.testing.assert_array_equal(run.s[at + L.CONDITIONS :][:20], steady[at + L.CONDITIONS :][:20])
         assert run.s[at + L.SEARCH_STATE] == L.IDLE
+
+
+@pytest.mark.parametrize("fidelity", ["rings", "response"])
+def test_loads_that_go_leave_nothing(fidelity):
+    """3 kN across for 45 ms: a search for what its uneven balls lose is given up when it has gone.
+
+    Before, torque was off for 230 ms more.
+    """
+    run = SetRun(set_scene("+-", (40.0, 70.0), 200.0, 10e3), FIDELITY=FIDELITIES[fidelity]).init()
+    wanted = run.value("friction_torque")
+    run.u[SP.U_NOSE + 1] = 3_000.0
+    run.run(0.045, STEP)
+    run.u[SP.U_NOSE + 1] = 0.0
+    run.run(0.015, STEP)
+    assert run.value("friction_torque") == pytest.approx(wanted, rel=0.01)
+    run.run(0.1, STEP)
+    assert run.value("friction_torque") == pytest.approx(wanted, rel=1e-3)

@@ -116,12 +116,12 @@ def test_response_follows_a_ramp_from_standstill(scene):
 def test_response_follows_a_steady_ramp(scene):
     """A ramp whose rate does not change leaves the speed that the lines were made for all the same.
 
-    By 5,000 r/min per s, it moves by 0.5 % while lines are renewed, which are made for the middle of that:
-    0.24 % off at most, measured, and 0.38 % at the first renewal.
+    By 5,000 r/min per s, it moves by 1.4 % while lines serve, which are made for the middle of that: 0.69 %
+    off at most, measured, and 0.94 % at the first renewal.
     """
     run = Run(silent(scene("7003C-spindle")), 10_000, FIDELITY=2.0).init()
     for i in range(1, 201):
         run.u[U.SPEED] = (10_000 + 5 * i) * RPM
         assert run.step(1e-3) == OK
-        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=0.005)
+        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=0.01)
     assert block(run)[L.FOUND_SPEED] > 10_800 * RPM

@@ -171,6 +171,10 @@ OFFSET_RATE = _bearing()  # m/s,
 OFFSET_COLD = _bearing()  # m: and that at standstill and 20 degC
 LOAD = _bearing(PLANE)  # N, N m: of the inner ring on the balls, at the last communication point
 HELD_OFFSET = _bearing()  # m: that the bearing's quasi-static point was held with (fidelity rings)
+EXCESS = (
+    _bearing()
+)  # N: by which its steady force along the axis exceeds the quasi-static one where it rested
+RESTED = _bearing(2 * PLANE + 2 + HOUSING)  # START_RING to START_FORCE there, see steady.keep_rest
 ANSWER = _bearing(LANES * DRIVEN)  # R^-1 of the driven rows, by columns of LANES
 PER_BEARING = _bearing.next
 # fidelity rings, behind the inverse: numbers, then the vectors of history, and by padded columns B^-1 J_x
@@ -181,7 +185,7 @@ HELD_SPRING = _march()  # N,
 HELD_FEET = _march()  # N/m: and the pedestal
 LINES = _march()  # how many lines there are (fidelity response)
 PIECES = _march()  # of renewals: due and not made yet
-WAITING = _march()  # 1: what is held is out of date, and waits for a piece
+PAUSE = _march()  # until the next one may begin
 # a renewal that goes on in pieces: see response/renewal, and rings/march
 STAGE = _march()
 MEMBER = _march()  # bearing,

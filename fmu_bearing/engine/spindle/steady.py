@@ -174,11 +174,7 @@ def rest_steadily(p, s, w, speed, across):
 
     ``across``: all of them, else along the axis alone.
     """
-    ws = members.set_work(p, w)
-    for b in range(members.count(p)):
-        at = members.scratch(p, b) + SP.START_MORE
-        for i in range(SP.LANES):
-            ws[at + i] = 0.0
+    show_excess(p, s, w, not across)
     status = rest(p, s, w, speed)
     for _ in range(_ROUNDS):
         if status != OK:
@@ -191,4 +187,62 @@ def rest_steadily(p, s, w, speed, across):
         status = rest(p, s, w, speed)
         if not far:
             break
+    for b in range(members.count(p)):
+        keep_rest(p, b, s, w)
     return status
+
+
+@kernel
+def show_excess(p, s, w, known):
+    """Put to ``START_MORE`` by how much steady forces exceed quasi-static ones, if ``known``, or zeros."""
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    for b in range(members.count(p)):
+        at = members.scratch(p, b) + SP.START_MORE
+        for i in range(SP.LANES):
+            ws[at + i] = 0.0
+        if known:
+            ws[at + Q.X] = own[members.per_bearing(p, b) + SP.EXCESS]
+            ws[at + Q.OUTER + Q.X] = -ws[at + Q.X]
+
+
+@kernel
+def keep_rest(p, b, s, w):
+    """Keep where the rings of bearing ``b`` rest, and by how much its steady force exceeds the other."""
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    bearing_at = members.per_bearing(p, b)
+    at = members.scratch(p, b)
+    own[bearing_at + SP.EXCESS] = ws[at + SP.START_MORE + Q.X]
+    for i in range(SP.START_PULL - SP.START_RING):
+        own[bearing_at + SP.RESTED + i] = ws[at + SP.START_RING + i]
+
+
+@kernel
+def show_rest(p, b, s, w):
+    """Put what `keep_rest` has kept back to the scratch."""
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    bearing_at = members.per_bearing(p, b)
+    at = members.scratch(p, b)
+    ws[at + SP.START_MORE + Q.X] = own[bearing_at + SP.EXCESS]
+    for i in range(SP.START_PULL - SP.START_RING):
+        ws[at + SP.START_RING + i] = own[bearing_at + SP.RESTED + i]
+
+
+@kernel
+def rest_as_known(p, s, w, speed):
+    """As `rest_steadily` along the axis, with the excess of the steady forces as it is known; status code."""
+    show_excess(p, s, w, True)
+    status = rest(p, s, w, speed)
+    for b in range(members.count(p)):
+        keep_rest(p, b, s, w)
+    return status
+
+
+@kernel
+def renew_excess(p, b, speed, s, w):
+    """Renew by how much the steady force of bearing ``b`` exceeds the quasi-static one where it rests."""
+    show_rest(p, b, s, w)
+    add_excess(p, b, speed, False, s, w)
+    keep_rest(p, b, s, w)

@@ -13,6 +13,7 @@ import math
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
 from fmu_bearing.engine.fidelities.condensed.uneven import (
     begin_uneven,
+    grown,
     hold_losses,
     hold_uneven,
     uneven_out_of_date,
@@ -146,16 +147,11 @@ def hold_at(p, speed, turning, ring_held, s, w):
 
 
 @kernel
-def out_of_date(lv, c, speed):
-    """Whether speed or a condition has left the neighbourhood of the held values."""
-    far = abs(speed - lv[L.FOUND_SPEED]) > 0.01 * abs(lv[L.FOUND_SPEED]) + 1e-3
+def off(lv, c, speed):
+    """How far speed and conditions are from those of the held values; 1: as far as they may be at rest."""
+    most = abs(speed - lv[L.FOUND_SPEED]) / (0.01 * abs(lv[L.FOUND_SPEED]) + 1e-3)
     for i in (C.PRELOAD, C.LOAD_Y, C.LOAD_Z, C.VISCOSITY, C.PEDESTAL, C.BALL_RADIUS):
-        if abs(c[i] - lv[L.CONDITIONS + i]) > 1e-3 * abs(lv[L.CONDITIONS + i]) + 1e-12:
-            far = True
-    for race in range(2):
-        # groove circles and free distance move by micrometres: 1e-3 of a contact's approach
-        for i in (C.GROOVE_X, C.GROOVE_RADIUS, C.FREE):
-            k = C.RACES + race * C.RACE_SIZE + i
-            if abs(c[k] - lv[L.CONDITIONS + k]) > 1e-9:
-                far = True
-    return far
+        held = lv[L.CONDITIONS + i]
+        most = max(most, abs(c[i] - held) / (1e-3 * abs(held) + 1e-12))
+    # 1e-3 of a contact's approach
+    return max(most, grown(c, lv, L.CONDITIONS) / 1e-9)

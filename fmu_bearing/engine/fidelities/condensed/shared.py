@@ -10,7 +10,7 @@ from fmu_bearing.engine.fidelities.condensed.contact_forces import (
     find_pushes,
     note_contacts,
 )
-from fmu_bearing.engine.fidelities.condensed.held import hold, out_of_date, turning_at
+from fmu_bearing.engine.fidelities.condensed.held import hold, off, turning_at
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.operator import (
     clear_operator,
@@ -197,19 +197,15 @@ def quasistatic_places(p, c, speed, w):
 
 @kernel
 def set_inputs(p, u, s, w, h):
-    """Set conditions and speed ramp; True where what is held is out of date."""
+    """Set conditions and speed ramp; how far they are `off`."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     rate = (u[U.SPEED] - s[S.SPEED]) / h
     fresh = w[W.CONDITIONS : W.CONDITIONS + C.SIZE]
     conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
-    # a ramp that goes on as before also leaves the speed that all was found at
-    changed = rate != s[S.SPEED_RATE] or u[U.SPEED] != s[S.SPEED]
     for i in range(C.USED):
-        if fresh[i] != s[S.C + i]:
-            changed = True
-            s[S.C + i] = fresh[i]
+        s[S.C + i] = fresh[i]
     s[S.SPEED_RATE] = rate
-    return (changed and out_of_date(lv, fresh, u[U.SPEED])) or lv[L.SEARCH_STATE] == L.ENDED
+    return off(lv, fresh, u[U.SPEED])
 
 
 @kernel

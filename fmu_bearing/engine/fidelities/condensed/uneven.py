@@ -29,6 +29,7 @@ from fmu_bearing.engine.steady.point import (
 _MOVED = 0.05  # of speed, loads, viscosity
 _ACROSS = 0.01  # of the preload: of a load across the axis, so that rounding in a set's rest counts as none
 _GROWN = 2e-8  # m: of a contact's geometry, some hundredths of its approach
+_GONE = 4.0  # times these: a search for what was there then serves nothing
 _HEATS = 3
 
 
@@ -94,30 +95,54 @@ def keep_lost(lv, s, x, at):
 
 
 @kernel
-def moved(now, then):
-    """Whether a number has left the neighbourhood of what it was."""
-    return abs(now - then) > _MOVED * abs(then) + 1e-12
+def moved(now, then, times):
+    """Whether a number is ``times`` as far as it may be from what it was."""
+    return abs(now - then) > times * (_MOVED * abs(then) + 1e-12)
+
+
+@kernel
+def grown(c, lv, at):
+    """How far (m) contacts have moved with the conditions ``c`` from those in ``lv[at:]``.
+
+    Groove circles count by their distance: where both grow together, contacts are as they were.
+    """
+    inner, outer = C.RACES, C.RACES + C.RACE_SIZE
+    most = 0.0
+    for i in (C.GROOVE_X, C.GROOVE_RADIUS):
+        apart = c[outer + i] - c[inner + i]
+        most = max(most, abs(apart - (lv[at + outer + i] - lv[at + inner + i])))
+    for race in range(2):
+        k = C.RACES + race * C.RACE_SIZE + C.FREE
+        most = max(most, abs(c[k] - lv[at + k]))
+    return most
+
+
+@kernel
+def away(lv, c, speed, found_speed, conditions, times):
+    """Whether speed, loads or sizes are ``times`` as far as they may be from those in ``lv``."""
+    far = moved(speed, lv[found_speed], times)
+    for i in (C.PRELOAD, C.VISCOSITY, C.PEDESTAL):
+        if moved(c[i], lv[conditions + i], times):
+            far = True
+    for i in (C.LOAD_Y, C.LOAD_Z):
+        then = lv[conditions + i]
+        if abs(c[i] - then) > times * (_MOVED * abs(then) + _ACROSS * abs(c[C.PRELOAD]) + 1e-12):
+            far = True
+    return far or grown(c, lv, conditions) > times * _GROWN
 
 
 @kernel
 def uneven_out_of_date(lv, c, speed):
-    """Whether speed, loads or sizes have moved too far for what uneven balls add, and no search is going."""
-    at = L.MORE_CONDITIONS
+    """Whether speed, loads or sizes have moved too far for what uneven balls add, and no search is going.
+
+    A search for loads that have gone is given up.
+    """
     if lv[L.SEARCH_STATE] == L.GOING:
-        return False
-    far = lv[L.MORE_KNOWN] == 0.0 or moved(speed, lv[L.MORE_SPEED])
-    for i in (C.PRELOAD, C.VISCOSITY, C.PEDESTAL):
-        if moved(c[i], lv[at + i]):
-            far = True
-    for i in (C.LOAD_Y, C.LOAD_Z):
-        if abs(c[i] - lv[at + i]) > _MOVED * abs(lv[at + i]) + _ACROSS * abs(c[C.PRELOAD]) + 1e-12:
-            far = True
-    for race in range(2):
-        for i in (C.GROOVE_X, C.GROOVE_RADIUS, C.FREE):
-            k = C.RACES + race * C.RACE_SIZE + i
-            if abs(c[k] - lv[at + k]) > _GROWN:
-                far = True
-    return far
+        if not away(lv, c, speed, L.SEARCH_SPEED, L.SEARCH_CONDITIONS, _GONE):
+            return False
+        lv[L.SEARCH_STATE] = L.IDLE
+        lv[L.SEARCH_BEFORE] = 0.0
+    return lv[L.MORE_KNOWN] == 0.0 or away(lv, c, speed, L.MORE_SPEED, L.MORE_CONDITIONS, 1.0)
 
 
 @kernel

@@ -149,12 +149,12 @@ def march_response(p, u, s, w, h):
         steps.begin_means(sb)
         if not bearing.is_near(sb, speed, h):
             near = False
-    renewed = held.set_inputs_of(p, u, s, w, h)
+    off = held.set_inputs_of(p, u, s, w, h)
     if sinks(p, s, w):
         return TOO_SOFT
     for b in range(members.count(p)):
         own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0
-    status, fresh = renewal.go_on(p, u, s, w, h, renewed)
+    status, fresh = renewal.go_on(p, u, s, w, h, off)
     if status != OK:
         return status
     near = near and not fresh

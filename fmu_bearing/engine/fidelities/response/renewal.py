@@ -43,25 +43,46 @@ from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import OK
 
-IDLE, HOLD, MASSES, DERIVE, LINES, ANSWER, RINGS, BEYOND, BALLS, MEANS, COMPLETE = range(11)
+(
+    IDLE,
+    SETTLE,
+    EXCEED,
+    SETTLE_AGAIN,
+    HOLD,
+    MASSES,
+    DERIVE,
+    LINES,
+    ANSWER,
+    RINGS,
+    BEYOND,
+    BALLS,
+    MEANS,
+    COMPLETE,
+) = range(14)
 
 # Candidates per piece: of a bearing's lines, of a set's (times the cubed number of coordinates), of lines
 # that sound: of the rings, of the balls.
 _LINES = 144
-_ANSWERS = 2e5
+_ANSWERS = 4e5
+_ANSWERS_LEAST = 14  # coordinates: fewer take as long, by what is not cubed
 _RINGS = 192
-_BALLS = 960
+_BALLS = 480
 _GUESS = 8.0  # pieces of the first renewal
 # how far lines may be off once a renewal that begins now is complete: this many times what the speed changes
 # by meanwhile, at most and at least these parts of the speed
 _CALM = 10.0
 _DRIFT = 1e-3
 _REST = 1e-6
-_AHEAD = 0.4  # of a drift: how far beyond the speed at which they come into use lines are found
+_AHEAD = 0.6  # of a drift: how far beyond the speed at which they come into use lines are found
 _SOON = 0.1  # s: no farther than a ramp comes in that time
 _SMOOTH = 10e-3  # s: a speed with noise has no rate from one step to the next,
 _PACE = 20.0  # 1/s: and one that changes by more than this part of it jumps
 _NEAR = 1e-3  # of an input: what is held may be off by as much
+_HURRY = 5.0  # of what is held; new lines come in by and by
+# Where a set is so far behind, by these parts of the speed or times what may be off, it makes more pieces.
+_LATE = 0.03
+_LOST = 50.0
+_CATCH_UP = 3.0
 _SEARCHES = 4.0  # every so many pieces one is of a search that waits
 
 
@@ -87,7 +108,8 @@ def aim_ahead(p, s, speed, h):
     last = own[members.march(p) + SP.MADE_LAST] * held.PIECE
     half = _SOON
     if abs(rate) * half > _AHEAD * _DRIFT * abs(speed):
-        half = _AHEAD * _DRIFT * abs(speed) / abs(rate)
+        near = _AHEAD * _DRIFT * abs(speed) / abs(rate)
+        half = max(near, min(0.5 * (1.0 + held.PAUSE) * last, _HURRY * near))
     ahead = rate * max(last + 0.5 * BLEND + max(0.5 * last, half) - h, 0.0)
     return speed + min(max(ahead, -held.FAR * abs(speed)), held.FAR * abs(speed))
 
@@ -101,7 +123,7 @@ def begin(p, u, s, w, h):
     aim = aim_ahead(p, s, u[SP.U_SPEED], h)
     own[at + SP.AIM] = aim
     own[at + SP.MADE] = 0.0
-    enter(p, s, HOLD)
+    enter(p, s, SETTLE if members.has_shaft(p) else HOLD)
     given = inputs_of(p, s)
     for i in range(inputs(p)):
         given[i] = u[i]
@@ -150,15 +172,21 @@ def held_piece(p, s, w):
     aim = own[at + SP.AIM]
     pb, sb, wb = members.parameters(p, b), members.state(p, back, b), members.work(p, w, b)
     together = members.has_shaft(p)
-    if stage == HOLD:
-        if held.hold_points(p, inputs_of(p, s), False, back, w) != OK:
+    if stage == EXCEED:
+        held.exceed(p, inputs_of(p, s), b, back, w)
+        next_member(p, s, EXCEED, SETTLE_AGAIN)
+    elif stage == SETTLE or stage == SETTLE_AGAIN:
+        if held.rest_set(p, inputs_of(p, s), True, back, w) != OK:
             return False
-        if together:
-            ws = members.set_work(p, w)
-            found = held.start_vector(p, SP.UNKNOWNS)
-            for i in range(members.coordinates(p)):
-                members.set_state(p, back)[SP.S_HEAD + i] = ws[found + i]
-        enter(p, s, MASSES)
+        ws = members.set_work(p, w)
+        found = held.start_vector(p, SP.UNKNOWNS)
+        for i in range(members.coordinates(p)):
+            members.set_state(p, back)[SP.S_HEAD + i] = ws[found + i]
+        enter(p, s, EXCEED if stage == SETTLE else HOLD)
+    elif stage == HOLD:
+        if held.hold_point(p, inputs_of(p, s), b, False, back, w) != OK:
+            return False
+        next_member(p, s, HOLD, MASSES)
     elif stage == MASSES:
         hold_operator(pb, sb, wb)
         next_member(p, s, MASSES, DERIVE)
@@ -185,7 +213,7 @@ def answer_piece(p, s, w):
     """One piece of a set's lines."""
     own = members.set_state(p, s)
     at = members.march(p)
-    many = max(int(_ANSWERS / members.coordinates(p) ** 3), 4)
+    many = max(int(_ANSWERS / (members.coordinates(p) ** 3 + _ANSWERS_LEAST**3)), 4)
     if answer_lines(p, back_of(p, s), w, own[at + SP.AIM], int(own[at + SP.CURSOR]), many):
         own[at + SP.CURSOR] += many
     else:
@@ -252,8 +280,9 @@ def sound_once(p, s, w):
     stage, b, cursor = int(own[at + SP.STAGE]), int(own[at + SP.MEMBER]), int(own[at + SP.CURSOR])
     aim = own[at + SP.AIM]
     if stage == RINGS:
-        if add_rings(p, back, w, aim, cursor, _RINGS):
-            own[at + SP.CURSOR] += _RINGS
+        many = _RINGS // (2 * members.count(p) - 1)
+        if add_rings(p, back, w, aim, cursor, many):
+            own[at + SP.CURSOR] += many
         else:
             enter(p, s, BEYOND)
     elif stage == BEYOND:
@@ -309,6 +338,7 @@ def take_over(p, s):
             bearing_at = members.per_bearing(p, b)
             own[bearing_at + SP.OFFSET] = of[bearing_at + SP.OFFSET]
             own[bearing_at + SP.HELD_OFFSET] = of[bearing_at + SP.HELD_OFFSET]
+            own[bearing_at + SP.EXCESS] = of[bearing_at + SP.EXCESS]
         copy(of, own, at + SP.HELD_NOSE, at + SP.LINES)
     copy(of, own, members.history(p), members.history(p) + members.padded_size(p))
 
@@ -345,23 +375,31 @@ def take_sound(p, s):
 
 @kernel
 def moved(p, s, speed):
-    """Whether ``speed`` (rad/s) leaves the neighbourhood of that of the lines in use."""
+    """How far ``speed`` (rad/s) is from that of the lines in use; 1: as far as it may be."""
     own = members.set_state(p, s)
     at = members.march(p)
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
     last = own[at + SP.MADE_LAST] * held.PIECE
     near = min(max(_CALM * last * own[at + SP.RAMP + 1], _REST * abs(speed)), _DRIFT * abs(speed))
-    return abs(speed + last * own[at + SP.RAMP] - used) > near
+    return abs(speed + last * own[at + SP.RAMP] - used) / (near + 1e-12)
 
 
 @kernel
 def runs_away(p, s, speed):
-    """Whether ``speed`` (rad/s) is far from that of the lines in use and of those of a renewal."""
+    """Whether ``speed`` (rad/s) has jumped far from that of the lines in use and of those of a renewal."""
     own = members.set_state(p, s)
     at = members.march(p)
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
-    busy = own[at + SP.STAGE] != IDLE
-    return held.apart_by_far(speed, used) and not (busy and not held.apart_by_far(speed, own[at + SP.AIM]))
+    jumps = abs(s[S.SPEED_RATE]) >= _PACE * abs(speed)
+    busy = own[at + SP.STAGE] != IDLE and not held.apart_by_far(speed, own[at + SP.AIM])
+    return jumps and held.apart_by_far(speed, used) and not busy
+
+
+@kernel
+def is_late(p, s, speed, off):
+    """Whether a set, whose renewals are long, is far behind ``speed`` (rad/s) or its other inputs."""
+    used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
+    return members.count(p) > 1 and (abs(speed - used) > _LATE * abs(speed) or off > _LOST)
 
 
 @kernel
@@ -375,10 +413,10 @@ def strayed(p, u, s):
 
 
 @kernel
-def go_on(p, u, s, w, h, renewed):
+def go_on(p, u, s, w, h, off):
     """Make the pieces due in a step of ``h`` (s); status code, and whether something new is in use.
 
-    ``renewed``: whether what is held is out of date for the inputs ``u``. Where the speed jumps far, all
+    ``off``: how far what is held is off the inputs ``u``, see `held.off`. Where the speed jumps far, all
     pieces are made at once. Where inputs come back to those in use, the renewal for others is given up: one
     bad sample changes nothing. A renewal that finds no equilibrium for other inputs gives way to one for
     these.
@@ -391,8 +429,9 @@ def go_on(p, u, s, w, h, renewed):
     own[at + SP.RAMP + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RAMP + 1])
     # until lines are written the second state keeps those before the ones in use
     first_lines = ANSWER if members.has_shaft(p) else LINES
-    if own[at + SP.WAITING] != 0.0:
-        renewed = True
+    renewed = held.due(p, s, max(off, moved(p, s, u[SP.U_SPEED])), _HURRY, h)
+    if is_late(p, s, u[SP.U_SPEED], off):
+        due *= _CATCH_UP
     at_once = runs_away(p, s, u[SP.U_SPEED])
     if at_once:
         due = h = held.MOST
@@ -402,15 +441,12 @@ def go_on(p, u, s, w, h, renewed):
             own[at + SP.STAGE] = IDLE
             renewed = True
     fresh = False
-    if own[at + SP.STAGE] != IDLE and not renewed and strayed(p, u, s):
+    if own[at + SP.STAGE] != IDLE and off <= 1.0 and strayed(p, u, s):
         own[at + SP.STAGE] = IDLE
-    # one for these inputs begins when that for others is complete, as in a drift
-    own[at + SP.WAITING] = 1.0 if renewed and strayed(p, u, s) else 0.0
     while True:
         if own[at + SP.STAGE] == IDLE:
-            if renewed or moved(p, s, u[SP.U_SPEED]):
+            if renewed:
                 begin(p, u, s, w, h)
-                own[at + SP.WAITING] = 0.0
                 renewed = False
         waits = held.searching(p, s)
         if due < 1.0 or (own[at + SP.STAGE] == IDLE and not waits):
@@ -431,7 +467,8 @@ def go_on(p, u, s, w, h, renewed):
             return status, fresh
         if own[at + SP.STAGE] == COMPLETE:
             take_over(p, s)
+            held.pause(p, s, own[at + SP.MADE])
             if at_once:
                 end_blend(p, s)
             own[at + SP.STAGE] = IDLE
-            fresh = True
+            fresh, renewed = True, False

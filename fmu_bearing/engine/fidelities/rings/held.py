@@ -5,7 +5,7 @@ Arguments: see `spindle.members`.
 
 import math
 
-from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, out_of_date
+from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, off
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
 from fmu_bearing.engine.fidelities.condensed.operator import clear_operator
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
@@ -37,7 +37,13 @@ from fmu_bearing.engine.spindle.inputs import (
     take_loads,
 )
 from fmu_bearing.engine.spindle.rest import keep_stiffness, settle_bearing, start_vector
-from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
+from fmu_bearing.engine.spindle.steady import (
+    place_held,
+    renew_excess,
+    rest_as_known,
+    rest_steadily,
+    show_rest,
+)
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
 from fmu_bearing.engine.statics.place import place_balls, place_cage
@@ -48,6 +54,9 @@ from fmu_bearing.engine.steady.even import BOTH, OUTER
 PIECE = 1e-3  # s of simulated time per piece of a renewal
 MOST = 1000.0  # pieces in a communication step: more than any renewal with all its searches has
 FAR = 0.2  # of the speed: where it is that far from what is held, all pieces are made at once
+# Renewals in a drift of the inputs pause for this many times the pieces of the last one, unless what is held
+# is off by so many times its tolerance that it cannot wait (``hurry``). At rest it is within it.
+PAUSE = 4.0
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
 # a bearing's own geometry may change by
@@ -125,21 +134,19 @@ def note_loads(p, own):
 
 @kernel
 def apart(value, noted):
-    """Whether a load differs from the stored one by more than the points may be off."""
-    return abs(value - noted) > _NEAR * abs(noted) + 1e-12
+    """How far a load is from the stored one; 1: as far as it may be at rest."""
+    return abs(value - noted) / (_NEAR * abs(noted) + 1e-12)
 
 
 @kernel
 def loads_apart(p, own):
-    """Whether loads on the set have left the neighbourhood of the stored ones."""
+    """How far the loads on the set are from the stored ones, see `apart`."""
     at = members.march(p)
-    far = apart(own[SP.SPRING], own[at + SP.HELD_SPRING])
-    if apart(own[SP.FEET + Q.Y], own[at + SP.HELD_FEET]):
-        far = True
+    most = apart(own[SP.SPRING], own[at + SP.HELD_SPRING])
+    most = max(most, apart(own[SP.FEET + Q.Y], own[at + SP.HELD_FEET]))
     for i in range(SP.PLANE):
-        if apart(own[SP.NOSE + i], own[at + SP.HELD_NOSE + i]):
-            far = True
-    return far
+        most = max(most, apart(own[SP.NOSE + i], own[at + SP.HELD_NOSE + i]))
+    return most
 
 
 @kernel
@@ -185,12 +192,39 @@ def hold_all(p, u, at_once, s, w):
 
 @kernel
 def hold_points(p, u, at_once, s, w):
-    """As `hold_all`, but leave the operators (`hold_operator`) as they are.
+    """As `hold_all`, but leave the operators (`hold_operator`) as they are."""
+    status = rest_set(p, u, False, s, w)
+    for b in range(members.count(p)):
+        if status == OK:
+            status = hold_point(p, u, b, at_once, s, w)
+    return status
 
-    A set's coordinates there are left among its own work space's vectors, see ``SP.UNKNOWNS``.
-    """
+
+@kernel
+def hold_point(p, u, b, at_once, s, w):
+    """Renew what bearing ``b`` holds but its operator, of a set where `rest_set` has found it at rest."""
     if not members.has_shaft(p):
         return hold_alone(p, u, at_once, s, w)
+    show_rest(p, b, s, w)
+    load = -members.set_work(p, w)[members.scratch(p, b) + SP.START_FORCE]
+    return hold_bearing(p, u, b, load, at_once, s, w)
+
+
+@kernel
+def exceed(p, u, b, s, w):
+    """Renew the steady force of bearing ``b`` where `rest_set` has found it at rest."""
+    renew_excess(p, b, u[SP.U_SPEED], s, w)
+
+
+@kernel
+def rest_set(p, u, known, s, w):
+    """Find where a set rests at the inputs ``u``; status code. Of a single bearing nothing is to be found.
+
+    ``known``: with the excess of its bearings' steady forces as it is known, see `exceed`. The coordinates
+    there are left among the set's own work space's vectors, see ``SP.UNKNOWNS``.
+    """
+    if not members.has_shaft(p):
+        return OK
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     for b in range(members.count(p)):
@@ -200,15 +234,14 @@ def hold_points(p, u, at_once, s, w):
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p)):
         ws[z + i] = own[SP.S_HEAD + i]
-    status = rest_steadily(p, s, w, u[SP.U_SPEED], False)
+    if known:
+        status = rest_as_known(p, s, w, u[SP.U_SPEED])
+    else:
+        status = rest_steadily(p, s, w, u[SP.U_SPEED], False)
     exchange_offsets(p, own)
     if status != OK:
         return status
     keep_stiffness(p, s, w)
-    for b in range(members.count(p)):
-        status = hold_bearing(p, u, b, -ws[members.scratch(p, b) + SP.START_FORCE], at_once, s, w)
-        if status != OK:
-            return status
     note_loads(p, own)
     return OK
 
@@ -309,6 +342,8 @@ def start_held(p, u, s, w, t):
         return status
     for b in range(members.count(p)):
         even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
+    for b in range(members.count(p)):
+        own[members.per_bearing(p, b) + SP.EXCESS] = 0.0
     status = hold_all(p, u, True, s, w)
     if status == OK:
         find_levers(p, members.set_state(p, s))
@@ -317,7 +352,7 @@ def start_held(p, u, s, w, t):
 
 @kernel
 def set_inputs_of(p, u, s, w, h):
-    """Set conditions, loads and ramps; True where what is held is out of date."""
+    """Set conditions, loads and ramps; how far what is held is `off` from them."""
     if not members.has_shaft(p):
         return set_inputs(p, u, s, w, h)
     own = members.set_state(p, s)
@@ -326,7 +361,7 @@ def set_inputs_of(p, u, s, w, h):
     middle = 0.5 * (s[S.SPEED] + speed)
     if loads_differ(p, u, own):
         take_loads(p, u, own)
-    far = loads_apart(p, own)
+    most = loads_apart(p, own)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
@@ -340,9 +375,29 @@ def set_inputs_of(p, u, s, w, h):
         # the load follows from the set's rest, see above
         fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
         grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
-        if out_of_date(lv, fresh, speed) or abs(grown) > _GROWN or lv[L.SEARCH_STATE] == L.ENDED:
-            far = True
-    return far
+        most = max(most, off(lv, fresh, speed), abs(grown) / _GROWN)
+    return most
+
+
+@kernel
+def due(p, s, off, hurry, h):
+    """Whether a renewal may begin in a step of ``h`` (s), what is held being ``off`` (see `condensed.held`).
+
+    What a search has found is taken as soon as it has come to its end.
+    """
+    own = members.set_state(p, s)
+    at = members.march(p) + SP.PAUSE
+    own[at] = max(own[at] - h / PIECE, 0.0)
+    for b in range(members.count(p)):
+        if members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.ENDED:
+            return True
+    return off > hurry or (off > 1.0 and own[at] <= 0.0)
+
+
+@kernel
+def pause(p, s, pieces):
+    """Let renewals pause after one of so many ``pieces``."""
+    members.set_state(p, s)[members.march(p) + SP.PAUSE] = PAUSE * pieces
 
 
 @kernel

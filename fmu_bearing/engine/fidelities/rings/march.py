@@ -46,6 +46,7 @@ _TRUNCATION = 1.0
 _GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
 FIRST = 1.0 / 16  # of the longest step: the first one
 _PATIENCE = 8  # steps before a longer one is tried
+_HURRY = 3.0  # of what is held; what it jumps by at a renewal moves the rings
 
 
 @kernel
@@ -174,35 +175,62 @@ def accept(p, s, w, h):
 def take_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; renew what is held where it is out of date. Status code.
 
-    In pieces, one per `held.PIECE` of simulated time: the points that are held, then each bearing's operator.
-    Between them the march goes on with the operators of before. A search for what uneven balls add waits.
+    In pieces, one per `held.PIECE` of simulated time (`make_piece`). Between them the march goes on with the
+    operators of before. A search for what uneven balls add waits.
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    if held.set_inputs_of(p, u, s, w, h):
-        own[at + SP.WAITING] = 1.0
+    renewed = held.due(p, s, held.set_inputs_of(p, u, s, w, h), _HURRY, h)
     due = held.pieces_due(p, s, h)
     if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
         due = held.MOST
     while due >= 1.0:
         due -= 1.0
-        b = int(own[at + SP.STAGE]) - 1  # whose operator is due; none: -1
-        if b >= 0:
-            hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
-            own[at + SP.STAGE] = b + 2.0 if b + 1 < members.count(p) else 0.0
-            if not restart_here(p, s, w):
-                return NOT_CONVERGED
-        elif own[at + SP.WAITING] != 0.0:
-            own[at + SP.WAITING] = 0.0
-            if held.hold_points(p, u, False, s, w) != OK:
-                return NOT_CONVERGED
+        if own[at + SP.STAGE] == 0.0 and renewed:
+            renewed = False
             own[at + SP.STAGE] = 1.0
+            held.pause(p, s, count_pieces(p))
+        if own[at + SP.STAGE] != 0.0:
+            if not make_piece(p, u, s, w):
+                own[at + SP.STAGE] = 0.0
+                return NOT_CONVERGED
         elif held.searching(p, s):
-            if held.searched(p, s, w):
-                own[at + SP.WAITING] = 1.0
+            renewed = held.searched(p, s, w)
         else:
             break
     return OK
+
+
+@kernel
+def count_pieces(p):
+    """Return how many pieces a renewal has."""
+    count = members.count(p)
+    return 2 * count + (2 + count if members.has_shaft(p) else 0)
+
+
+@kernel
+def make_piece(p, u, s, w):
+    """Make the next piece of the renewal that goes on; False where there is no rest.
+
+    Of a set: where it rests, by how much each bearing's steady force exceeds the quasi-static one there,
+    where it rests then. Of each bearing: its point, and then its operator.
+    """
+    own = members.set_state(p, s)
+    at = members.march(p)
+    count = members.count(p)
+    first = count_pieces(p) - 2 * count  # of the bearings' points
+    piece = int(own[at + SP.STAGE]) - 1
+    own[at + SP.STAGE] = piece + 2.0 if piece + 1 < count_pieces(p) else 0.0
+    if piece < first:
+        if piece == 0 or piece == first - 1:
+            return held.rest_set(p, u, True, s, w) == OK
+        held.exceed(p, u, piece - 1, s, w)
+        return True
+    b = (piece - first) % count
+    if piece - first < count:
+        return held.hold_point(p, u, b, False, s, w) == OK
+    hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+    return restart_here(p, s, w)
 
 
 @kernel

@@ -5,6 +5,7 @@
 # make lint    style, format, types, imports and the site, checked by their tools
 # make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
+# make tables  make the tables of docs/results again that another engine made, an hour of an idle machine
 # make papers  run the papers' cases and write docs/papers; a quarter of an hour, kept under out/papers
 # make measured  compare with what others measured; writes docs/measured.md, its figures and its table
 # make docs    build the documentation site into out/site; opens from the disk, works offline
@@ -27,15 +28,15 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy bits lint soak papers measured: export OPENBLAS_NUM_THREADS = 1
+test heavy bits lint soak tables papers measured: export OPENBLAS_NUM_THREADS = 1
 # No process has to compile sources again that one before it has imported, whatever the user's shell says.
 export PYTHONDONTWRITEBYTECODE =
 
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy bits lint soak bench papers measured docs kernels compiled wheels wheel-check \
-	release-fmus clean
+.PHONY: demo test heavy bits lint soak bench tables papers measured docs kernels compiled wheels wheel-check \
+	release-fmus fresh-tables clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -85,6 +86,10 @@ bench: $(VENV)/.installed-bench compiled
 papers: compiled
 	$(BIN)/python -m examples.papers.run --jobs $(JOBS)
 
+# Those that another engine made, an hour of an idle machine; interrupted, it goes on with the first that is left.
+tables: $(VENV)/.installed-bench compiled
+	$(BIN)/python -m benchmarks.tables
+
 # Three minutes of one core.
 measured: compiled
 	$(BIN)/python -m benchmarks.measured.run
@@ -112,7 +117,10 @@ wheel-check:
 
 EXAMPLES := $(wildcard examples/scenes/*.toml)
 FMUS := $(patsubst examples/scenes/%.toml,$(OUT)/fmus/%.fmu,$(EXAMPLES))
-release-fmus: $(FMUS)
+release-fmus: fresh-tables $(FMUS)
+# A release has no table of another engine.
+fresh-tables: $(VENV)/.installed-test
+	$(BIN)/python -m benchmarks.tables --stale
 $(FMUS): $(OUT)/fmus/%.fmu: examples/scenes/%.toml $(VENV)/.installed-test build_fmu.py $(SOURCES)
 	@mkdir -p $(OUT)/fmus
 	$(BIN)/python build_fmu.py $< -o $@ --platforms $(subst $() $(),$(comma),$(PLATFORMS))

@@ -7,7 +7,8 @@ from benchmarks.table import Row
 from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
 from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.engine.layout import P
-from fmu_bearing.run.metrics import SAMPLE, ring_rms, speed
+from fmu_bearing.run.metrics import SAMPLE, ring_rms
+from fmu_bearing.run.paces import speed
 
 #: Settings among which the fastest is sought whose error is within ``LIMIT``.
 SETTINGS = (

@@ -91,7 +91,8 @@ def cells(case: Case, setting: Setting, found: Measured | None, truth: Figures) 
     loads = [a / b - 1.0 for a, b in zip(own.load, truth.load, strict=True)]
     return [
         *begin, *(f"{a / b:.3f}" for a, b in zip(own.ring_rms, truth.ring_rms, strict=True)),
-        f"{100.0 * max(loads, key=abs):+.2f} %", off(own.torque, truth.torque), *sound, number(found.cpu),
+        f"{100.0 * max(loads, key=abs):+.2f} %", off(own.torque, truth.torque), *sound,
+        number(found.paces.constant),
     ]  # fmt: skip
 
 

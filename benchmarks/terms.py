@@ -8,7 +8,7 @@ from benchmarks.cases import silent
 from fmu_bearing.arrays import Arrays, Refused
 from fmu_bearing.compiled import call, ready
 from fmu_bearing.engine.layout import C, F, P, S, Y
-from fmu_bearing.run.metrics import speed
+from fmu_bearing.run.paces import speed
 
 COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")
 #: Switches of ``p``; one that a scene does not have on is left out of the table.

@@ -113,6 +113,13 @@ class Arrays:
         return rows
 
     @property
+    def temperatures(self) -> NDArray[np.int64]:
+        """Places in ``u`` of all temperatures."""
+        if not SP.has_shaft(self.p):
+            return np.arange(U.OIL_T, U.HOUSING_T + 1)
+        return np.array([SP.U_SHAFT_T, SP.U_HOUSING_T, *range(SP.U_BEARINGS, self.u.size)])
+
+    @property
     def outputs_of_bearings(self) -> list[int]:
         """Where the outputs of each bearing begin in ``z``."""
         p = self.p

@@ -18,8 +18,8 @@ from benchmarks import (
     scenes,
     sets,
     sound,
-    stale,
     table,
+    tables,
     terms,
 )
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
@@ -204,13 +204,24 @@ def test_tables_of_another_engine_are_named(tmp_path):
     (tmp_path / "new.md").write_text(f"{scenes.machine()}\n", "utf-8")
     (tmp_path / "old.md").write_text("AMD; fmu-bearing 0.1.0, engine 0123456789abcdef\n", "utf-8")
     (tmp_path / "none.md").write_text("AMD\n", "utf-8")
-    lines = stale.stale(tmp_path)
-    assert [line.split(":")[0] for line in lines] == ["none.md", "old.md"]
-    assert "engine not named" in lines[0]
-    assert "engine 0123456789abcdef, now" in lines[1]
+    found = tables.stale(tmp_path)
+    assert list(found) == ["none", "old"]
+    assert "engine not named" in found["none"]
+    assert "engine 0123456789abcdef, now" in found["old"]
 
 
-@pytest.mark.parametrize("path", sorted(stale.RESULTS.glob("*.md")), ids=lambda path: path.name)
-def test_a_table_names_what_made_it(path):
+@pytest.mark.parametrize("path", sorted(tables.RESULTS.glob("*.md")), ids=lambda path: path.name)
+def test_a_table_names_what_made_it_and_a_command_makes_it(path):
     text = path.read_text("utf-8")
-    assert path.name in stale.APART or stale.made_by(text)
+    assert path.stem in tables.APART or tables.made_by(text)
+    assert (path.stem in tables.APART) != any(path.stem in made for made in tables.COMMANDS)
+
+
+def test_old_tables_are_made_one_after_the_other_and_the_rest_goes_on(tmp_path, monkeypatch):
+    """A command that fails is named, and one that makes two tables runs once."""
+    (tmp_path / "ok.py").write_text("import pathlib; pathlib.Path('ran').open('a').write('x')\n", "utf-8")
+    monkeypatch.setattr(tables, "ROOT", tmp_path)
+    commands = {("a", "b"): ("ok.py",), ("c",): ("missing.py",), ("d",): ("ok.py",), ("e",): ("ok.py",)}
+    monkeypatch.setattr(tables, "COMMANDS", commands)
+    assert tables.make(["a", "b", "c", "d"]) == ["c"]
+    assert (tmp_path / "ran").read_text("utf-8") == "xx"

@@ -43,7 +43,7 @@ def front(points: Sequence[tuple[float, float]]) -> list[int]:
 
 
 def draw(study: Tradeoff, path: pathlib.Path) -> None:
-    """Draw the four kinds of error against simulated s per wall s (log-log) into a PNG file."""
+    """Draw the four kinds of error against simulated s per CPU s in use (log-log) into a PNG file."""
     Line2D = need("matplotlib.lines", "the chart").Line2D
     figure = empty((13.0, 9.5))
     axes = figure.subplots(2, 2, sharex=True).ravel()
@@ -53,7 +53,7 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
         ax.set_title(title)
         ax.set_ylabel(unit)
     for ax in axes[2:]:
-        ax.set_xlabel("simulated s per wall s, without sound")
+        ax.set_xlabel("simulated s per CPU s, without sound, as inputs of a co-simulation move")
     figure.suptitle(f"{study.scene}, {study.rpm:,.0f} r/min: what accuracy costs (faster to the right)")
     used = {row.setting.name for row in study.rows if row.errors is not None}
     handles = [
@@ -76,9 +76,11 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
 def _panel(ax: "Axes", rows: Sequence[Row], kind: str) -> tuple[list[Point], list[Point]]:
     """Draw one kind of error; return the points of the front and all points."""
     shown = [
-        (row, row.wall, max(getattr(row.errors, kind), _FLOOR))
+        (row, row.paces.slowest, max(getattr(row.errors, kind), _FLOOR))
         for row in rows
-        if row.errors is not None and math.isfinite(row.wall) and math.isfinite(getattr(row.errors, kind))
+        if row.errors is not None
+        and math.isfinite(row.paces.slowest)
+        and math.isfinite(getattr(row.errors, kind))
     ]
     ax.set_xscale("log")
     ax.set_yscale("log")

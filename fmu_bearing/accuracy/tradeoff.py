@@ -11,7 +11,7 @@ restores the places of the balls on their orbit, so that differences from the wa
 import pathlib
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, field, replace
 
 import numpy as np
 
@@ -21,7 +21,8 @@ from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import Sounds
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine, markdown, number, write_csv
-from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE, Errors, errors, measure
+from fmu_bearing.run.metrics import SAMPLE, Errors, errors, measure
+from fmu_bearing.run.paces import COMMUNICATION, Paces
 from fmu_bearing.run.settings import TERMS, Setting
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import BENDING, require
@@ -59,7 +60,7 @@ QUICK = (_FULL, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
 
 COLUMNS = (
     "fidelity", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",
-    "torque", "dB(A)", "sim/wall", "sim/CPU", "remark",
+    "torque", "dB(A)", "sim/CPU", "ramp", "warming", "ripple", "remark",
 )  # fmt: skip
 
 
@@ -74,15 +75,14 @@ class Row:
     trajectory : float
         Rms difference of the six ring velocities of every bearing over the rms of their fluctuation. NaN for
         fidelities other than ``full``, whose phases differ.
-    wall, cpu : float
-        Simulated s per s, without sound.
+    paces : Paces
+        Simulated s per CPU s, with constant inputs and with some that move.
     """
 
     setting: Setting
     errors: Errors | None = None
     trajectory: float = np.nan
-    wall: float = np.nan
-    cpu: float = np.nan
+    paces: Paces = field(default_factory=Paces)
     remark: str = ""
 
     def cells(self) -> list[str]:
@@ -94,7 +94,7 @@ class Row:
         steps = ["", ""] if s.fidelity == "response" else [f"{s.tolerance:g}", f"{1e6 * s.max_step:g}"]
         return [
             s.fidelity, method, *steps, str(s.strips), s.left_out,
-            number(self.trajectory), *found, number(self.wall), number(self.cpu), self.remark,
+            number(self.trajectory), *found, *(number(one) for one in astuple(self.paces)), self.remark,
         ]  # fmt: skip
 
 
@@ -142,7 +142,9 @@ _PAGE = """# Accuracy and cost: {scene}, {rpm:,.0f} r/min
 
 Made by `fmu-bearing tradeoff`, which `docs/tradeoff.md` explains. Figures over {window:g} ms after a warm-up
 of {warm_up:g} ms. Errors of trajectory, rms ring velocity, contact load and friction torque are relative;
-those of sound are in dB(A) at the worst microphone. Speeds are without sound.
+those of sound are in dB(A) at the worst microphone. Speeds are simulated s per CPU s without sound, in steps
+of 1 ms: with constant inputs (sim/CPU), with a speed that falls and rises by 1,000 rad/s2 (ramp), with all
+temperatures rising by 5 K/s (warming), and with a speed that ripples by 0.05 % at 50 Hz (ripple).
 
 Reference: fidelity `full`, `esdirk4`, {step:g} us, tolerance {tolerance:g}. Its trajectory and that of `rk4`
 at 0.5 us, each with its own warm-up, agree to {agreement} over the whole window. Over {check:g} ms from one
@@ -182,7 +184,7 @@ def tradeoff(
     warm_up, window : float
         Time (s) that each variant runs before its figures are taken, and over which they are taken.
     budget : float
-        Wall time (s) of each of two timed runs.
+        Wall time (s) of each of two timed runs, of which there are four pairs.
     track : callable
         Wraps the settings, for a progress bar.
 
@@ -224,7 +226,7 @@ def tradeoff(
                 rows.append(Row(setting, remark=f"refused: {problem}"))
                 continue
             error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan
-            rows.append(Row(setting, errors(run.figures, truth.figures), error, run.wall, run.cpu))
+            rows.append(Row(setting, errors(run.figures, truth.figures), error, run.paces))
     return study()
 
 

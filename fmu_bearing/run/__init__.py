@@ -6,7 +6,8 @@
 ``settings``      `Setting`: one way to compute a scene
 ``balls``         place, load and angle of every ball, read from the state
 ``rates``         how fast the balls orbit and spin, read from the state
-``metrics``       figures that compare runs, and the speed of a run
+``metrics``       figures that compare runs
+``paces``         the speed of a run, with constant inputs and with inputs that move
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
 ``simulate_fmu``  a run of an FMU, by FMPy
 ``simulate``      `simulate`: a run over given inputs

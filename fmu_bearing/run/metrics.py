@@ -1,19 +1,18 @@
-"""Figures that compare runs: vibration, loads, friction, sound; and the speed of a run."""
+"""Figures that compare runs: vibration, loads, friction, sound."""
 
 import math
-import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import SP, P, U, Z
+from fmu_bearing.run.paces import COMMUNICATION, Paces, paces
 from fmu_bearing.scene import Scene
 
 SAMPLE = 1e-4  # s between the points at which velocities, loads and torque are read
-COMMUNICATION = 1e-3  # s, of what is timed or only passed through
 #: A perfect bearing's rings move by no more (m/s): below it, relative errors of velocity mean nothing.
 SILENT = 2e-7
 #: While its speed changes they move by 2.2e-7 m/s (pair of 7003C, from rest in 1 s): five times `SILENT`.
@@ -118,14 +117,13 @@ class Measured:
     figures : Figures
     rings : ndarray
         Ring velocities (m/s), six columns per bearing, every ``SAMPLE`` of the window.
-    wall, cpu : float
-        Simulated s per wall s and per CPU s, settled, without sound; NaN where not timed.
+    paces : Paces
+        How fast it ran.
     """
 
     figures: Figures
     rings: NDArray[np.float64]
-    wall: float = math.nan
-    cpu: float = math.nan
+    paces: Paces = field(default_factory=Paces)
 
 
 def measure(
@@ -142,7 +140,7 @@ def measure(
         Its sound block, of a set one per bearing; empty: no sound levels. Sound is computed in a second run
         of the same motion.
     budget : float
-        Wall time (s) of each of two timed runs; 0: none.
+        Wall time (s) of each of two timed runs for each of the `paces`; 0: none.
     parameters : float
         Values for places of ``p``, as in :class:`Arrays`.
 
@@ -155,10 +153,10 @@ def measure(
     bearing = Arrays.of(scene, **parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
-    wall, cpu = speed(bearing, budget, 2, 1.0) if budget else (math.nan, math.nan)
+    found = paces(bearing, budget) if budget else Paces()
     z = _read(bearing, window)
     levels = _levels(scene, blocks, warm_up, window, parameters) if blocks and blocks[0].size else ()
-    return Measured(_figures(z, levels), np.hstack([rows[:, :6] for rows in z]), wall, cpu)
+    return Measured(_figures(z, levels), np.hstack([rows[:, :6] for rows in z]), found)
 
 
 def measure_between(
@@ -229,28 +227,3 @@ def _meters(bearing: Arrays) -> tuple[float, ...]:
     per_mic = len(Z.MIC_OUTPUTS)
     levels = bearing.z[first + _LEVEL : first + int(p[P.MICS]) * per_mic : per_mic]
     return tuple(float(level) for level in levels)
-
-
-def speed(
-    bearing: Arrays, budget: float, repeats: int, longest: float, communication: float = COMMUNICATION
-) -> tuple[float, float]:
-    """Return simulated s per wall s and per CPU s, best of ``repeats`` runs from the bearing's state.
-
-    A run lasts about ``budget`` s of wall time and at most ``longest`` s of simulated time, in communication
-    steps of ``communication`` (s).
-    """
-    state = bearing.s.copy()
-    clock = time.perf_counter()
-    bearing.run(2 * communication, communication)
-    pilot = (time.perf_counter() - clock) / 2
-    steps = max(1, min(round(longest / communication), round(budget / pilot)))
-    wall = cpu = float("inf")
-    for _ in range(repeats):
-        bearing.s[:] = state
-        clock, used = time.perf_counter(), time.process_time()
-        bearing.run(steps * communication, communication)
-        wall = min(wall, time.perf_counter() - clock)
-        cpu = min(cpu, time.process_time() - used)
-    bearing.s[:] = state
-    simulated = steps * communication
-    return simulated / wall, simulated / cpu

@@ -16,7 +16,8 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.run.metrics import COMMUNICATION, SAMPLE
+from fmu_bearing.run.metrics import SAMPLE
+from fmu_bearing.run.paces import COMMUNICATION
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import columns_of, error_motions, figures_of, parts_of, read
 

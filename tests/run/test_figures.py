@@ -30,7 +30,7 @@ def test_what_is_silent_in_both_has_no_error():
 
 def test_a_measured_run(silent):
     run = measure(silent, np.empty(0), 5e-3, 5e-3)
-    assert run.rings.shape == (50, 6) and math.isnan(run.wall)
+    assert run.rings.shape == (50, 6) and math.isnan(run.paces.constant)
     assert run.figures.ring_rms == pytest.approx(tuple(ring_rms(run.rings)))
     # 500 N on 12 balls at the loaded angle of some 21 degrees
     assert run.figures.load[0] == pytest.approx(500 / 12 / math.sin(run.figures.angle[0]), rel=0.01)

@@ -12,7 +12,8 @@
 ``sound``          levels and pressures of all lines
 ``equilibrium``    where rings and balls rest, and all lines about it at once
 ``exchange``       how renewed lines take the place of those in use
-``renewal``        the same in pieces, beside the lines in use
+``pieces``         the same in pieces, beside the lines in use
+``renewal``        when pieces are made, and what is taken over of them
 ``march``          start, and the state at any time
 =================  =============================================================
 """

@@ -163,6 +163,11 @@ class Instance:
         try:
             return self.by_name[name]
         except KeyError:
+            if name in self.model.left_out:
+                raise KeyError(
+                    f"this FMU has no '{name}': fmu.outputs of its scene does not name it; add it there "
+                    "and build the FMU again"
+                ) from None
             now = f"; it is now '{renamed.VARIABLES[name]}'" if name in renamed.VARIABLES else ""
             raise KeyError(f"this bearing has no variable '{name}'{now}") from None
 

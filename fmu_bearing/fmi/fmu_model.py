@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from fmu_bearing.interface import fmu_variables
+from fmu_bearing.interface import flat, fmu_variables, variables
 from fmu_bearing.prepare.model import Model
 
 __all__ = ["FmuModel", "as_fmu_model"]
@@ -11,6 +11,13 @@ __all__ = ["FmuModel", "as_fmu_model"]
 @dataclass(frozen=True)
 class FmuModel(Model):
     """A model whose variables have the names and causalities of the FMU."""
+
+    @property
+    def left_out(self) -> frozenset[str]:
+        """Names of what the scene's bearing has, and its FMU does not."""
+        every = (one.name for one in variables(self.scene, 0.0))
+        named = {flat(name) if self.is_flat else name for name in every}
+        return frozenset(named.difference(one.name for one in self.variables))
 
     @property
     def is_flat(self) -> bool:

@@ -8,7 +8,7 @@ from fmu_bearing import renamed
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.problems import described
 
-__all__ = ["UnknownName", "chosen_names", "known"]
+__all__ = ["UnknownName", "chosen_names", "known", "matching"]
 
 _MOST = 24  # names listed in a message
 #: Variables of microphones by how standards write them (IEC 61672-1), without marks.
@@ -50,10 +50,19 @@ def _some(names: Iterable[str]) -> str:
     return ", ".join(found[:_MOST]) + more
 
 
-def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str]) -> list[str]:
+def matching(pattern: str, names: Iterable[str]) -> list[str]:
+    """Return the names that a pattern matches: ``*`` is any text, brackets match themselves."""
+    rule = re.compile(fnmatch.translate(pattern.replace("[", "[[]")))
+    return [name for name in names if rule.match(name)]
+
+
+def chosen_names(
+    patterns: Sequence[str] | None, names: Iterable[str], default: Sequence[str], words: Iterable[str] = ()
+) -> list[str]:
     """Return the names that match any of the patterns, in order of the patterns, each once.
 
-    ``*`` matches any text; brackets match themselves, as in ``mic[*].leq``.
+    ``*`` matches any text; brackets match themselves, as in ``mic[*].leq``. ``words``: what a
+    misspelt name may mean beside names.
 
     Raises
     ------
@@ -68,9 +77,8 @@ def chosen_names(patterns: Sequence[str] | None, names: Iterable[str], default: 
     every = list(names)
     found: dict[str, None] = {}
     for pattern in patterns:
-        rule = re.compile(fnmatch.translate(pattern.replace("[", "[[]")))
-        matches = [name for name in every if rule.match(name)]
+        matches = matching(pattern, every)
         if not matches:
-            known(pattern, every, "variable")
+            known(pattern, [*every, *words], "variable")
         found |= dict.fromkeys(matches)
     return list(found)

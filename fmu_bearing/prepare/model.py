@@ -75,6 +75,11 @@ class Model:
         return input_values(self.scene)
 
     @property
+    def left_out(self) -> frozenset[str]:
+        """Names of variables that the scene has and this model does not show."""
+        return frozenset()
+
+    @property
     def n_balls(self) -> int:
         """Number of balls."""
         return int(self.parameters[P.BALLS])

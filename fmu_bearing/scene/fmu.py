@@ -13,12 +13,16 @@ class Fmu(Part):
     Names are those of the documentation (``contact.inner.load_max``), a star matches any text.
     """
 
-    outputs: tuple[str, ...] = Field(
-        default=(),
+    outputs: tuple[str, ...] | None = Field(
+        default=None,
         strict=False,
         max_length=1000,
-        examples=[["inner_ring.displacement.*", "contact.*.load_max", "stiffness.*", "rotor.inertia"]],
-        description="Local variables and constants that become outputs, which masters can connect.",
+        examples=[["usual", "inner_ring.displacement.*", "contact.*.load_max", "rotor.inertia"]],
+        description=(
+            "What is output, all else that is computed has no place in the FMU (absent: what most systems "
+            "connect); names, patterns, or usual, velocities, balls, displacements, contacts, stiffness, "
+            "levels, energy, forces. The friction torque always is."
+        ),
     )
     inputs: tuple[str, ...] | None = Field(
         default=None,

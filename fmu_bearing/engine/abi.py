@@ -16,7 +16,7 @@ from fmu_bearing.engine.fidelities.rings.restart import march_rings
 from fmu_bearing.engine.fidelities.rings.start import start_rings
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
-from fmu_bearing.engine.readout.contacts import keep_contacts
+from fmu_bearing.engine.readout.contacts import keep_contacts, knows_balls
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
@@ -99,9 +99,14 @@ def bends(p):
 
 @kernel
 def keep(p, s, w):
-    """Keep in the state what outputs need of the contacts, whose rows are in ``w`` after steps of `full`."""
+    """Keep in the state what outputs need of the contacts, whose rows are in ``w`` after steps of `full`.
+
+    Contacts of balls that nobody reads stay as they are: see `knows_balls`.
+    """
     for b in range(members.count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+        if not knows_balls(p, sb):
+            continue
         if p[P.FIDELITY] != FULL:
             find_contacts(pb, sb, wb)
         keep_contacts(pb, sb, wb)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from fmu_bearing.interface import flat, fmu_variables, variables
 from fmu_bearing.prepare.model import Model
+from fmu_bearing.prepare.reading import without_unread
 
 __all__ = ["FmuModel", "as_fmu_model"]
 
@@ -35,4 +36,5 @@ def as_fmu_model(model: Model) -> FmuModel:
     """
     if isinstance(model, FmuModel):
         return model
-    return FmuModel(model.scene, model.parameters, fmu_variables(model.scene, model.variables), model.note)
+    shown = fmu_variables(model.scene, model.variables)
+    return FmuModel(model.scene, without_unread(model.parameters, shown), shown, model.note)

@@ -9,6 +9,7 @@
 ``flexure``          bending modes of the rings as the engine's coordinates
 ``sound``            the sound block, kept on disk
 ``spindle``          parameters of a set of bearings on one shaft
+``reading``          switches of what need not be computed, because no variable shows it
 ``lengths``          lengths of the engine's arrays that go with the parameters
 ``model``            packs everything into the flat parameter array of the engine
 ===================  ==================================================================

@@ -260,6 +260,7 @@ def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.REDUCTION] = terms.rolling_reduction
     p[P.LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
     p[P.GYROSCOPIC] = terms.gyroscopic
+    p[P.READ_BALLS] = p[P.READ_SOUND] = 1.0
 
 
 def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> None:

@@ -257,3 +257,14 @@ def test_a_set_and_its_bearings_alone():
     assert off[loud & (sums | alone)].max() < 0.1
     # the balls' own, which samples have too quiet
     assert off[loud].max() < 0.5, [(names[k], found[:, k]) for k in np.flatnonzero(loud & (off > 0.5))]
+
+
+def test_levels_are_numbers_where_metering_begins_at_a_step(bare):
+    """Twenty steps of 1 ms are 3e-18 s longer than 20 ms: averages that have not moved have no level."""
+    run = Instance(prepare(bare.replace({"sound.metering_start_s": 0.02}), fidelity="response"))
+    run.initialise()
+    names = [name for quantity in ("spl_slow", "spl_fast", "spl", "leq") for name in total(run, quantity)]
+    for _ in range(22):
+        run.step(STEP)
+        assert np.isfinite([run.get(name) for name in names]).all()
+    assert min(run.get(name) for name in names) > 0.0

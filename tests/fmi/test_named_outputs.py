@@ -118,7 +118,8 @@ def built(tmp_path_factory):
     def made(file, flavour):
         folder = tmp_path_factory.mktemp("five")
         try:
-            path = build(prepare(scene(file, FIVE[file])), folder / "five.fmu", flavour).path
+            model = prepare(scene(file, FIVE[file]), fidelity="response")
+            path = build(model, folder / "five.fmu", flavour).path
         except BuildError as problem:
             no_native_fmu(problem)
         with zipfile.ZipFile(path) as archive:
@@ -131,13 +132,13 @@ def built(tmp_path_factory):
 @pytest.mark.parametrize("flavour", FLAVOURS)
 @pytest.mark.parametrize("file", FIVE)
 def test_fmus_of_five_outputs_have_the_bits_of_all(built, file, flavour):
-    whole = Instance(prepare(scene(file)))
+    whole = Instance(prepare(scene(file), fidelity="response"))
     whole.initialise()
     one = Master(built(file, flavour)[1]).start()
     assert [name for name, v in one.by_name.items() if v.causality == "output"] == sorted(
         FIVE[file], key=list(one.by_name).index
     )
-    for i in range(5):
+    for i in range(200):
         speed = 2000.0 + 10.0 * i
         whole.set("shaft_speed", speed)
         assert one.set("shaft_speed", speed) == OK

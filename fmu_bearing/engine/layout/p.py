@@ -42,6 +42,8 @@ WAVINESS = _at()
 RIGID = _at()  # rigid preload
 FITS = _at()  # fits of the rings on shaft or in housing
 UNMOUNTED = _at()  # preload is that of the loose bearing
+READ_BALLS = _at()  # outputs of balls and contacts are read; else `response` finds them for warnings alone
+READ_SOUND = _at()  # outputs of microphones are read
 # offsets into p
 AT_STRIPS = _at()  # strip nodes, then weights
 AT_OVERSIZE = _at()  # m: ball diameter deviations, one per lane

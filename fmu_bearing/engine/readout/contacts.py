@@ -6,10 +6,17 @@ sizes, surfaces and damping, as the balls feel them.
 
 import math
 
+from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, C, P, R, S, W, Y, Z
+from fmu_bearing.engine.layout import FOUR, C, L, P, R, S, W, Y, Z
 from fmu_bearing.engine.statics.stiffness import series_stiffness
+
+
+@kernel
+def knows_balls(p, s):
+    """Whether a bearing's balls are where they belong at its state: always, but in `response` unread ones."""
+    return p[P.FIDELITY] != RESPONSE or s[S.CONDENSED + L.KNOWN] > 0.0
 
 
 @kernel

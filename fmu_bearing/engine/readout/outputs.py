@@ -7,7 +7,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
-from fmu_bearing.engine.readout.contacts import contacts
+from fmu_bearing.engine.readout.contacts import contacts, knows_balls
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound.meter import levels
 
@@ -17,7 +17,7 @@ _CENTRED_2 = 1e-16  # m2: the whirl speed of a cage within 10 nm of the middle s
 
 @kernel
 def bodies(p, s, z):
-    """Velocities and displacements of rings and cage, velocities of the balls in inertial axes."""
+    """Velocities and displacements of rings and cage."""
     v = S.Y + Y.V0
     q = S.Y + Y.Q0
     for i in range(3):
@@ -28,21 +28,10 @@ def bodies(p, s, z):
         z[Z.OUTER_PLACE + i] = s[q + Q.OUTER + i]
     for i in range(2):
         z[Z.TILT + i] = s[q + Q.INNER_BY + i]
-    pitch = p[P.PITCH_RADIUS]
     orbit = 0.0
-    balls = int(p[P.BALLS])
-    for j in range(balls):
-        angle = s[S.Y + Y.TH + j]
-        c = math.cos(angle)
-        n = math.sin(angle)
-        vr = s[S.Y + Y.VR + j]
-        om = s[S.Y + Y.OM + j]
-        vt = (pitch + s[S.Y + Y.R + j]) * om
-        at = Z.BALLS + Z.PER_BALL * j
-        z[at] = s[S.Y + Y.VX + j]
-        z[at + 1] = -n * vr - c * vt
-        z[at + 2] = c * vr - n * vt
-        orbit += om / balls
+    count = int(p[P.BALLS])
+    for j in range(count):
+        orbit += s[S.Y + Y.OM + j] / count
     turning = s[v + Q.CAGE + Q.TURN] if p[P.CAGE] != 0.0 else orbit
     speed = s[S.SPEED]
     z[Z.CAGE_RATIO] = turning / speed if abs(speed) > STANDSTILL else 0.0
@@ -56,6 +45,22 @@ def bodies(p, s, z):
         apart2 = dy * dy + dz * dz
         z[Z.WHIRL_RADIUS] = math.sqrt(apart2)
         z[Z.WHIRL_SPEED] = (dy * vz - dz * vy) / (apart2 + _CENTRED_2)
+
+
+@kernel
+def balls(p, s, z):
+    """Velocities of the balls in inertial axes."""
+    pitch = p[P.PITCH_RADIUS]
+    for j in range(int(p[P.BALLS])):
+        angle = s[S.Y + Y.TH + j]
+        c = math.cos(angle)
+        n = math.sin(angle)
+        vr = s[S.Y + Y.VR + j]
+        vt = (pitch + s[S.Y + Y.R + j]) * s[S.Y + Y.OM + j]
+        at = Z.BALLS + Z.PER_BALL * j
+        z[at] = s[S.Y + Y.VX + j]
+        z[at + 1] = -n * vr - c * vt
+        z[at + 2] = c * vr - n * vt
 
 
 @kernel
@@ -106,7 +111,7 @@ def flexure(p, s, z, mics):
 def observe(p, s, z):
     """Fill ``z`` (see ``layout``) from the state ``s``."""
     observe_motion(p, s, z, int(p[P.MICS]))
-    if p[P.SOUND_SIZE] != 0.0:
+    if p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0:
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
         levels(sound_block(p), s[S.SOUND :], z, mics)
 
@@ -119,7 +124,9 @@ def observe_motion(p, s, z, mics):
     z[Z.MEAN_TORQUE] = s[S.MEAN_TORQUE]
     for i in range(3):
         z[Z.HEAT + i] = s[S.MEAN_HEAT + i]
-    contacts(p, s, z)
+    if knows_balls(p, s):
+        balls(p, s, z)
+        contacts(p, s, z)
     losses(s, z)
     if p[P.FITS] != 0.0:
         fits(p, s, z)

@@ -2,6 +2,7 @@
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, Q, S, Z
+from fmu_bearing.engine.readout.contacts import knows_balls
 from fmu_bearing.engine.readout.outputs import LITTLE_LOST, observe_motion
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.port import observe_port
@@ -10,15 +11,18 @@ from fmu_bearing.engine.spindle.sound import levels_of_set
 
 
 @kernel
-def mirror(pb, sign, z):
-    """Turn outputs along a bearing's own axis into shaft axes, where its ``sign`` is -1."""
+def mirror(pb, sign, known, z):
+    """Turn outputs along a bearing's own axis into shaft axes, where its ``sign`` is -1.
+
+    ``known``: whether the balls' were written.
+    """
     if sign > 0.0:
         return
     for place in (Z.INNER_VELOCITY, Z.OUTER_VELOCITY, Z.CAGE_VELOCITY, Z.INNER_PLACE, Z.OUTER_PLACE):
         z[place] = -z[place]
     for i in range(2):
         z[Z.TILT + i] = -z[Z.TILT + i]
-    for j in range(int(pb[P.BALLS])):
+    for j in range(int(pb[P.BALLS]) if known else 0):
         z[Z.BALLS + Z.PER_BALL * j] = -z[Z.BALLS + Z.PER_BALL * j]
 
 
@@ -37,7 +41,7 @@ def observe_bearings(p, s, z):
         sign = p[members.row(p, b) + SP.ROW_SIGN]
         pb = members.parameters(p, b)
         observe_motion(pb, members.state(p, s, b), zb, 0)
-        mirror(pb, sign, zb)
+        mirror(pb, sign, knows_balls(p, members.state(p, s, b)), zb)
         for i in range(Z.HEAT_SIZE):
             z[at + SP.Z_HEAT + i] += zb[Z.HEAT + i]
         z[at + SP.Z_TORQUE] += zb[Z.TORQUE]

@@ -17,7 +17,7 @@ from fmu_bearing.engine.spindle import members
 @kernel
 def emit(p, s, w, h):
     """Take every sample that falls into the step just made through all bearings' filters, then the meters."""
-    if p[P.SOUND_SIZE] == 0.0:
+    if p[P.SOUND_SIZE] == 0.0 or p[P.READ_SOUND] == 0.0:
         return
     whole = int(sound_block(p)[SD.H_FORM]) != VECTORS
     while sample_due(s, h):
@@ -59,7 +59,7 @@ def meter_set(p, s, w):
 @kernel
 def levels_of_set(p, s, z):
     """Write what the microphones read of the sum, then the level of each bearing alone."""
-    if p[P.SOUND_SIZE] == 0.0:
+    if p[P.SOUND_SIZE] == 0.0 or p[P.READ_SOUND] == 0.0:
         return
     bearings = members.count(p)
     mics = int(p[P.MICS])

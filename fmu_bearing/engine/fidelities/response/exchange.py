@@ -109,6 +109,12 @@ def share_in_use(p, s, ahead):
 
 
 @kernel
+def settles(p, s, h):
+    """Whether the lines in use have become the only ones within the step of ``h`` (s) just made."""
+    return share_in_use(p, s, 0.0) >= 1.0 and share_in_use(p, s, -1.01 * h) < 1.0
+
+
+@kernel
 def blend(share, other, at, target, to, count):
     """Put ``1 - share`` of ``other[at:]`` to ``share`` of ``target[to:]``."""
     for i in range(count):

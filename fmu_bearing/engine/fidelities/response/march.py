@@ -20,12 +20,13 @@ from fmu_bearing.engine.fidelities.condensed.shared import advance
 from fmu_bearing.engine.fidelities.full.start import begin_means, sinks
 from fmu_bearing.engine.fidelities.response import bearing, renewal
 from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
-from fmu_bearing.engine.fidelities.response.exchange import move_rings
+from fmu_bearing.engine.fidelities.response.exchange import move_rings, settles
 from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
 from fmu_bearing.engine.fidelities.rings import equations, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T
+from fmu_bearing.engine.readout.contacts import knows_balls
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 
@@ -36,11 +37,17 @@ def place(p, s, w, ahead, near):
 
     ``near``: whether the balls' last places are good guesses.
     """
+    place_rings(p, s, w, ahead)
+    for b in range(members.count(p)):
+        bearing.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
+
+
+@kernel
+def place_rings(p, s, w, ahead):
+    """As `place`, without the balls."""
     move_rings(p, s, w, ahead)
     if members.has_shaft(p):
         equations.show_rings(p, s)
-    for b in range(members.count(p)):
-        bearing.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
 
 
 @kernel
@@ -50,6 +57,8 @@ def keep_ball_loads(p, s, w):
         return
     own = members.set_state(p, s)
     for b in range(members.count(p)):
+        if not knows_balls(p, members.state(p, s, b)):
+            continue
         wb = members.work(p, w, b)
         for i in range(SP.PLANE):
             load = 0.0
@@ -59,15 +68,29 @@ def keep_ball_loads(p, s, w):
 
 
 @kernel
-def show(p, s, w, near):
-    """State for outputs at the present time, the balls' rates from two places a little apart."""
-    place(p, s, w, -bearing.BACK, near)
+def show(p, s, w, near, every):
+    """State for outputs at the present time, the balls' rates from two places a little apart.
+
+    Balls that nobody reads are left as they are and count as unknown, unless ``every`` one is to be shown.
+    """
+    read = every
     for b in range(members.count(p)):
-        bearing.keep_back(members.state(p, s, b))
-    place(p, s, w, 0.0, True)
+        read = read or members.parameters(p, b)[P.READ_BALLS] != 0.0
+    if read:
+        place_rings(p, s, w, -bearing.BACK)
+        for b in range(members.count(p)):
+            pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+            if every or pb[P.READ_BALLS] != 0.0:
+                bearing.settle(pb, sb, -bearing.BACK, near and knows_balls(p, sb), wb)
+                bearing.keep_back(sb)
+    place_rings(p, s, w, 0.0)
     for b in range(members.count(p)):
-        pb = members.parameters(p, b)
-        rest_balls(pb, members.condensed(members.state(p, s, b)), members.work(p, w, b))
+        pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+        if every or pb[P.READ_BALLS] != 0.0:
+            bearing.settle(pb, sb, 0.0, True, wb)
+            rest_balls(pb, members.condensed(sb), wb)
+        else:
+            members.condensed(sb)[L.KNOWN] = 0.0
     keep_ball_loads(p, s, w)
     equations.publish_rings(p, s)
 
@@ -88,7 +111,9 @@ def start_response(p, u, s, w, t):
     if not linearise(p, s, w, speed):
         return NO_START
     renewal.mirror(p, s)
-    show(p, s, w, True)
+    for b in range(members.count(p)):
+        members.condensed(members.state(p, s, b))[L.KNOWN] = 1.0  # where they rest in the equilibrium
+    show(p, s, w, True, True)
     for b in range(members.count(p)):
         begin_means(members.state(p, s, b))
     for i in range(2):
@@ -170,8 +195,9 @@ def march_response(p, u, s, w, h):
         sb[S.TIME] = end
         sb[S.SPEED] = speed
     if not sampled:
-        show(p, s, w, near)
-    if from_lines(p):
+        # warnings are of loads and angles about the equilibrium
+        show(p, s, w, near, fresh or settles(p, s, h))
+    if from_lines(p) and p[P.READ_SOUND] != 0.0:
         follow_lines(p, s, w, h)
     for b in range(members.count(p)):
         steps.end_means(members.state(p, s, b), h)

@@ -23,6 +23,7 @@ from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.sound.transfer import add_channel, bound, clear_channels, radiate
 from fmu_bearing.engine.spindle import members
 
+_LEAST = 1e-14  # s: averages of up to 10 s do not move in less, which rounding leaves where metering begins
 _HASH_SHAFT, _HASH_ROLLED, _HASH_MEMBER = 31, 17, 101  # so that few lines share a chain
 
 
@@ -352,7 +353,7 @@ def follow_lines(p, s, w, h):
     ws = members.work(p, w, 0)[W.SOUND :]
     delay = ps[SD.H_DELAY]
     metered = min(h, s[S.TIME] - s[S.START] - p[P.METERING_START])
-    if metered > 0.0:
+    if metered > _LEAST:
         turns = int(ps[SD.H_W_TURNS])
         write_angles(p, s, ps, ws, -delay - metered)
         beat_phases(ps, ss, ws, turns + SL.TURN_BEGIN)

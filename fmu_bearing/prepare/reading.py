@@ -1,0 +1,53 @@
+"""What need not be computed, because no variable shows it: balls and contacts, sound, third octaves, details.
+
+An FMU has no way to such numbers, so none is read that is not computed.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.engine.layout import SD, SP, P, Z
+from fmu_bearing.interface import Variable
+from fmu_bearing.prepare.lengths import parts_of
+
+_OF_BALLS = (
+    *range(Z.CONTACT, Z.CONTACT + 2 * Z.CONTACT_SIZE), Z.LAMBDA, Z.AXIAL_STIFFNESS, Z.RADIAL_STIFFNESS,
+    Z.SHOULDER, Z.SHOULDER + 1,
+)  # fmt: skip
+
+
+def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray[np.float64]:
+    """Return the parameters ``p``, read-only, with the switches of what ``shown`` variables need.
+
+    What is left on has the same bits.
+    """
+    found = p.copy()
+    read = {variable.index for variable in shown if variable.array == "z"}
+    bands, mics = int(p[P.BANDS]), int(p[P.MICS])
+    together, parts = SP.has_shaft(p), parts_of(p)
+    each = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]))
+    own = len(parts) * each
+    first = own + SP.z_mics(len(parts)) if together else Z.mics(int(p[P.BALLS]))
+    octaves = first + Z.PER_MIC * mics
+    alone = octaves + bands * mics
+    heard = range(first, alone + (len(parts) * mics if together else 0))
+    for b, (part, _) in enumerate(parts):
+        of, at = found[part], b * each if together else 0
+        balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(p[P.BALLS]))))}
+        if together:
+            forces = own + SP.Z_FORCES + b * SP.Z_FORCE
+            balls |= set(range(forces, forces + SP.Z_FORCE))
+        of[P.READ_BALLS] = not read.isdisjoint(balls)
+        of[P.READ_SOUND] = not read.isdisjoint(heard)
+        block = int(of[P.AT_SOUND])
+        if block == 0:
+            continue
+        details = {first + k * Z.PER_MIC + row for k in range(mics) for row in range(SD.PLAIN, SD.METERS)}
+        if read.isdisjoint(details):
+            of[block + SD.H_DETAILS] = 0.0
+        if read.isdisjoint(range(octaves, alone)):
+            of[block + SD.H_BANDS] = 0.0
+    found.setflags(write=False)
+    return found

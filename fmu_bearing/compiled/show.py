@@ -24,6 +24,7 @@ class Display:
         self.what, self.steady = what, steady
         self._begin = self._told = time.monotonic()
         self._bar: Any = None
+        self._shown = 0.0
 
     def __enter__(self) -> Self:
         if sys.stderr is not None and sys.stderr.isatty():
@@ -43,15 +44,16 @@ class Display:
             self.tell(f"{self.what}: done after {time.monotonic() - self._begin:.0f} s")
 
     def at(self, done: float) -> None:
-        """Show the part (0 to 1) that is done."""
+        """Show the part (0 to 1) that is done; what is shown never goes back, the time of the rest may."""
+        self._shown = max(self._shown, done)
         now = time.monotonic()
         past = now - self._begin
         rest = f", about {past * (1.0 / done - 1.0):.0f} s more" if self.steady and done > 0.0 else ""
         if self._bar is not None:
-            self._bar.update(self._task, completed=done, description=self.what + rest)
+            self._bar.update(self._task, completed=self._shown, description=self.what + rest)
         elif now - self._told >= _PAUSE:
             self._told = now
-            self.tell(f"{self.what}: {done:.0%} after {past:.0f} s{rest}")
+            self.tell(f"{self.what}: {self._shown:.0%} after {past:.0f} s{rest}")
 
     def tell(self, text: str) -> None:
         """Show a line."""

@@ -60,6 +60,22 @@ def test_the_time_of_the_rest_is_shown_where_work_is_even(monkeypatch):
     assert log.getvalue().splitlines()[1] == "solving: 40% after 12 s, about 18 s more"
 
 
+def test_what_is_shown_as_done_never_goes_back(monkeypatch):
+    """More work turns up than was expected: the part done waits, the time of the rest follows."""
+    log, now = io.StringIO(), [100.0]
+    monkeypatch.setattr(show.sys, "stderr", log)
+    monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
+    with show.Display("solving", steady=True) as display:
+        for done in (0.8, 0.5, 0.9):
+            now[0] += 20.0
+            display.at(done)
+    assert log.getvalue().splitlines()[1:4] == [
+        "solving: 80% after 20 s, about 5 s more",
+        "solving: 80% after 40 s, about 40 s more",
+        "solving: 90% after 60 s, about 7 s more",
+    ]
+
+
 def test_a_terminal_gets_a_bar(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(show.sys, "stderr", terminal)

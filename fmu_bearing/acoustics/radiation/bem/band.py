@@ -1,7 +1,7 @@
 """Surface pressures over one band of frequencies, on one mesh, and the fields around the bodies."""
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 
 import numpy as np
@@ -27,6 +27,13 @@ _ANGLES = (0.3, 0.9, 1.6, 2.2, 2.8)
 #: Frequencies that a band takes: some, and more for each wavelength that a sphere round the bodies gains from
 #: the band's begin to its end. Measured: 14 and 18 (bare 7003C), 14 and 26 (7009C), 20 and 43 (in a housing).
 _FEWEST, _PER_WAVE = 12.0, 3.5
+_HALVED = 3.0  # times as many where intervals are halved: 226 for 68, 177 for 67
+#: Weights, in a geometric mean, of the least number of frequencies left against the number that the bodies'
+#: size lets expect: at an error above 100 %, where that least number is `_SOON`, and below.
+_SHARES, _SOON = (1.0 / 3.0, 0.5), 9.0
+#: The time of one frequency grows by this power of the number of nodes, and by so many nodes for each inner
+#: point: within 15 % from 258 to 628 nodes, within 30 % to 770.
+_GROWTH, _INNER = 2.6, 1.5
 _ROUNDING = 1e-6  # of the loudest drive at a point: what is weaker there may be rounding
 #: Frequencies beyond which a band's intervals are halved.
 MOST = 80
@@ -45,6 +52,8 @@ class Band:
         Pressures around the bodies, which rational functions of frequency are fitted to; empty: cubics.
     done, left : float
         Frequencies solved, and how many more are probably needed.
+    cost : float
+        Time of one frequency, in proportion to that of other bands of the task.
     """
 
     def __init__(self, task: Task, base: Sequence[float]) -> None:
@@ -56,9 +65,10 @@ class Band:
         self.frequencies = np.array(base)
         self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
         self.probed = self._unprobed()
-        waves = 2.0 * self._sphere()[1] * (base[-1] - base[0]) / task.sound_speed
-        self._expected = _FEWEST + _PER_WAVE * waves
+        self._expected = _FEWEST + _PER_WAVE * task.waves(base[0], base[-1])
         self.done, self.left = 0, self._expected
+        nodes, inner = self._scatterer.mesh.size, len(self._scatterer.inside)
+        self.cost = float(nodes) ** _GROWTH * (1.0 + _INNER * inner / nodes)
 
     @property
     def count(self) -> int:
@@ -181,6 +191,7 @@ class Band:
         ``solved`` is called after each frequency.
         """
         base = self.frequencies
+        self._scatterer.prepare()
         known: dict[float, Complex] = {}
         probed: dict[float, Complex] = {}
         points = self._probes()
@@ -198,15 +209,18 @@ class Band:
             return [parts[:, group] for group in self.groups]
 
         def expect(least: float, certain: bool) -> None:
-            self.left = least if certain else max(least, self._expected - self.done)
+            usual = max(least, self._expected - self.done)
+            share = 1.0 if certain else _SHARES[int(least < _SOON)]
+            self.left = least**share * usual ** (1.0 - share)
 
         found = rational.search(measure, base[0], base[-1], MOST, self._family(), expect)
         if found is None:
-            self.halve(pool, solved)
-            return
-        self.frequencies = found
-        self.surface = np.array([known[f] for f in found])
-        self.probed = np.array([probed[f] for f in found])
+            self.halve(pool, solved, known)
+        else:
+            self.frequencies = found
+            self.surface = np.array([known[f] for f in found])
+            self.probed = np.array([probed[f] for f in found])
+        self._scatterer.release()
         self.left = 0.0
         solved()
 
@@ -215,15 +229,9 @@ class Band:
         self.done, self.left = self.done + 1, max(self.left - 1.0, 1.0) if left is None else left
         solved()
 
-    def _sphere(self) -> tuple[float, float]:
-        """Place on the axis (m) and radius (m) of a sphere around all bodies."""
-        corners = np.concatenate([body.contour for body in self.task.bodies])
-        middle = 0.5 * (corners[:, 0].min() + corners[:, 0].max())
-        return middle, float(np.hypot(corners[:, 0] - middle, corners[:, 1]).max())
-
     def _probes(self) -> Real:
         """Points (x, r) around the bodies, sphere by sphere, on their side of a wall."""
-        middle, size = self._sphere()
+        middle, size = self.task.sphere()
         radii, angles = np.repeat(size * np.array(_SPHERES), len(_ANGLES)), np.tile(_ANGLES, len(_SPHERES))
         points = np.stack([middle + radii * np.cos(angles), radii * np.sin(angles)], axis=1)
         if self.task.plane is not None:
@@ -232,12 +240,22 @@ class Band:
             points = points[np.tile(front.reshape(-1, len(_ANGLES)).all(axis=0), len(_SPHERES))]
         return points
 
-    def halve(self, pool: Executor, solved: Callable[[], None] = lambda: None) -> None:
-        """Solve the base frequencies, then halve intervals until the cubic through neighbours fits."""
-        self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
-        for f, found in enumerate(pool.map(self.solve, self.frequencies)):
-            self.surface[f] = found
-            self._count(solved, 2.0 * len(self.frequencies) - f)
+    def halve(self, pool: Executor, solved: Callable[[], None], known: Mapping[float, Complex]) -> None:
+        """Solve the base frequencies, then halve intervals until the cubic through neighbours fits.
+
+        ``known``: surface pressures solved before, by frequency (Hz).
+        """
+        expected = _HALVED * self._expected
+        there = {f: known[f] for f in self.frequencies if f in known}
+        missing = [f for f in self.frequencies if f not in known]
+        for f, found in zip(missing, pool.map(self.solve, missing), strict=True):
+            there[f] = found
+            self._count(solved, expected - len(known))
+        for f, found in known.items():  # close neighbours would spoil the cubic
+            if min(abs(f - other) for other in there) > 2.0 * _NARROWEST:
+                there[f] = found
+        self.frequencies = np.array(sorted(there))
+        self.surface = np.array([there[f] for f in self.frequencies])
         open_ = list(itertools.pairwise(self.frequencies.tolist()))
         while open_:
             middles = [0.5 * (low + high) for low, high in open_]
@@ -248,7 +266,8 @@ class Band:
                 if high - low > 2.0 * _NARROWEST and self._missed(middles[k], found) > _INTERPOLATION:
                     halved += [(low, middles[k]), (middles[k], high)]
                 surfaces.append(found)
-                self._count(solved, len(open_) - k - 1.0 + len(halved))
+                rest = len(open_) - k - 1.0 + len(halved)
+                self._count(solved, max(rest, expected - len(self.frequencies) - k))
             order = np.argsort(np.concatenate([self.frequencies, middles]))
             self.frequencies = np.concatenate([self.frequencies, middles])[order]
             self.surface = np.concatenate([self.surface, surfaces])[order]

@@ -1,5 +1,6 @@
 """Surface pressures of a scene's bodies over frequency, kept on disk, and what they sound like anywhere."""
 
+import itertools
 import os
 import pathlib
 from concurrent.futures import ThreadPoolExecutor
@@ -27,12 +28,33 @@ BASE_FREQUENCIES = (
 )
 
 
+#: Wavelengths that a sphere round the bodies gains in one band at most: bands of larger bodies are cut, as
+#: frequencies grow with wavelengths, and their time with the mesh. One band of 16 takes four times as long.
+_WAVES = 10.0
+
+
+def bases(task: Task) -> list[tuple[float, ...]]:
+    """Frequencies (Hz) of all bands of a task: `BASE_FREQUENCIES`, cut evenly where bodies are large."""
+    found = []
+    for base in BASE_FREQUENCIES:
+        low, high = base[0], base[-1]
+        parts = int(np.ceil(task.waves(low, high) / _WAVES))
+        if parts <= 1:
+            found.append(tuple(base))
+            continue
+        for first, last in itertools.pairwise(np.linspace(low, high, parts + 1).tolist()):
+            inner = [f for f in base if first < f < last]
+            # four points at least: a cubic takes as many
+            found.append(tuple(np.union1d(inner, np.linspace(first, last, 4)).tolist()))
+    return found
+
+
 class Solution:
     """A task solved in all bands, and the fields anywhere in the air."""
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self.bands = [Band(task, base) for base in BASE_FREQUENCIES]
+        self.bands = [Band(task, base) for base in bases(task)]
 
     @property
     def points(self) -> Real:
@@ -82,7 +104,7 @@ def solution(task: Task) -> Solution:
 def _solve_all(found: Solution) -> None:
     """Solve all bands; frequencies are shared among the machine's cores."""
     names = " and ".join(body.name for body in found.task.bodies)
-    cost = np.array([float(len(band.points)) ** 3 for band in found.bands])  # of one frequency, in proportion
+    cost = np.array([band.cost for band in found.bands])
     what = f"boundary elements of {names}, once for these bodies"
     with (
         work(what, elsewhere=True), Display(what, steady=True) as display, threadpool_limits(1),

@@ -81,6 +81,16 @@ class Task:
         highest = max([1, self.harmonics if self.orbit > 0.0 else 0] + [shape.order for shape in self.shapes])
         return highest + 1
 
+    def sphere(self) -> tuple[float, float]:
+        """Place on the axis (m) and radius (m) of a sphere around all bodies."""
+        corners = np.concatenate([body.contour for body in self.bodies])
+        middle = 0.5 * (corners[:, 0].min() + corners[:, 0].max())
+        return float(middle), float(np.hypot(corners[:, 0] - middle, corners[:, 1]).max())
+
+    def waves(self, low: float, high: float) -> float:
+        """Wavelengths that a sphere round all bodies gains across, from ``low`` to ``high`` (Hz)."""
+        return 2.0 * self.sphere()[1] * (high - low) / self.sound_speed
+
     def scatterer(self, highest: float) -> Scatterer:
         """Mesh and integrals up to a frequency (Hz)."""
         wavenumber = 2.0 * np.pi * highest / self.sound_speed

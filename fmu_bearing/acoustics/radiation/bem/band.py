@@ -29,8 +29,9 @@ _ANGLES = (0.3, 0.9, 1.6, 2.2, 2.8)
 _FEWEST, _PER_WAVE = 12.0, 3.5
 _HALVED = 3.0  # times as many where intervals are halved: 226 for 68, 177 for 67
 #: Weights, in a geometric mean, of the least number of frequencies left against the number that the bodies'
-#: size lets expect: at an error above 100 %, where that least number is `_SOON`, and below.
-_SHARES, _SOON = (1.0 / 3.0, 0.5), 9.0
+#: size lets expect: at an error above 100 %, where that least number is `_SOON`, and below. One right
+#: prediction may be luck: no fewer than `_LUCK` then.
+_SHARES, _SOON, _LUCK = (1.0 / 3.0, 0.5), 9.0, 5.0
 #: The time of one frequency grows by this power of the number of nodes, and by so many nodes for each inner
 #: point: within 15 % from 258 to 628 nodes, within 30 % to 770.
 _GROWTH, _INNER = 2.6, 1.5
@@ -210,8 +211,8 @@ class Band:
 
         def expect(least: float, certain: bool) -> None:
             usual = max(least, self._expected - self.done)
-            share = 1.0 if certain else _SHARES[int(least < _SOON)]
-            self.left = least**share * usual ** (1.0 - share)
+            share = _SHARES[int(least < _SOON)]
+            self.left = least if certain else max(least, _LUCK) ** share * usual ** (1.0 - share)
 
         found = rational.search(measure, base[0], base[-1], MOST, self._family(), expect)
         if found is None:

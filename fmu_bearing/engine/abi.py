@@ -22,6 +22,7 @@ from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
 from fmu_bearing.engine.spindle.outputs import observe_set
 from fmu_bearing.engine.spindle.port import has_port
+from fmu_bearing.engine.spindle.sound import finish
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
 _LARGEST = 1e15  # of any input, in its unit
@@ -158,6 +159,8 @@ def step(p, u, s, z, w, h):
         status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)
+    if p[P.FIDELITY] != RESPONSE:
+        finish(p, s, w)
     if status == OK:
         keep(p, s, w)
         outputs(p, s, z)

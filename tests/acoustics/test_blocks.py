@@ -20,7 +20,7 @@ LENGTHS = [(16,), (64,), (256,), (16, 128), (32, 512)]
 @pytest.mark.parametrize("block", [8, 64])
 def test_transform_against_numpy(block):
     """1e-14 of the largest: a dozen roundings."""
-    n = 5
+    n = 8
     x = np.random.default_rng(1).standard_normal((2 * block, n))
     angle = np.pi * np.arange(block + 1) / block
     turns = np.concatenate([np.cos(angle), np.sin(angle)])

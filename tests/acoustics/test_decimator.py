@@ -56,7 +56,7 @@ def rows_of(player, motion, samples):
 def test_stages_against_scipy(stage):
     """Sample for sample; 1e-12: forty sums of numbers of order one."""
     taps = decimator_stages()[stage]
-    rows, wide, samples = len(taps) + 1, 7, 400
+    rows, wide, samples = len(taps) + 9, 20, 400
     x = np.random.default_rng(1).standard_normal((samples, wide))
     ps, ring = outer_taps(taps).copy(), np.zeros((rows, wide))
     out = np.zeros(wide)
@@ -64,8 +64,15 @@ def test_stages_against_scipy(stage):
     for k in range(samples):
         ring[k % rows] = x[k]
         if k % SD.HALF == 0:
-            radiate.halve(ps, 0, len(taps), ring.ravel(), 0, k % rows, out)
+            radiate.halve(ps, 0, len(taps), ring.ravel(), 0, rows, k % rows, 1, out)
             assert np.max(np.abs(out - expected[k // SD.HALF])) < 1e-12
+        if k % 8 == 6 and k > 8:  # four at once: the same bits
+            four = np.zeros(4 * wide)
+            radiate.halve(ps, 0, len(taps), ring.ravel(), 0, rows, (k - 6) % rows, 4, four)
+            assert np.array_equal(four[3 * wide :], out)
+            assert (
+                np.max(np.abs(four.reshape(4, wide) - expected[k // SD.HALF - 3 : k // SD.HALF + 1])) < 1e-12
+            )
 
 
 def test_whole_decimator_in_the_stream_against_scipy():

@@ -171,7 +171,7 @@ def test_rows_of_two_blocks_add_by_microphone_whatever_lanes_each_gives_them():
     rows[1] *= 100.0
     orders = [2, 0, 1], [1, 2, 0]
     first, second = gathered(orders[0], 7, rows[0]), gathered(orders[1], 4, rows[1])
-    meter.add(*first, *second)
+    meter.add(*first, *second, 1)
     assert np.array_equal(first[1][7:].reshape(SD.METERS, 3)[:, orders[0]], rows[0] + rows[1])
     assert np.array_equal(second[1][4:].reshape(SD.METERS, 3)[:, orders[1]], rows[1])
 

@@ -8,7 +8,7 @@ from fmu_bearing.acoustics.filters.design import Group, sound_parameters
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.engine.sound.convolve import convolve
+from fmu_bearing.engine.sound.convolve import convolve, in_fours
 from tests.acoustics.playback import SMALL
 
 SAMPLES = 1500
@@ -45,12 +45,13 @@ class Line:
         """Return outputs, shape (samples, outputs), of ``inputs``, shape (samples, channels)."""
         found = []
         width, rows, first = len(self.lanes), int(self.ps[SD.H_ROWS]), int(self.ps[SD.H_S_CHANNELS])
-        at, outputs = int(self.ps[SD.H_W_OUTPUTS]), int(self.ps[SD.H_OUTPUTS])
+        outputs = int(self.ps[SD.H_OUTPUTS])
+        out = self.ws[int(self.ps[SD.H_W_OUTPUTS]) :][: in_fours(outputs)]
         for row in inputs:
             place = self.count % rows
             self.ss[first + place * width + self.lanes] = row
-            convolve(self.ps, self.ss, self.ws, place, self.count)
-            found.append(self.ws[at : at + outputs].copy())
+            convolve(self.ps, self.ss, self.ws, out, place, self.count)
+            found.append(out[:outputs].copy())
             self.count += 1
         return np.array(found)
 

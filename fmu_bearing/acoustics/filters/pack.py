@@ -29,7 +29,8 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_s
 from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.choices import CHANNEL_FORMS
-from fmu_bearing.engine.layout import FOUR, SD, SL, Z
+from fmu_bearing.engine.layout import SD, SL, Z
+from fmu_bearing.engine.sound.convolve import in_fours
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
@@ -137,11 +138,11 @@ def pack(
     found = block.head
     found[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
     found[SD.H_BALLS] = radiation.radiators.ball_count
-    lanes = -(-radiation.radiators.ball_count // FOUR) * FOUR
+    lanes = in_fours(radiation.radiators.ball_count)
     found[SD.H_BALL_LANES] = lanes
     found[SD.H_HARMONICS] = radiation.harmonics
     found[SD.H_FLEXURES] = 2 * len(radiation.modes)
-    found[SD.H_RAW] = _raw(radiation, lanes)
+    found[SD.H_RAW] = in_fours(_raw(radiation, lanes))
     found[SD.H_CHANNELS] = channels
     found[SD.H_BANKS] = len(banks)
     found[SD.H_SPANS] = len(lengths)
@@ -174,7 +175,7 @@ def pack(
     served = spans(banks, lengths, len(sources))
     deepest = _put_banks(block, banks, served)
     rows, slots = _put_spans(block, banks, served)
-    found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)])
+    found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)]) + SD.BATCH
     _place_state(block, rows, slots)
     _place_work(block)
     return block.flat()
@@ -237,9 +238,9 @@ def _put_banks(block: _Block, banks: Sequence[Bank], served: Sequence[Span]) -> 
         direct = head(bank, served)
         if len(direct):
             deepest = max(deepest, bank.delay + len(direct))
-        place = block.put(direct)
-        runs = [(output, len(list(run))) for output, run in groupby(bank.targets)]
         lanes = bank.taps.shape[1]
+        place = block.put(np.pad(direct, ((0, 0), (0, in_fours(lanes) - lanes))))
+        runs = [(output, len(list(run))) for output, run in groupby(bank.targets)]
         rows.append([bank.lane, lanes, bank.delay, len(direct), place, len(runs), block.put(runs)])
     block.head[SD.H_AT_BANKS] = block.put(rows)
     return deepest
@@ -309,9 +310,9 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
         length = row[SD.SPAN_BLOCK]
         lanes = [[count, room(count * 2 * (length + 1))] for count in counts]
         outputs = int(found[SD.H_OUTPUTS])
-        transform = room(2 * (length + 1) * max(len(lanes), outputs))
+        transform = room(2 * (length + 1) * in_fours(max(len(lanes), outputs)))
         sums = room(SD.sums_place(outputs - 1, length) + SD.MAX_FREQUENCIES + length + 1)
-        complete.append([*row, block.put(lanes), transform, sums, room(length * outputs)])
+        complete.append([*row, block.put(lanes), transform, sums, room(length * in_fours(outputs))])
     found[SD.H_AT_SPANS] = block.put(complete)
     found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])
     found[SD.H_S_METERS] = room(SD.METERS * mics)
@@ -377,19 +378,20 @@ def _place_lines(block: _Block, lines: Lines) -> None:
 
 
 def _place_work(block: _Block) -> None:
-    """Give every part of the work space its place; the decimated row is first, then the channels."""
+    """Give every part of the work space its place; the decimated rows are first."""
     found = block.head
     channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
     # of the balls' harmonics: sums and multiples
     rows = SD.FAMILIES * SD.FAMILY_ROWS + found[SD.H_BALL_LANES]
     scratch = [2 * int(found[SD.H_HARMONICS] * rows), SD.BAND_LANES]
-    end = int(found[SD.H_RAW]) + channels
+    end = SD.BATCH * int(found[SD.H_RAW])
     for place, size in (
-        (SD.H_W_OUTPUTS, outputs),
+        (SD.H_W_FORMED, SD.BATCH * channels),
+        (SD.H_W_OUTPUTS, SD.BATCH * in_fours(outputs)),
         (SD.H_W_LANES, SD.MAX_CHANNELS),
         (SD.H_W_WEIGHTED, int(found[SD.H_LANES])),
-        (SD.H_W_SOURCES, int(found[SD.H_SOURCES]) * mics),
-        (SD.H_W_METERS, SD.METERS * mics),
+        (SD.H_W_SOURCES, SD.BATCH * int(found[SD.H_SOURCES]) * mics),
+        (SD.H_W_METERS, SD.BATCH * SD.METERS * mics),
         (SD.H_W_SCRATCH, max(scratch)),
     ):
         found[place] = end

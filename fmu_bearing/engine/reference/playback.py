@@ -13,7 +13,8 @@ def play(ps, ss, ws, motion, z, pressures, samples, time_weighting, start, mics,
     numbers per microphone; ``pressures``: a row of ``mics`` pressures (Pa) per sample of the microphones.
     """
     for i in range(samples):
-        radiate.push(ps, ss, ws, motion[(first + i) % len(motion)], time_weighting, start)
+        radiate.push(ps, ss, motion[(first + i) % len(motion)])
+        meter.update(ps, ss, ws, radiate.filtered(ps, ss, ws), time_weighting, start)
         if len(pressures) and i % SD.DECIMATION == 0:
             meter.levels(ps, ss, z, 0)
             for m in range(mics):

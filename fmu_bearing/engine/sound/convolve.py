@@ -16,17 +16,23 @@ the block of outputs after the next. Without a wait the early units fall on one 
 """
 
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound.transform import combine, divide, fold, reversed_bits, unfold
 
 
 @kernel
-def convolve(ps, ss, ws, place, count):
-    """Filter outputs of sample ``count``, whose lanes are row ``place`` of the history."""
-    n_out = int(ps[SD.H_OUTPUTS])
-    out = ws[int(ps[SD.H_W_OUTPUTS]) : int(ps[SD.H_W_OUTPUTS]) + n_out]
-    for i in range(n_out):
-        out[i] = 0.0
+def in_fours(n):
+    """Return ``n`` filled up to a multiple of four."""
+    return (n + FOUR - 1) // FOUR * FOUR
+
+
+@kernel
+def convolve(ps, ss, ws, out, place, count):
+    """Filter outputs ``out`` of sample ``count``, whose lanes are row ``place`` of the history."""
+    n_out = len(out)
+    for i in range(0, n_out, FOUR):
+        store(out, i, splat(0.0))
     banks = int(ps[SD.H_AT_BANKS])
     for bank in range(int(ps[SD.H_BANKS])):
         at = banks + SD.BANK_SIZE * bank
@@ -43,30 +49,29 @@ def convolve(ps, ss, ws, place, count):
         if row < 0:
             row += block
         future = int(ps[at + SD.SPAN_S_FUTURE]) + row * n_out
-        y = ss[future : future + n_out]
-        for i in range(n_out):
-            out[i] += y[i]
+        for i in range(0, n_out, FOUR):
+            store(out, i, load(out, i) + load(ss, future + i))
 
 
 @kernel
 def _direct(ps, ss, ws, at, place, out):
     """Direct part of the bank described at ``ps[at]``, added to its outputs.
 
-    Lanes of a bank lie side by side in history and taps, so the inner loop is one vector loop without a
-    running sum, the same on every machine.
+    Lanes of a bank lie side by side in history and taps and go four by four, the last ones with lanes of
+    other banks, whose sums nobody reads.
     """
     n = int(ps[SD.H_CHANNELS])
     rows = int(ps[SD.H_ROWS])
     first = int(ps[SD.H_S_CHANNELS]) + int(ps[at + SD.BANK_LANE])
-    m = int(ps[at + SD.BANK_COUNT])
+    m = in_fours(int(ps[at + SD.BANK_COUNT]))
     row = place - int(ps[at + SD.BANK_DELAY])
     if row < 0:
         row += rows
     h = int(ps[at + SD.BANK_AT_TAPS])
     lanes = int(ps[SD.H_W_LANES])
     y = ws[lanes : lanes + m]
-    for c in range(m):
-        y[c] = 0.0
+    for c in range(0, m, FOUR):
+        store(y, c, splat(0.0))
     for _ in range(int(ps[at + SD.BANK_TAPS]) // FOUR):
         p0 = first + row * n
         row = row - 1 if row > 0 else rows - 1  # a remainder would cost more than the sums
@@ -76,20 +81,11 @@ def _direct(ps, ss, ws, at, place, out):
         row = row - 1 if row > 0 else rows - 1
         p3 = first + row * n
         row = row - 1 if row > 0 else rows - 1
-        x0 = ss[p0 : p0 + m]
-        x1 = ss[p1 : p1 + m]
-        x2 = ss[p2 : p2 + m]
-        x3 = ss[p3 : p3 + m]
-        h0 = ps[h : h + m]
-        h += m
-        h1 = ps[h : h + m]
-        h += m
-        h2 = ps[h : h + m]
-        h += m
-        h3 = ps[h : h + m]
-        h += m
-        for c in range(m):
-            y[c] += (h0[c] * x0[c] + h1[c] * x1[c]) + (h2[c] * x2[c] + h3[c] * x3[c])
+        for c in range(0, m, FOUR):
+            even = load(ps, h + c) * load(ss, p0 + c) + load(ps, h + m + c) * load(ss, p1 + c)
+            odd = load(ps, h + 2 * m + c) * load(ss, p2 + c) + load(ps, h + 3 * m + c) * load(ss, p3 + c)
+            store(y, c, load(y, c) + (even + odd))
+        h += FOUR * m
     run = int(ps[at + SD.BANK_AT_RUNS])
     c = 0
     for _ in range(int(ps[at + SD.BANK_RUNS])):
@@ -124,8 +120,8 @@ def _transform(ps, ss, at, place, newest, begin, end):
 
     Each of their kinds is counted from its own first one on.
     """
-    n = int(ps[at + SD.SPAN_LANES])
-    n_out = int(ps[SD.H_OUTPUTS])
+    n = in_fours(int(ps[at + SD.SPAN_LANES]))
+    n_out = in_fours(int(ps[SD.H_OUTPUTS]))
     block = int(ps[at + SD.SPAN_BLOCK])
     half = block // 2
     stages = half * (int(ps[at + SD.SPAN_STAGES]) - 1)
@@ -133,8 +129,8 @@ def _transform(ps, ss, at, place, newest, begin, end):
     turns = ps[table : table + 2 * (block + 1)]
     work = int(ps[at + SD.SPAN_S_TRANSFORM])
     z = ss[work : work + 2 * (block + 1) * max(n, n_out)]
-    lanes = (n + FOUR - 1) // FOUR
-    outputs = (n_out + FOUR - 1) // FOUR
+    lanes = n // FOUR
+    outputs = n_out // FOUR
     if begin < half:
         _gather(ps, ss, at, place, z, begin, min(end, half))
     first = half
@@ -167,7 +163,8 @@ def _gather(ps, ss, at, place, z, begin, end):
     The transform's first stage is done with it: the two rows that it combines are one block apart. Units:
     samples two by two.
     """
-    n = int(ps[at + SD.SPAN_LANES])
+    lanes = int(ps[at + SD.SPAN_LANES])
+    n = in_fours(lanes)
     block = int(ps[at + SD.SPAN_BLOCK])
     half = block // 2
     wide = 2 * n
@@ -194,17 +191,22 @@ def _gather(ps, ss, at, place, z, begin, end):
                 for c in range(m):
                     y[c] = a[c] - b[c]
                 to += m
+            for spare in range(to, to + n - lanes):
+                z[spare] = 0.0
+                z[wide + spare] = 0.0
+            to += n - lanes
 
 
 @kernel
 def _keep(ps, ss, at, newest, z, begin, end):
     """Copy the spectra in ``z`` to what is kept of block ``newest``; units: lanes four by four."""
-    n = int(ps[at + SD.SPAN_LANES])
+    lanes = int(ps[at + SD.SPAN_LANES])
+    n = in_fours(lanes)
     rows = int(ps[at + SD.SPAN_BLOCK]) + 1
     last = FOUR - 1
-    for lane in range(FOUR * max(begin, 0), min(FOUR * end, n), FOUR):
-        if lane + FOUR > n:
-            for left in range(lane, n):
+    for lane in range(FOUR * max(begin, 0), min(FOUR * end, lanes), FOUR):
+        if lane + FOUR > lanes:
+            for left in range(lane, lanes):
                 p0 = _slot(ps, at, left, newest, rows)
                 for k in range(rows):
                     ss[p0 + k] = z[2 * n * k + left]
@@ -239,7 +241,7 @@ def _put(ps, ss, at, z, begin, end):
 
     Units: samples two by two. The rows of ``z`` are bit-reversed.
     """
-    wide = 2 * int(ps[SD.H_OUTPUTS])
+    wide = 2 * in_fours(int(ps[SD.H_OUTPUTS]))
     block = int(ps[at + SD.SPAN_BLOCK])
     half = block // 2
     scale = 1.0 / block
@@ -247,11 +249,8 @@ def _put(ps, ss, at, z, begin, end):
     for k in range(max(begin, 0), end):
         p = 2 * reversed_bits(k, half) * wide
         q = p + wide
-        a = z[p:q]
-        b = z[q : q + wide]
-        y = ss[future + wide * k : future + wide * (k + 1)]
-        for i in range(wide):
-            y[i] = scale * (a[i] - b[i])
+        for i in range(0, wide, FOUR):
+            store(ss, future + wide * k + i, scale * (load(z, p + i) - load(z, q + i)))
 
 
 @kernel
@@ -260,17 +259,22 @@ def _finish(ps, ss, at, newest, z, begin, end):
 
     Units: outputs four by four.
     """
-    n = int(ps[SD.H_OUTPUTS])
+    outputs = int(ps[SD.H_OUTPUTS])
+    n = in_fours(outputs)
     rows = int(ps[at + SD.SPAN_BLOCK]) + 1
     gap = SD.MAX_FREQUENCIES
     last = FOUR - 1
-    for output in range(FOUR * max(begin, 0), min(FOUR * end, n), FOUR):
-        if output + FOUR > n:
-            for left in range(output, n):
+    for output in range(FOUR * max(begin, 0), min(FOUR * end, outputs), FOUR):
+        if output + FOUR > outputs:
+            for left in range(output, outputs):
                 y0 = _add_filters(ps, ss, at, left, newest)
                 for k in range(rows):
                     z[2 * n * k + left] = y0[k]
                     z[2 * n * k + n + left] = y0[gap + k]
+            for spare in range(outputs, n):
+                for k in range(rows):
+                    z[2 * n * k + spare] = 0.0
+                    z[2 * n * k + n + spare] = 0.0
             return
         y0 = _add_filters(ps, ss, at, output, newest)
         y1 = _add_filters(ps, ss, at, output + 1, newest)
@@ -318,34 +322,30 @@ def _add_filters(ps, ss, at, job, newest):
 def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
     """Add one filter's parts times the stored spectra of its lane, from ``slot`` on back, to the sums ``y``.
 
-    Sums at two places a constant apart in one slice, two parts at a time: only so is it a vector loop.
+    Two parts at a time, frequencies four by four; the last one, half the rate, is one more.
     """
     count = int(ps[row + SD.FILTER_COUNT])
     h = int(ps[row + SD.FILTER_AT])
+    last = rows - 1
     for _ in range(count // 2):
-        p0 = spectra + 2 * rows * slot
+        p = spectra + 2 * rows * slot
         slot = slot - 1 if slot > 0 else slots - 1
-        p1 = spectra + 2 * rows * slot
+        q = spectra + 2 * rows * slot
         slot = slot - 1 if slot > 0 else slots - 1
-        xr = ss[p0 : p0 + rows]
-        xi = ss[p0 + rows : p0 + 2 * rows]
-        hr = ps[h : h + rows]
-        hi = ps[h + rows : h + 2 * rows]
-        h += 2 * rows
-        vr = ss[p1 : p1 + rows]
-        vi = ss[p1 + rows : p1 + 2 * rows]
-        gr = ps[h : h + rows]
-        gi = ps[h + rows : h + 2 * rows]
-        h += 2 * rows
-        for k in range(rows):
-            y[k] += (hr[k] * xr[k] - hi[k] * xi[k]) + (gr[k] * vr[k] - gi[k] * vi[k])
-            y[SD.MAX_FREQUENCIES + k] += (hr[k] * xi[k] + hi[k] * xr[k]) + (gr[k] * vi[k] + gi[k] * vr[k])
+        g = h + 2 * rows
+        for k in range(0, last, FOUR):
+            xr, xi, hr, hi = load(ss, p + k), load(ss, p + rows + k), load(ps, h + k), load(ps, h + rows + k)
+            vr, vi, gr, gi = load(ss, q + k), load(ss, q + rows + k), load(ps, g + k), load(ps, g + rows + k)
+            store(y, k, load(y, k) + ((hr * xr - hi * xi) + (gr * vr - gi * vi)))
+            to = SD.MAX_FREQUENCIES + k
+            store(y, to, load(y, to) + ((hr * xi + hi * xr) + (gr * vi + gi * vr)))
+        y[last] += ps[h + last] * ss[p + last] + ps[g + last] * ss[q + last]
+        h += 4 * rows
     if count % 2 == 1:
-        p0 = spectra + 2 * rows * slot
-        xr = ss[p0 : p0 + rows]
-        xi = ss[p0 + rows : p0 + 2 * rows]
-        hr = ps[h : h + rows]
-        hi = ps[h + rows : h + 2 * rows]
-        for k in range(rows):
-            y[k] += hr[k] * xr[k] - hi[k] * xi[k]
-            y[SD.MAX_FREQUENCIES + k] += hr[k] * xi[k] + hi[k] * xr[k]
+        p = spectra + 2 * rows * slot
+        for k in range(0, last, FOUR):
+            xr, xi, hr, hi = load(ss, p + k), load(ss, p + rows + k), load(ps, h + k), load(ps, h + rows + k)
+            store(y, k, load(y, k) + (hr * xr - hi * xi))
+            to = SD.MAX_FREQUENCIES + k
+            store(y, to, load(y, to) + (hr * xi + hi * xr))
+        y[last] += ps[h + last] * ss[p + last]

@@ -1,4 +1,4 @@
-"""Sound level meters: one per microphone, moved by one pressure sample at a time.
+"""Sound level meters: one per microphone, moved by one pressure sample after the other.
 
 Form scalars (radiation model ``paper``): components and their sources add as energies (multi-source paper,
 eqs. 43 and 46), only the instantaneous pressure, and with it the third octaves, is a plain sum. Other forms:
@@ -15,44 +15,49 @@ from fmu_bearing.engine.choices import SCALARS
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD, Z
 from fmu_bearing.engine.sound import thirds
+from fmu_bearing.engine.sound.convolve import in_fours
 from fmu_bearing.engine.sound.section import filter_section
 
 _FLOOR = 1e-20  # Pa^2
 _REFERENCE = 4e-10  # Pa^2
 _FAST = 1.0 - math.exp(-1.0 / (SD.RATE * SD.FAST))
 _SLOW = 1.0 - math.exp(-1.0 / (SD.RATE * SD.SLOW))
-# Squares of one sample in ``ws`` from ``H_W_METERS`` on, one row of microphones each, places as in
+# Squares of each sample in ``ws`` from ``H_W_METERS`` on, one row of microphones each, places as in
 # ``MIC_OUTPUTS``: total and its A-weighted twin, components, energy sum, kinds.
 _TOTAL, _TOTAL_A = SD.M_LEVEL, SD.M_LEVEL_A
 
 
 @kernel
-def update(ps, ss, ws, time_weighting, metering_start):
-    """Move all meters by one sample; filter outputs are in ``ws``."""
-    gather(ps, ss, ws)
-    follow(ps, ss, ws, time_weighting, metering_start)
+def update(ps, ss, ws, batch, time_weighting, metering_start):
+    """Move all meters by ``batch`` samples, whose filter outputs are in ``ws``, and count these."""
+    gather(ps, ss, ws, batch)
+    for k in range(batch):
+        follow(ps, ss, ws, k, time_weighting, metering_start)
+        ss[SD.SS_COUNT] += 1.0
 
 
 @kernel
-def gather(ps, ss, ws):
+def gather(ps, ss, ws, batch):
     """Add up what filter outputs bring each microphone: rows of pressures, or with form scalars of energies.
 
-    Rows of several bearings may be added (`add`) before `follow` squares and meters them.
+    A block of rows per sample. Rows of several bearings may be added (`add`) before `follow` squares and
+    meters them.
     """
     n = int(ps[SD.H_MICS])
     rows = int(ps[SD.H_W_METERS])
     size = SD.METERS * n
-    squares = ws[rows : rows + size]
-    for i in range(size):
+    squares = ws[rows : rows + batch * size]
+    for i in range(batch * size):
         squares[i] = 0.0
     if int(ps[SD.H_FORM]) == SCALARS:
-        _energies(ps, ss, ws, squares, n)
+        for k in range(batch):
+            _energies(ps, ss, ws, k, squares[k * size : (k + 1) * size], n)
     else:
-        _pressures(ps, ws, squares, n)
+        _pressures(ps, ws, batch, squares, n)
 
 
 @kernel
-def add(ps, ws, others, more):
+def add(ps, ws, others, more, batch):
     """Add the rows that another block ``others`` has gathered in ``more`` to those in ``ws``.
 
     Both have the same microphones; their lanes may differ.
@@ -63,15 +68,15 @@ def add(ps, ws, others, more):
     for mic in range(n):
         to = int(ps[SD.H_W_METERS]) + int(ps[order + mic])
         of = int(others[SD.H_W_METERS]) + int(others[other + mic])
-        for row in range(SD.METERS):
+        for row in range(batch * SD.METERS):
             ws[to + row * n] += more[of + row * n]
 
 
 @kernel
-def square(ps, ws, mic):
-    """Square (Pa2) that the rows in ``ws`` bring microphone ``mic``: what its level is of."""
+def square(ps, ws, k, mic):
+    """Square (Pa2) that the rows of sample ``k`` bring microphone ``mic``: what its level is of."""
     n = int(ps[SD.H_MICS])
-    at = int(ps[SD.H_W_METERS]) + int(ps[int(ps[SD.H_AT_ORDER]) + mic])
+    at = _rows_of(ps, k) + int(ps[int(ps[SD.H_AT_ORDER]) + mic])
     if int(ps[SD.H_FORM]) != SCALARS:
         return ws[at] * ws[at]
     total = 0.0
@@ -81,9 +86,15 @@ def square(ps, ws, mic):
 
 
 @kernel
-def metered(ss, metering_start):
-    """Whether metering has begun."""
-    return ss[SD.SS_COUNT] >= metering_start * SD.RATE
+def _rows_of(ps, k):
+    """Place of the rows of sample ``k``."""
+    return int(ps[SD.H_W_METERS]) + k * SD.METERS * int(ps[SD.H_MICS])
+
+
+@kernel
+def begun(count, metering_start):
+    """Whether metering has begun with the sample that has this number."""
+    return count >= metering_start * SD.RATE
 
 
 @kernel
@@ -93,10 +104,10 @@ def fraction_of(time_weighting):
 
 
 @kernel
-def follow(ps, ss, ws, time_weighting, metering_start):
-    """Square the rows in ``ws`` and move all meters by one sample."""
+def follow(ps, ss, ws, k, time_weighting, metering_start):
+    """Square the rows of sample ``k`` and move all meters by this sample."""
     n = int(ps[SD.H_MICS])
-    rows = int(ps[SD.H_W_METERS])
+    rows = _rows_of(ps, k)
     size = SD.METERS * n
     squares = ws[rows : rows + size]
     meters = ss[int(ps[SD.H_S_METERS]) : int(ps[SD.H_S_METERS]) + size]
@@ -109,10 +120,10 @@ def follow(ps, ss, ws, time_weighting, metering_start):
         _sum_components(squares, n)
     for i in range(n):
         meters[i] = squares[i]
-    begun = metered(ss, metering_start)
+    metered = begun(ss[SD.SS_COUNT], metering_start)
     if int(ps[SD.H_BANDS]) > 0:
-        thirds.update(ps, ss, ws, rows, _FAST if begun else 0.0)
-    if not begun:
+        thirds.update(ps, ss, ws, rows, _FAST if metered else 0.0)
+    if not metered:
         return
     fraction = fraction_of(time_weighting)
     ss[SD.SS_METERED] += 1.0
@@ -141,14 +152,15 @@ def _track(meters, row, squares, source, count, n, fraction):
 
 
 @kernel
-def _pressures(ps, ws, squares, n):
+def _pressures(ps, ws, batch, squares, n):
     """Coherent sums: pressures of each source, of components, of kinds, of all."""
     at = int(ps[SD.H_W_SOURCES])
-    n_sources = int(ps[SD.H_SOURCES])
-    parts = ws[at : at + n_sources * n]
-    for i in range(n_sources * n):
+    size = int(ps[SD.H_SOURCES]) * n
+    parts = ws[at : at + batch * size]
+    for i in range(batch * size):
         parts[i] = 0.0
-    out_at = int(ps[SD.H_W_OUTPUTS])
+    pitch = in_fours(int(ps[SD.H_OUTPUTS]))
+    outputs = int(ps[SD.H_W_OUTPUTS])
     sources = int(ps[SD.H_AT_OUTPUTS])
     for group in range(int(ps[SD.H_GROUPS])):
         g = int(ps[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group
@@ -157,29 +169,24 @@ def _pressures(ps, ws, squares, n):
         mics = int(ps[g + SD.GROUP_MICS])
         weights = int(ps[g + SD.GROUP_AT_WEIGHTS])
         for o in range(int(ps[g + SD.GROUP_COUNT])):
-            value = ws[out_at + first + o]
             to = int(ps[sources + first + o]) * n + lane
-            if mics == 1:  # a loop of its own costs ten times this product
-                parts[to] += ps[weights + o] * value
-                continue
-            part = parts[to : to + mics]
-            w = ps[weights + o * mics : weights + (o + 1) * mics]
+            value = ws[outputs + first + o : outputs + first + o + (batch - 1) * pitch + 1]
             for i in range(mics):
-                part[i] += w[i] * value
-    total = squares[0:n]
-    for source in range(n_sources):
+                weight = ps[weights + o * mics + i]
+                for k in range(batch):
+                    parts[k * size + to + i] += weight * value[k * pitch]
+    for source in range(int(ps[SD.H_SOURCES])):
         at = int(ps[SD.H_AT_SOURCES]) + SD.SOURCE_SIZE * source
-        part = parts[source * n : (source + 1) * n]
         component = (SD.M_PART + int(ps[at + SD.SOURCE_COMPONENT])) * n
         kind = (SD.M_KIND + int(ps[at + SD.SOURCE_KIND])) * n
-        whole = squares[component : component + n]
-        for i in range(n):
-            total[i] += part[i]
-            whole[i] += part[i]
-        if kind < SD.METERS * n:
-            same = squares[kind : kind + n]
+        for k in range(batch):
+            part = parts[k * size + source * n : k * size + (source + 1) * n]
+            rows = squares[k * SD.METERS * n : (k + 1) * SD.METERS * n]
             for i in range(n):
-                same[i] += part[i]
+                rows[i] += part[i]
+                rows[component + i] += part[i]
+                if kind < SD.METERS * n:
+                    rows[kind + i] += part[i]
 
 
 @kernel
@@ -199,9 +206,9 @@ def _square(ps, ss, ws, squares, n):
 
 
 @kernel
-def _energies(ps, ss, ws, squares, n):
-    """Energy sums of the printed method: every filter output is squared by itself."""
-    out_at = int(ps[SD.H_W_OUTPUTS])
+def _energies(ps, ss, ws, k, squares, n):
+    """Energy sums of the printed method for sample ``k``: every filter output is squared by itself."""
+    out_at = int(ps[SD.H_W_OUTPUTS]) + k * in_fours(int(ps[SD.H_OUTPUTS]))
     lanes = int(ps[SD.H_LANES])
     at = int(ps[SD.H_W_WEIGHTED])
     weighted = ws[at : at + lanes]

@@ -1,19 +1,24 @@
-"""From one motion sample to the pressure at every microphone: decimation, channels, filters.
+"""From motion samples to the pressure at every microphone: decimation, channels, filters.
 
-One call of `push` takes one sample of the motion at ``RAW_RATE``. Two half-band filters, one behind the
-other, halve the rate of its numbers twice: every fourth call a row at ``RATE`` comes out. The channels are
-formed of it, pass the microphones' low-frequency limit, enter the history, run through all filters and move
-the meters. State depends on the samples alone, never on how steps are cut.
+`push` takes one sample of the motion at ``RAW_RATE``. Two half-band filters, one behind the other, halve the
+rate of its numbers twice: every fourth sample makes one at ``RATE`` due. What is due waits, up to ``BATCH``
+samples, and passes `filtered` together: each number goes the same way however many there are, but what the
+filters keep is fetched once. There the second half-band filter works, the channels are formed, pass the
+microphones' low-frequency limit, enter the history and run through all filters. State depends on the samples
+alone, never on how steps are cut, once nothing waits.
 """
 
 from fmu_bearing.engine.choices import SCALARS
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, MO, SD
-from fmu_bearing.engine.sound import channels, meter
-from fmu_bearing.engine.sound.convolve import convolve
+from fmu_bearing.engine.sound import channels
+from fmu_bearing.engine.sound.convolve import convolve, in_fours
 from fmu_bearing.engine.sound.high_pass import high_pass
 
-__all__ = ["filtered", "push", "reset"]
+__all__ = ["filtered", "push", "reset", "waiting"]
+
+_MANY = 4 * FOUR  # numbers whose sums are in registers at once
 
 
 @kernel
@@ -24,23 +29,10 @@ def reset(ss):
 
 
 @kernel
-def push(ps, ss, ws, motion, time_weighting, metering_start):
-    """Take one motion sample (see `layout.motion`) and update filters and meters.
+def push(ps, ss, motion):
+    """Take one motion sample (see `layout.motion`); no more than ``BATCH`` may be `waiting` before.
 
-    ``time_weighting`` is the meters' time constant in s, ``metering_start`` the time in s from the first
-    sample on at which they begin.
-    """
-    if filtered(ps, ss, ws, motion):
-        meter.update(ps, ss, ws, time_weighting, metering_start)
-        ss[SD.SS_COUNT] += 1.0
-
-
-@kernel
-def filtered(ps, ss, ws, motion):
-    """Take one motion sample; whether it brings filter outputs at ``RATE``, which are then in ``ws``.
-
-    Whoever reads them counts them in ``SS_COUNT``. The decimator takes the first sample to have lasted for
-    ever; for the high-pass see `high_pass`.
+    The decimator takes the first sample to have lasted for ever; for the high-pass see `high_pass`.
     """
     raw = int(ss[SD.SS_RAW])
     wide = int(ps[SD.H_RAW])
@@ -51,25 +43,47 @@ def filtered(ps, ss, ws, motion):
     elif raw % SD.DECIMATION == SD.TURNING:
         _keep_turns(ps, ss, motion, raw // SD.DECIMATION % SD.TURN_ROWS)
     ss[SD.SS_RAW] = raw + 1.0
-    if raw % SD.HALF != 0:
-        return False
-    half = raw // SD.HALF
-    newest = half % SD.SECOND_ROWS
-    second = int(ps[SD.H_S_SECOND])
-    row = second + newest * wide
-    halve(
-        ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, raw % SD.FIRST_ROWS, ss[row : row + wide]
-    )
-    if half % SD.HALF != 0:
-        return False
-    x = ws[0:wide]
-    halve(ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, newest, x)
+    if raw % SD.HALF == 0:
+        row = int(ps[SD.H_S_SECOND]) + raw // SD.HALF % SD.SECOND_ROWS * wide
+        _halve_first(ps, ss, raw % SD.FIRST_ROWS, ss[row : row + wide])
+
+
+@kernel
+def waiting(ss):
+    """Return how many samples at ``RATE`` wait for `filtered`."""
+    return (int(ss[SD.SS_RAW]) + SD.DECIMATION - 1) // SD.DECIMATION - int(ss[SD.SS_COUNT])
+
+
+@kernel
+def filtered(ps, ss, ws):
+    """Let the samples that wait pass the filters, whose outputs are then in ``ws``; return how many they are.
+
+    Whoever reads the outputs counts them in ``SS_COUNT``.
+    """
+    batch = waiting(ss)
+    if batch <= 0:
+        return 0
+    wide = int(ps[SD.H_RAW])
+    n = int(ps[SD.H_CHANNELS])
     count = int(ss[SD.SS_COUNT])
-    place = count % int(ps[SD.H_ROWS])
-    _form(ps, ss, ws, count % SD.TURN_ROWS)
-    high_pass(ps, ss, ws[wide : wide + int(ps[SD.H_CHANNELS])], place, count)
-    convolve(ps, ss, ws, place, count)
-    return True
+    second = int(ps[SD.H_S_SECOND])
+    newest = count * SD.HALF % SD.SECOND_ROWS
+    halve(
+        ps, int(ps[SD.H_AT_SECOND]), SD.SECOND_TAPS, ss, second, SD.SECOND_ROWS, newest, batch,
+        ws[0 : batch * wide],
+    )  # fmt: skip
+    formed = int(ps[SD.H_W_FORMED])
+    rows = int(ps[SD.H_ROWS])
+    for k in range(batch):
+        x = ws[formed + k * n : formed + (k + 1) * n]
+        _form(ps, ss, ws, ws[k * wide : (k + 1) * wide], (count + k + SD.BATCH) % SD.TURN_ROWS, x)
+        high_pass(ps, ss, x, (count + k) % rows, count + k)
+    pitch = in_fours(int(ps[SD.H_OUTPUTS]))
+    out = int(ps[SD.H_W_OUTPUTS])
+    for k in range(batch):
+        y = ws[out + k * pitch : out + (k + 1) * pitch]
+        convolve(ps, ss, ws, y, (count + k) % rows, count + k)
+    return batch
 
 
 @kernel
@@ -85,13 +99,11 @@ def _keep_turns(ps, ss, motion, row):
 
 
 @kernel
-def _form(ps, ss, ws, row):
-    """Form the channels behind the raw row at the head of ``ws``, with the angles of ``row``."""
-    wide = int(ps[SD.H_RAW])
+def _form(ps, ss, ws, x, row, out):
+    """Form the channels ``out`` of the decimated raw row ``x``, with the angles of ``row``."""
     lanes = int(ps[SD.H_BALL_LANES])
     turns = int(ps[SD.H_S_TURNS]) + 2 * lanes * row
-    out = ws[wide : wide + int(ps[SD.H_CHANNELS])]
-    channels.form(ps, ws, ws[0:wide], ss[turns : turns + 2 * lanes], out)
+    channels.form(ps, ws, x, ss[turns : turns + 2 * lanes], out)
 
 
 @kernel
@@ -103,7 +115,7 @@ def _settle(ps, ss, motion):
             ss[SD.SS_TABLES + row * wide + i] = ss[SD.SS_TABLES + i]
     second = int(ps[SD.H_S_SECOND])
     x = ss[second : second + wide]
-    halve(ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, 0, x)
+    _halve_first(ps, ss, 0, x)
     for row in range(1, SD.SECOND_ROWS):
         for i in range(wide):
             ss[second + row * wide + i] = x[i]
@@ -112,34 +124,97 @@ def _settle(ps, ss, motion):
 
 
 @kernel
-def halve(ps, at, taps, ss, history, newest, out):
-    """Half-band filter over the last ``taps`` rows of the ring ``ss[history:]``, which has one row more.
+def _halve_first(ps, ss, newest, out):
+    """Decimator's first stage with the row ``newest`` of its history."""
+    halve(ps, int(ps[SD.H_AT_FIRST]), SD.FIRST_TAPS, ss, SD.SS_TABLES, SD.FIRST_ROWS, newest, 1, out)
 
-    ``ps[at:]`` holds the outer taps (see `layout.sound`), ``newest`` is the newest row. Two pairs of rows at
-    a time.
+
+@kernel
+def halve(ps, at, taps, ss, history, rows, newest, count, out):
+    """Half-band filter over ``taps`` rows of the ring ``ss[history:]``, which has ``rows`` of them.
+
+    ``ps[at:]`` holds the outer taps (see `layout.sound`). ``newest`` is the newest row of the first of
+    ``count`` results, which take every other row; their rows in ``out`` have a multiple of four numbers.
+    Sixteen of these at a time, whose sums stay in registers, of all results before the next ones.
     """
-    wide = len(out)
-    rows = taps + 1
-    p = history + (newest + rows - taps // 2) % rows * wide
-    x = ss[p : p + wide]
-    for c in range(wide):
-        out[c] = 0.5 * x[c]
-    left = newest  # row before the sum's first half moves back in time, that of the second half forward
-    right = (newest + 2) % rows
-    for i in range(at, at + rows // FOUR, 2):
-        p0 = history + left * wide
-        q0 = history + right * wide
-        left = (left + rows - 2) % rows
-        right = (right + 2) % rows
-        p1 = history + left * wide
-        q1 = history + right * wide
-        left = (left + rows - 2) % rows
-        right = (right + 2) % rows
-        x0 = ss[p0 : p0 + wide]
-        y0 = ss[q0 : q0 + wide]
-        x1 = ss[p1 : p1 + wide]
-        y1 = ss[q1 : q1 + wide]
-        g0 = ps[i]
-        g1 = ps[i + 1]
-        for c in range(wide):
-            out[c] += g0 * (x0[c] + y0[c]) + g1 * (x1[c] + y1[c])
+    wide = len(out) // count
+    many = wide // _MANY * _MANY
+    first = history
+    for c in range(0, many, _MANY):
+        row = newest
+        for k in range(c, c + count * wide, wide):
+            x0, x1, x2, x3 = _halve_sixteen(ps, at, taps, ss, first, rows, row, wide)
+            store(out, k, x0)
+            store(out, k + FOUR, x1)
+            store(out, k + 2 * FOUR, x2)
+            store(out, k + 3 * FOUR, x3)
+            row = row + SD.HALF if row + SD.HALF < rows else row + SD.HALF - rows
+        first += _MANY
+    for c in range(many, wide, FOUR):
+        row = newest
+        for k in range(c, c + count * wide, wide):
+            store(out, k, _halve_four(ps, at, taps, ss, first, rows, row, wide))
+            row = row + SD.HALF if row + SD.HALF < rows else row + SD.HALF - rows
+        first += FOUR
+
+
+@kernel
+def _halve_sixteen(ps, at, taps, ss, first, rows, newest, wide):
+    """Sixteen numbers of `halve`: of the rows at ``ss[first:]``, ``wide`` apart."""
+    m = first + (newest + rows - taps // 2) % rows * wide
+    left = first + newest * wide  # before the sum's first half moves back in time, the second half forward
+    right = first + (newest + rows - taps + 1) % rows * wide
+    end = first + rows * wide
+    a = 0.5 * load(ss, m)
+    b = 0.5 * load(ss, m + FOUR)
+    c = 0.5 * load(ss, m + 2 * FOUR)
+    d = 0.5 * load(ss, m + 3 * FOUR)
+    for i in range(at, at + (taps + 1) // FOUR, 2):
+        p, q = left, right
+        left, right = _apart(left, right, first, end, wide)
+        g, h = ps[i], ps[i + 1]
+        a += g * (load(ss, p) + load(ss, q)) + h * (load(ss, left) + load(ss, right))
+        p += FOUR
+        q += FOUR
+        r = left + FOUR
+        s = right + FOUR
+        b += g * (load(ss, p) + load(ss, q)) + h * (load(ss, r) + load(ss, s))
+        p += FOUR
+        q += FOUR
+        r += FOUR
+        s += FOUR
+        c += g * (load(ss, p) + load(ss, q)) + h * (load(ss, r) + load(ss, s))
+        p += FOUR
+        q += FOUR
+        r += FOUR
+        s += FOUR
+        d += g * (load(ss, p) + load(ss, q)) + h * (load(ss, r) + load(ss, s))
+        left, right = _apart(left, right, first, end, wide)
+    return a, b, c, d
+
+
+@kernel
+def _halve_four(ps, at, taps, ss, first, rows, newest, wide):
+    """Four numbers of `halve`, as `_halve_sixteen`."""
+    left = first + newest * wide
+    right = first + (newest + rows - taps + 1) % rows * wide
+    end = first + rows * wide
+    a = 0.5 * load(ss, first + (newest + rows - taps // 2) % rows * wide)
+    for i in range(at, at + (taps + 1) // FOUR, 2):
+        p, q = left, right
+        left, right = _apart(left, right, first, end, wide)
+        a += ps[i] * (load(ss, p) + load(ss, q)) + ps[i + 1] * (load(ss, left) + load(ss, right))
+        left, right = _apart(left, right, first, end, wide)
+    return a
+
+
+@kernel
+def _apart(left, right, first, end, wide):
+    """Rows of the ring from ``first`` to ``end`` two before ``left`` and two behind ``right``."""
+    left -= 2 * wide
+    if left < first:
+        left += end - first
+    right += 2 * wide
+    if right >= end:
+        right -= end - first
+    return left, right

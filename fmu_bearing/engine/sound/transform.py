@@ -2,12 +2,14 @@
 
 A signal of 2 B samples is folded into B complex numbers, transformed by the radix-2 algorithm of Cooley and
 Tukey (1965), and unfolded into its B + 1 frequencies; back the other way round. Rows hold the real parts of
-all lanes, then the imaginary ones: 2 n numbers. Every step works in place and is done in pieces: the units
-``begin`` .. ``end`` - 1 of its work, those outside of it being none. Every loop over lanes is a vector loop
-without a running sum, the same on every machine.
+all lanes, then the imaginary ones: 2 n numbers, n a multiple of four. Every step works in place and is done
+in pieces: the units ``begin`` .. ``end`` - 1 of its work, those outside of it being none. Lanes go four by
+four without a running sum, the same on every machine.
 """
 
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.layout import FOUR
 
 
 @kernel
@@ -39,17 +41,15 @@ def combine(z, n, block, turns, begin, end):
             d = -turns[block + 1 + 2 * k * groups]
             p = first * 2 * n
             q = (first + half) * 2 * n
-            ar = z[p : p + n]
-            ai = z[p + n : p + 2 * n]
-            br = z[q : q + n]
-            bi = z[q + n : q + 2 * n]
-            for i in range(n):
-                tr = c * br[i] - d * bi[i]
-                ti = c * bi[i] + d * br[i]
-                br[i] = ar[i] - tr
-                bi[i] = ai[i] - ti
-                ar[i] += tr
-                ai[i] += ti
+            for r in range(p, p + n, FOUR):
+                s = r + q - p
+                ar, ai, br, bi = load(z, r), load(z, r + n), load(z, s), load(z, s + n)
+                tr = c * br - d * bi
+                ti = c * bi + d * br
+                store(z, s, ar - tr)
+                store(z, s + n, ai - ti)
+                store(z, r, ar + tr)
+                store(z, r + n, ai + ti)
             first += 2 * half
             if first >= block:
                 k += 1
@@ -77,17 +77,15 @@ def divide(z, n, block, turns, begin, end):
             d = turns[block + 1 + 2 * k * groups]
             p = first * 2 * n
             q = (first + half) * 2 * n
-            ar = z[p : p + n]
-            ai = z[p + n : p + 2 * n]
-            br = z[q : q + n]
-            bi = z[q + n : q + 2 * n]
-            for i in range(n):
-                tr = ar[i] - br[i]
-                ti = ai[i] - bi[i]
-                ar[i] += br[i]
-                ai[i] += bi[i]
-                br[i] = c * tr - d * ti
-                bi[i] = c * ti + d * tr
+            for r in range(p, p + n, FOUR):
+                s = r + q - p
+                ar, ai, br, bi = load(z, r), load(z, r + n), load(z, s), load(z, s + n)
+                tr = ar - br
+                ti = ai - bi
+                store(z, r, ar + br)
+                store(z, r + n, ai + bi)
+                store(z, s, c * tr - d * ti)
+                store(z, s + n, c * ti + d * tr)
             first += 2 * half
             if first >= block:
                 k += 1
@@ -107,33 +105,33 @@ def unfold(z, n, block, turns, begin, end):
     for k in range(max(begin, 0), min(end, half + 1)):
         p = k * 2 * n
         q = (block - k) * 2 * n
-        ar = z[p : p + n]
-        ai = z[p + n : p + 2 * n]
-        br = z[q : q + n]
-        bi = z[q + n : q + 2 * n]
         if k == 0:
-            for i in range(n):
-                br[i] = ar[i] - ai[i]
-                bi[i] = 0.0
-                ar[i] += ai[i]
-                ai[i] = 0.0
+            for r in range(p, p + n, FOUR):
+                s = r + q - p
+                ar, ai = load(z, r), load(z, r + n)
+                store(z, s, ar - ai)
+                store(z, s + n, splat(0.0))
+                store(z, r, ar + ai)
+                store(z, r + n, splat(0.0))
         elif k == half:
-            for i in range(n):
-                ai[i] = -ai[i]
+            for r in range(p + n, p + 2 * n, FOUR):
+                store(z, r, -load(z, r))
         else:
             c = 0.5 * turns[k]
             d = -0.5 * turns[block + 1 + k]
-            for i in range(n):  # even samples' transform plus and minus turned odd samples'
-                er = 0.5 * (ar[i] + br[i])
-                ei = 0.5 * (ai[i] - bi[i])
-                sr = br[i] - ar[i]
-                si = ai[i] + bi[i]
+            for r in range(p, p + n, FOUR):  # even samples' transform plus and minus turned odd samples'
+                s = r + q - p
+                ar, ai, br, bi = load(z, r), load(z, r + n), load(z, s), load(z, s + n)
+                er = 0.5 * (ar + br)
+                ei = 0.5 * (ai - bi)
+                sr = br - ar
+                si = ai + bi
                 tr = c * si - d * sr
                 ti = c * sr + d * si
-                ar[i] = er + tr
-                ai[i] = ei + ti
-                br[i] = er - tr
-                bi[i] = ti - ei
+                store(z, r, er + tr)
+                store(z, r + n, ei + ti)
+                store(z, s, er - tr)
+                store(z, s + n, ti - ei)
 
 
 @kernel
@@ -146,28 +144,27 @@ def fold(z, n, block, turns, begin, end):
     for k in range(max(begin, 0), min(end, half + 1)):
         p = k * 2 * n
         q = (block - k) * 2 * n
-        ar = z[p : p + n]
-        ai = z[p + n : p + 2 * n]
-        br = z[q : q + n]
-        bi = z[q + n : q + 2 * n]
         if k == 0:
-            for i in range(n):
-                ai[i] = 0.5 * (ar[i] - br[i])
-                ar[i] = 0.5 * (ar[i] + br[i])
+            for r in range(p, p + n, FOUR):
+                ar, br = load(z, r), load(z, r + q - p)
+                store(z, r + n, 0.5 * (ar - br))
+                store(z, r, 0.5 * (ar + br))
         elif k == half:
-            for i in range(n):
-                ai[i] = -ai[i]
+            for r in range(p + n, p + 2 * n, FOUR):
+                store(z, r, -load(z, r))
         else:
             c = 0.5 * turns[k]
             d = 0.5 * turns[block + 1 + k]
-            for i in range(n):
-                er = 0.5 * (ar[i] + br[i])
-                ei = 0.5 * (ai[i] - bi[i])
-                sr = ar[i] - br[i]
-                si = ai[i] + bi[i]
+            for r in range(p, p + n, FOUR):
+                s = r + q - p
+                ar, ai, br, bi = load(z, r), load(z, r + n), load(z, s), load(z, s + n)
+                er = 0.5 * (ar + br)
+                ei = 0.5 * (ai - bi)
+                sr = ar - br
+                si = ai + bi
                 tr = c * si + d * sr
                 ti = c * sr - d * si
-                ar[i] = er - tr
-                ai[i] = ei + ti
-                br[i] = er + tr
-                bi[i] = ti - ei
+                store(z, r, er - tr)
+                store(z, r + n, ei + ti)
+                store(z, s, er + tr)
+                store(z, s + n, ti - ei)

@@ -10,50 +10,65 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD, P, S, W, Z
 from fmu_bearing.engine.readout.motion import sample_due, sample_motion, sound_block
 from fmu_bearing.engine.sound import meter
-from fmu_bearing.engine.sound.radiate import filtered
+from fmu_bearing.engine.sound.radiate import filtered, push, waiting
 from fmu_bearing.engine.spindle import members
 
 
 @kernel
 def emit(p, s, w, h):
-    """Take every sample that falls into the step just made through all bearings' filters, then the meters."""
+    """Take every sample that falls into the step just made; where enough of them wait, `finish` them."""
     if p[P.SOUND_SIZE] == 0.0 or p[P.READ_SOUND] == 0.0:
         return
     whole = int(sound_block(p)[SD.H_FORM]) != VECTORS
     while sample_due(s, h):
-        due = False
         for b in range(members.count(p)):
             pb = members.parameters(p, b)
             sb = members.state(p, s, b)
             wb = members.work(p, w, b)
             sample_motion(pb, sb, wb, whole, h)
-            due = filtered(sound_block(pb), sb[S.SOUND :], wb[W.SOUND :], wb[W.MOTION : W.SOUND])
+            push(sound_block(pb), sb[S.SOUND :], wb[W.MOTION : W.SOUND])
             sb[S.SAMPLE] += 1.0
-        if due:
-            meter_set(p, s, w)
+        if waiting(s[S.SOUND :]) >= SD.BATCH:
+            finish(p, s, w)
 
 
 @kernel
-def meter_set(p, s, w):
-    """Move the meters of every bearing alone and of their sum by one sample."""
-    own = members.set_state(p, s)
-    mics = int(p[P.MICS])
-    begun = members.has_shaft(p) and meter.metered(s[S.SOUND :], p[P.METERING_START])
-    fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
+def finish(p, s, w):
+    """Let all samples that wait pass every bearing's filters, then the meters of each and of their sum."""
+    if p[P.SOUND_SIZE] == 0.0:
+        return
+    batch = 0
     for b in range(members.count(p)):
         ps = sound_block(members.parameters(p, b))
         ss = members.state(p, s, b)[S.SOUND :]
         ws = members.work(p, w, b)[W.SOUND :]
-        meter.gather(ps, ss, ws)
-        if begun:
-            at = members.alone(p, b)
-            for mic in range(mics):
-                own[at + mic] += fraction * (meter.square(ps, ws, mic) - own[at + mic])
-        if b > 0:
-            meter.add(sound_block(p), w[W.SOUND :], ps, ws)
-    meter.follow(sound_block(p), s[S.SOUND :], w[W.SOUND :], p[P.TIME_WEIGHTING], p[P.METERING_START])
+        batch = filtered(ps, ss, ws)
+        meter.gather(ps, ss, ws, batch)
+    for k in range(batch):
+        meter_alone(p, s, w, k)
+    for b in range(1, members.count(p)):
+        ps = sound_block(members.parameters(p, b))
+        meter.add(sound_block(p), w[W.SOUND :], ps, members.work(p, w, b)[W.SOUND :], batch)
+    for k in range(batch):
+        meter.follow(sound_block(p), s[S.SOUND :], w[W.SOUND :], k, p[P.TIME_WEIGHTING], p[P.METERING_START])
+        for b in range(members.count(p)):
+            members.state(p, s, b)[S.SOUND + SD.SS_COUNT] += 1.0
+
+
+@kernel
+def meter_alone(p, s, w, k):
+    """Move the meters of every bearing of a set alone by sample ``k`` of those that wait."""
+    count = s[S.SOUND + SD.SS_COUNT] + k
+    if not members.has_shaft(p) or not meter.begun(count, p[P.METERING_START]):
+        return
+    own = members.set_state(p, s)
+    fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
     for b in range(members.count(p)):
-        members.state(p, s, b)[S.SOUND + SD.SS_COUNT] += 1.0
+        ps = sound_block(members.parameters(p, b))
+        ws = members.work(p, w, b)[W.SOUND :]
+        at = members.alone(p, b)
+        for mic in range(int(p[P.MICS])):
+            own[at + mic] += fraction * (meter.square(ps, ws, k, mic) - own[at + mic])
 
 
 @kernel

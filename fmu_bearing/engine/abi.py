@@ -159,8 +159,7 @@ def step(p, u, s, z, w, h):
         status = march_response(p, u, s, w, h)
     else:
         status = march(p, u, s, w, h)
-    if p[P.FIDELITY] != RESPONSE:
-        finish(p, s, w)
+    finish(p, s, w)
     if status == OK:
         keep(p, s, w)
         outputs(p, s, z)

@@ -340,7 +340,7 @@ def _add_parts(ps, ss, y, row, spectra, slot, slots, rows):
             to = SD.MAX_FREQUENCIES + k
             store(y, to, load(y, to) + ((hr * xi + hi * xr) + (gr * vi + gi * vr)))
         y[last] += ps[h + last] * ss[p + last] + ps[g + last] * ss[q + last]
-        h += 4 * rows
+        h = g + 2 * rows
     if count % 2 == 1:
         p = spectra + 2 * rows * slot
         for k in range(0, last, FOUR):

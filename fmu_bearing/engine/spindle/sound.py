@@ -35,7 +35,7 @@ def emit(p, s, w, h):
 @kernel
 def finish(p, s, w):
     """Let all samples that wait pass every bearing's filters, then the meters of each and of their sum."""
-    if p[P.SOUND_SIZE] == 0.0:
+    if p[P.SOUND_SIZE] == 0.0 or sound_block(p)[SD.H_LINES] != 0.0:
         return
     batch = 0
     for b in range(members.count(p)):

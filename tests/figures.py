@@ -236,9 +236,11 @@ def _sensitivities():
 
 def index():
     """How far apart the speeds of fidelities are."""
-    names = _fidelities()
-    slow, fast = (rounded(names[key]["sim/CPU"]) for key in ("`full`, `esdirk4`, 25 us, 2e-3", "`response`"))
+    names = [_fidelities()[key] for key in ("`full`, `esdirk4`, 25 us, 2e-3", "`response`")]
+    slow, fast = (rounded(one["sim/CPU"]) for one in names)
     yield f"runs at {slow} or at {fast} simulated seconds per second"
+    slow, fast = (rounded(_in_use(one)) for one in names)
+    yield f"at {slow} or at {fast} where inputs move as in a co-simulation"
 
 
 _IMPLICIT_STAGES = 5  # of a step of ESDIRK4

@@ -31,6 +31,7 @@ COMMANDS: dict[tuple[str, ...], tuple[str, ...]] = {
         "--plot", "docs/images/tradeoff.png",
     ),
     ("tradeoff_db", "tradeoff_qbc"): ("-m", "benchmarks.set_tradeoff", _HERE),
+    ("costs",): ("-m", "benchmarks.costs", f"{_HERE}/costs.md"),
     ("realtime",): ("-m", "benchmarks.realtime", f"{_HERE}/realtime.md"),
     ("benchmark",): ("-m", "benchmarks.run", "--output", _HERE),
     ("sets",): ("-m", "benchmarks.sets", f"{_HERE}/sets.md"),

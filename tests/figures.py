@@ -55,6 +55,22 @@ def _in_use(found):
     return min((found[key] for key in ("sim/CPU", "ramp", "warming", "ripple")), key=float)
 
 
+def _costs():
+    """What leaving something out saves, and what sound costs."""
+    full, rings, response = ("full, of the whole", "rings, of the whole", "response, of the whole")
+
+    def of(name, fidelity=full):
+        return row("costs", variant=name)[fidelity]
+
+    yield (
+        f"takes {of('no cage')} of the time without the cage, {of('perfect surfaces and balls')} with "
+        f"perfect surfaces and balls, {of('neither cage nor imperfections')} without both"
+    )
+    yield f"`max_internal_step_us = 100` it takes {of('the same, steps up to 100 us')} of the time"
+    loud = [rounded(of("4 microphones", one)) for one in (full, rings, response)]
+    yield f"make `full` {loud[0]} times, `rings` {loud[1]} times and `response` {loud[2]} times as long"
+
+
 def choosing():
     """Which fidelity, which band, what sound costs."""
     for name, found in _fidelities().items():
@@ -71,6 +87,7 @@ def choosing():
             f"{load} N on the spindle at 20,000 r/min: inner ring {_ratio(rings, 'inner ring')}, outer ring "
             f"{_ratio(rings, 'outer ring')}, torque {rings['torque']}"
         )
+    yield from _costs()
     whirl = scene_line("7009C-full-ceramic", "18,000", "rings")
     yield f"{_ratio(whirl, 'inner ring')} on the inner ring (rings rigid)"
     yield f"One strip instead of five loses {percent(_setting('1')['torque'])} of the torque"

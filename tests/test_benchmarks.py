@@ -10,6 +10,7 @@ import typer
 
 from benchmarks import (
     commands,
+    costs,
     memory,
     ours,
     peers,
@@ -215,6 +216,15 @@ def test_a_table_names_what_made_it_and_a_command_makes_it(path):
     text = path.read_text("utf-8")
     assert path.stem in tables.APART or tables.made_by(text)
     assert (path.stem in tables.APART) != any(path.stem in made for made in tables.COMMANDS)
+
+
+def test_costs_change_one_thing_of_the_spindle_at_a_time():
+    found = dict(costs.variants())
+    whole, *others = found.values()
+    assert whole.sound is None and len(set(map(repr, found.values()))) == len(found) == 13
+    assert found["no cage"].bearing.cage is None and found["6 balls in place of 12"].bearing.ball_count == 6
+    assert [len(found[name].sound.points()) for name in ("1 microphone", "4 microphones")] == [1, 4]
+    assert all(one.operation.speed_rpm == whole.operation.speed_rpm for one in others if one.spindle is None)
 
 
 def test_old_tables_are_made_one_after_the_other_and_the_rest_goes_on(tmp_path, monkeypatch):

@@ -165,7 +165,7 @@ MORE = _at(LOST)  # losses added
 MORE_CONDITIONS = _at(C.SIZE)
 # a search for that, which goes on in pieces
 SEARCH_STATE = _at()  # IDLE, GOING or ENDED
-SEARCH_BEFORE = _at()  # 1: it was going when a renewal of other things began
+SEARCH_BEFORE = _at()  # 1: it was going when a renewal of other things began; -1: which has given it up
 SEARCH_SPEED = _at()  # rad/s: of the shaft,
 SEARCH_TURNING = _at()  # and at which the state is found
 SEARCH_HELD = _at()  # see steady/even

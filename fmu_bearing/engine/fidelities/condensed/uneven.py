@@ -141,7 +141,7 @@ def uneven_out_of_date(lv, c, speed):
         if not away(lv, c, speed, L.SEARCH_SPEED, L.SEARCH_CONDITIONS, _GONE):
             return False
         lv[L.SEARCH_STATE] = L.IDLE
-        lv[L.SEARCH_BEFORE] = 0.0
+        lv[L.SEARCH_BEFORE] = -1.0
     return lv[L.MORE_KNOWN] == 0.0 or away(lv, c, speed, L.MORE_SPEED, L.MORE_CONDITIONS, 1.0)
 
 

@@ -47,6 +47,7 @@ _GUESS = 8.0  # pieces of the first renewal
 _CALM = 10.0
 _DRIFT = 1e-3
 _REST = 1e-6
+_STILL = 1e-4  # rad/s: and this much
 _AHEAD = 0.6  # of a drift: how far beyond the speed at which they come into use lines are found
 _SOON = 0.1  # s: no farther than a ramp comes in that time
 _SMOOTH = 10e-3  # s: a speed with noise has no rate from one step to the next,
@@ -148,7 +149,9 @@ def take_bearing(p, s, b):
     copy(new, lv, L.EVEN, L.PHI)
     copy(new, lv, L.SIZES, L.SETTLED)
     # a search that went on meanwhile knows more
-    copy(new, lv, L.OWN_END, L.MORE_SPEED if new[L.SEARCH_BEFORE] != 0.0 else L.SIZE)
+    before = new[L.SEARCH_BEFORE]
+    knows_more = before > 0.0 or (before < 0.0 and lv[L.SEARCH_STATE] == L.ENDED)
+    copy(new, lv, L.OWN_END, L.MORE_SPEED if knows_more else L.SIZE)
     lv[L.KNOWN] = 0.0
     copy(of, sb, S.LOSS, S.LOSS + S.LOSSES)
     sb[S.PLACE] = of[S.PLACE]
@@ -174,7 +177,7 @@ def moved(p, s, speed):
     used = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
     last = own[at + SP.MADE_LAST] * held.PIECE
     near = min(max(_CALM * last * own[at + SP.RAMP + 1], _REST * abs(speed)), _DRIFT * abs(speed))
-    return abs(speed + last * own[at + SP.RAMP] - used) / (near + 1e-12)
+    return abs(speed + last * own[at + SP.RAMP] - used) / (near + _STILL)
 
 
 @kernel

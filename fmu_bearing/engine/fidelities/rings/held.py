@@ -183,7 +183,7 @@ def hold_all(p, u, at_once, s, w):
 
     ``at_once``: see `uneven.hold_uneven`.
     """
-    status = hold_points(p, u, at_once, s, w)
+    status = hold_points(p, u, False, at_once, s, w)
     if status == OK:
         for b in range(members.count(p)):
             hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
@@ -191,9 +191,9 @@ def hold_all(p, u, at_once, s, w):
 
 
 @kernel
-def hold_points(p, u, at_once, s, w):
-    """As `hold_all`, but leave the operators (`hold_operator`) as they are."""
-    status = rest_set(p, u, False, s, w)
+def hold_points(p, u, known, at_once, s, w):
+    """As `hold_all`, but leave the operators (`hold_operator`) as they are; ``known``: see `rest_set`."""
+    status = rest_set(p, u, known, s, w)
     for b in range(members.count(p)):
         if status == OK:
             status = hold_point(p, u, b, at_once, s, w)
@@ -211,9 +211,17 @@ def hold_point(p, u, b, at_once, s, w):
 
 
 @kernel
+def forget_excess(p, own):
+    """Begin without what is known of the excess of steady forces."""
+    for b in range(members.count(p)):
+        own[members.per_bearing(p, b) + SP.EXCESS] = 0.0
+
+
+@kernel
 def exceed(p, u, b, s, w):
     """Renew the steady force of bearing ``b`` where `rest_set` has found it at rest."""
     renew_excess(p, b, u[SP.U_SPEED], s, w)
+    members.set_state(p, s)[members.march(p) + SP.AIM] = u[SP.U_SPEED]
 
 
 @kernel
@@ -238,6 +246,7 @@ def rest_set(p, u, known, s, w):
         status = rest_as_known(p, s, w, u[SP.U_SPEED])
     else:
         status = rest_steadily(p, s, w, u[SP.U_SPEED], False)
+        own[members.march(p) + SP.AIM] = u[SP.U_SPEED]
     exchange_offsets(p, own)
     if status != OK:
         return status
@@ -302,6 +311,7 @@ def hold_from_zero(p, u, s, w, settled):
     speed = u[SP.U_SPEED]
     for i in range(3 * members.padded_size(p)):
         own[SP.S_HEAD + i] = 0.0
+    forget_excess(p, own)
     status = hold_all(p, u, False, s, w)
     if status != OK:
         return status
@@ -342,8 +352,7 @@ def start_held(p, u, s, w, t):
         return status
     for b in range(members.count(p)):
         even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
-    for b in range(members.count(p)):
-        own[members.per_bearing(p, b) + SP.EXCESS] = 0.0
+    forget_excess(p, own)
     status = hold_all(p, u, True, s, w)
     if status == OK:
         find_levers(p, members.set_state(p, s))

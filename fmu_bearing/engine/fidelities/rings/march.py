@@ -180,7 +180,12 @@ def take_inputs(p, u, s, w, h):
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    renewed = held.due(p, s, held.set_inputs_of(p, u, s, w, h), _HURRY, h)
+    off = held.set_inputs_of(p, u, s, w, h)
+    if members.has_shaft(p):
+        # the steady forces were found at a speed before that of the points
+        aim = own[at + SP.AIM]
+        off = max(off, abs(u[SP.U_SPEED] - aim) / (0.01 * abs(aim) + 1e-3))
+    renewed = held.due(p, s, off, _HURRY, h)
     due = held.pieces_due(p, s, h)
     if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
         due = held.MOST
@@ -189,7 +194,6 @@ def take_inputs(p, u, s, w, h):
         if own[at + SP.STAGE] == 0.0 and renewed:
             renewed = False
             own[at + SP.STAGE] = 1.0
-            held.pause(p, s, count_pieces(p))
         if own[at + SP.STAGE] != 0.0:
             if not make_piece(p, u, s, w):
                 own[at + SP.STAGE] = 0.0
@@ -205,32 +209,34 @@ def take_inputs(p, u, s, w, h):
 def count_pieces(p):
     """Return how many pieces a renewal has."""
     count = members.count(p)
-    return 2 * count + (2 + count if members.has_shaft(p) else 0)
+    return 2 + 2 * count if members.has_shaft(p) else 2
 
 
 @kernel
 def make_piece(p, u, s, w):
     """Make the next piece of the renewal that goes on; False where there is no rest.
 
-    Of a set: where it rests, by how much each bearing's steady force exceeds the quasi-static one there,
-    where it rests then. Of each bearing: its point, and then its operator.
+    Of a set: where it rests, by how much each bearing's steady force exceeds the quasi-static one there, then
+    where it rests with all bearings' points, for the inputs of now. At last each bearing's operator.
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    count = members.count(p)
-    first = count_pieces(p) - 2 * count  # of the bearings' points
+    pieces = count_pieces(p)
     piece = int(own[at + SP.STAGE]) - 1
-    own[at + SP.STAGE] = piece + 2.0 if piece + 1 < count_pieces(p) else 0.0
-    if piece < first:
-        if piece == 0 or piece == first - 1:
-            return held.rest_set(p, u, True, s, w) == OK
-        held.exceed(p, u, piece - 1, s, w)
-        return True
-    b = (piece - first) % count
-    if piece - first < count:
-        return held.hold_point(p, u, b, False, s, w) == OK
-    hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
-    return restart_here(p, s, w)
+    own[at + SP.STAGE] = piece + 2.0
+    if piece + 1 == pieces:
+        own[at + SP.STAGE] = 0.0
+        held.pause(p, s, pieces)
+    b = piece + members.count(p) - pieces  # whose operator is due; none: negative
+    if b >= 0:
+        hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+        return restart_here(p, s, w)
+    if b == -1:
+        return held.hold_points(p, u, True, False, s, w) == OK
+    if piece == 0:
+        return held.rest_set(p, u, True, s, w) == OK
+    held.exceed(p, u, piece - 1, s, w)
+    return True
 
 
 @kernel

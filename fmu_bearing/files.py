@@ -10,7 +10,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 __all__ = [
     "CacheError",
@@ -27,6 +27,7 @@ __all__ = [
     "read_text",
     "real_path",
     "rescued",
+    "whole",
     "write_whole",
 ]
 
@@ -235,7 +236,8 @@ def check_file(
     *others, last = (ending,) if isinstance(ending, str) else ending
     if ending and target.suffix not in (*others, last):
         words = f"{', '.join(others)} or {last}" if others else last
-        raise ValueError(f"{target}: {what} is written as {words}")
+        small = ", in small letters" if target.suffix.lower() in (*others, last) else ""
+        raise ValueError(f"{target}: {what} is written as {words}{small}")
     if target.exists() and not target.is_file():
         raise OSError(
             f"{target} is a pipe or a device, which a file would replace: name another file to write"
@@ -300,7 +302,17 @@ def no_room(folder: str | os.PathLike[str], problem: Exception) -> str:
 
 
 def write_whole(path: Path, data: bytes) -> Path:
-    """Write all of a file or none of it, and return its path; folders on the way are made.
+    """Write all of a file or none of it, and return its path; folders on the way are made; see `whole`."""
+    with whole(path) as file:
+        file.write(data)
+    return path
+
+
+@contextlib.contextmanager
+def whole(path: Path) -> Iterator[BinaryIO]:
+    """Give a file to write to, which takes its place when the block ends; where it fails, an old one stays.
+
+    Folders on the way are made.
 
     Raises
     ------
@@ -316,12 +328,11 @@ def write_whole(path: Path, data: bytes) -> Path:
     handle = os.open(temporary, flags, 0o644)
     try:
         with naming(path), os.fdopen(handle, "wb") as file:
-            file.write(data)
+            yield file
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    return path
 
 
 def rescued(write: Callable[[Path], Any], path: Path) -> None:

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from fmu_bearing.files import check_file, check_folder, write_whole
+from fmu_bearing.files import check_file, check_folder, whole, write_whole
 
 
 def test_a_new_place_is_accepted_and_not_made(tmp_path):
@@ -24,6 +24,17 @@ def test_what_is_in_the_way_is_named(tmp_path):
         check_file(tmp_path)
     with pytest.raises(OSError, match="a link to nothing"):
         check_folder(tmp_path / "dangling" / "sub")
+
+
+def test_a_file_is_written_whole_or_stays_as_it_was(tmp_path):
+    (tmp_path / "a").write_text("old")
+    with pytest.raises(ValueError, match="midway"), whole(tmp_path / "a") as file:
+        file.write(b"half")
+        raise ValueError("midway")
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("a", "old")]
+    with whole(tmp_path / "new" / "b") as file:
+        file.write(b"all")
+    assert (tmp_path / "new" / "b").read_bytes() == b"all"
 
 
 def test_a_pipe_is_not_replaced(tmp_path):

@@ -7,7 +7,6 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli.base import (
-    Writing,
     app,
     check_new,
     end,
@@ -34,7 +33,7 @@ from fmu_bearing.cli.options import (
     output as target,
 )
 from fmu_bearing.cli.settings import source_of
-from fmu_bearing.files import check_file, rescued
+from fmu_bearing.files import check_file
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.exclusions import require
 
@@ -96,22 +95,18 @@ def report(
         made, code = so_far(partial(
             make, chosen, output, duration=duration, settle=settle, radiation_model=radiation_model,
             radius=radius, title=title, speed=turning, run_up=speeds, run_up_time=run_up_time,
-            changes=changes, surface=surface, tell=tell,
+            changes=changes, surface=surface, keep=keep, tell=tell,
         ))  # fmt: skip
-        with Writing() as files:
-            if keep is not None and made.recording is not None:
-                keep.parent.mkdir(parents=True, exist_ok=True)
-                rescued(made.recording.save, keep)
     missing = {key: reason for key, reason in made.sections.items() if reason}
     if as_json:
         print_json({
             "path": made.path, "bytes": made.size, "figures": made.figures, "missing": missing,
             "sections": list(made.sections), "warnings": made.warnings, "verdict": made.verdict,
         })  # fmt: skip
-        return end(code, files)
+        return end(code)
     for key, reason in missing.items():
         tell(f"not in the report: {key}: {reason}")
     for warning in made.warnings:
         tell(f"warning: {warning}")
     typer.echo(f"written: {made.path} ({made.size / 1e6:.1f} MB)")
-    end(code, files)
+    end(code)

@@ -139,6 +139,8 @@ def new(
         rated = dynamic_rating is not None or static_rating is not None
         if rated and bearing is not None:
             raise Refusal("--dynamic-rating and --static-rating are for --bore: the catalogue has balls")
+        if contact_angle is not None and bearing is not None:
+            raise Refusal("--contact-angle is for --bore: the catalogue has the angle")
         if sum(value is not None for value in (preload, preload_class, preload_offset, spring)) > 1:
             raise Refusal("give one of --preload, --preload-class, --preload-offset and --spring")
         if arrangement is None and (distance is not None or spring is not None):

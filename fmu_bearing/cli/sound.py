@@ -173,6 +173,8 @@ def sound(
                 output.mkdir(parents=True, exist_ok=True)
                 rescued(recording.save, output / _RECORDING)
                 files.append(output / _RECORDING)
+                for old in (found for name in _FILES[1:] for found in output.glob(name)):  # of another run
+                    old.unlink()
             if code:
                 directivity = spread = False
                 tell(f"without directivity and range: `fmu-bearing sound {output / _RECORDING}` gives them")

@@ -17,7 +17,7 @@ from fmu_bearing.cautions import RESTARTS
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, absent, instead, why
-from fmu_bearing.files import naming, read_arrays
+from fmu_bearing.files import read_arrays, whole
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure
@@ -276,7 +276,7 @@ class Recording(ChannelHistory):
             "harmonics": self.harmonics,
         }
         arrays: dict[str, Any] = {f"output:{name}": values for name, values in self.outputs.items()}
-        with naming(path), pathlib.Path(path).open("wb") as file:
+        with whole(pathlib.Path(path)) as file:
             np.savez(
                 file, head=np.array(json.dumps(head)), output_time=self.output_time,
                 speed_points=self.speed_points, history=self.history, recorded=self.recorded, **arrays,

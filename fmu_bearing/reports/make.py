@@ -114,6 +114,7 @@ def make(
     title: str = "",
     changes: bool | None = None,
     surface: Surface | str | os.PathLike[str] | None = None,
+    keep: str | os.PathLike[str] | None = None,
     tell: Tell = silent,
     progress: bool | None = None,
 ) -> Report:
@@ -146,6 +147,8 @@ def make(
     surface : Surface or path, optional
         A surface that was found from a vibration test, or its file: a scene takes its median law, and the
         range of the level its draws.
+    keep : path, optional
+        Where to keep the run (``.npz``), before the page is made.
     tell : callable
         Takes a line of text before each piece of work.
     progress : bool, optional
@@ -183,6 +186,12 @@ def make(
         return _of_set(given, path, speed, title, tell, runs, source)
     left: list[str] = []  # what Ctrl-C leaves out
     subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress, left)
+    unkept = None
+    if keep is not None:
+        try:
+            rescued(subject.recording.save, pathlib.Path(keep))
+        except OSError as problem:  # the page is made first
+            unkept = problem
     rising, sure = None, None
     if run_up and not left:
         with _leaving(left, "the run-up"):
@@ -206,11 +215,14 @@ def make(
         summary.sentences(subject, microphones, sure), notes, None if verdicts is None else verdicts.table,
         overall=overall,
     )  # fmt: skip
-    return _written(
+    made = _written(
         text, left, path, {section.key: section.missing for section in sections},
         {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
         "" if overall is None else overall.judgement,
     )  # fmt: skip
+    if unkept is not None:
+        raise unkept
+    return made
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from fmu_bearing.extras import need
-from fmu_bearing.files import check_file, naming
+from fmu_bearing.files import check_file, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,15 +77,14 @@ def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
         As `check_picture`.
     """
     target = check_picture(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
     _give_fonts(figure)
     with (
         need("matplotlib", "a picture").rc_context({"svg.hashsalt": "fmu-bearing"}),
         warnings.catch_warnings(record=True) as caught,
-        naming(target),
+        whole(target) as file,
     ):
         warnings.simplefilter("always")
-        figure.savefig(target, dpi=120, metadata=_METADATA[target.suffix])
+        figure.savefig(file, format=target.suffix[1:], dpi=120, metadata=_METADATA[target.suffix])
     absent = [one for one in caught if "missing from font" in str(one.message)]
     for one in caught:
         if one not in absent:

@@ -115,6 +115,12 @@ def ask(said: Designation | None, bearing: str | Dimensions, kind: str | None) -
             f"a bore of {bore:g} mm: the designation {said.text} means {said.bore:g} mm: give one of both, "
             "or a designation of your own with --contact-angle and --kind"
         )
+    angle = None if entry is None else entry.values.get("contact_angle_deg")
+    if said.angle is not None and angle is not None and float(angle) != said.angle:
+        raise SceneError(
+            f"a contact angle of {angle:g} deg, of {bearing}: the designation {said.text} means "
+            f"{said.angle:g} deg: give the bearing that it means, or a designation of your own with --kind"
+        )
     no_angle = isinstance(bearing, Dimensions) and bearing.angle is None and said.angle is None
     missing = {
         "contact angle": ("--contact-angle DEG", "Dimensions(angle=)", no_angle),

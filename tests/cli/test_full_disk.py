@@ -6,7 +6,7 @@ import zipfile
 
 import pytest
 
-from fmu_bearing import Run, files
+from fmu_bearing import Recording, Run, files
 
 NO_ROOM = os.strerror(errno.ENOSPC).lower()
 
@@ -33,6 +33,26 @@ def test_a_run_is_not_lost(run, silent_file, full):
     (line,) = done.stderr.splitlines()
     assert line.startswith(f"error: {full}/a.csv: {NO_ROOM}; what was computed is in ")
     assert len(Run.load(line.rpartition(" ")[2]).time) == 3
+
+
+def test_a_recording_and_a_picture_that_were_there_stay(run, rings_file, full):
+    out = full / "sound"
+    out.mkdir()
+    for name in ("recording.npz", "spectrum.png"):
+        (out / name).write_text("old")
+    quick = ("-t", "0.03", "--settle", "0.01", "--no-spread", "--no-directivity")
+    done = run("sound", rings_file, *quick, "-o", out, "--force")
+    assert done.exit_code == 2 and "recording.npz" in done.stderr.splitlines()[-1]
+    assert (out / "recording.npz").read_text() == "old"
+
+
+def test_the_run_of_a_report_is_kept_where_there_is_no_room_for_the_page(run, rings_file, full, tmp_path):
+    kept = tmp_path / "kept.npz"
+    done = run(
+        "report", rings_file, "--duration", 0.05, "--settle", 0.01, "-o", full / "a.html", "--keep", kept
+    )
+    assert done.exit_code == 2 and "a.html" in done.stderr.splitlines()[-1]
+    assert Recording.load(kept).size > 0
 
 
 def test_an_fmu_is_not_lost(run, silent_file, full):

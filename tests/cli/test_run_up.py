@@ -57,6 +57,17 @@ def test_the_table_is_that_of_python(made):
     assert "2000 Hz: no line stands out" not in done.stdout and "kinematic" not in done.stdout
 
 
+def test_a_new_run_leaves_nothing_of_an_older_one(run, rings_file, tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    for name in ("orders.csv", "planes.png", "a.wav", "mine.txt"):
+        (out / name).write_text("old")
+    done = run("sound", rings_file, "-t", 0.05, "--settle", 0.01, *QUICK, "-o", out, "--force")
+    assert done.exit_code == 0, done.output
+    assert not {"orders.csv", "planes.png", "a.wav"} & {path.name for path in out.iterdir()}
+    assert (out / "mine.txt").read_text() == "old"
+
+
 def test_a_recording_has_its_own_speed(made, run, tmp_path):
     out, _ = made
     again = run("sound", out / "recording.npz", *QUICK, "-o", tmp_path / "again")

@@ -421,6 +421,8 @@ def test_new_from_ratings(run, tmp_path):
     assert refused.exit_code == 2 and "--static-rating" in refused.stderr
     refused = run("scene", "new", tmp_path / "b.toml", *KNOWN, "--dynamic-rating", 16_700)
     assert refused.exit_code == 2 and "are for --bore" in refused.stderr
+    refused = run("scene", "new", tmp_path / "b.toml", *KNOWN, "--contact-angle", 25)
+    assert refused.exit_code == 2 and "--contact-angle is for --bore" in refused.stderr
 
 
 def test_new_outside_the_data_of_its_rule(run, tmp_path):

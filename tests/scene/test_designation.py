@@ -221,6 +221,14 @@ def test_a_bore_that_contradicts_the_designation_is_refused():
             new_scene("a", bearing, designation="7010 CD/P4A")
 
 
+def test_an_angle_that_contradicts_the_designation_is_refused():
+    with pytest.raises(
+        SceneError, match="a contact angle of 15 deg, of NSK-7010C: the designation 7010AC means"
+    ):
+        new_scene("a", "NSK-7010C", designation="7010AC")
+    assert 'designation = "7010C"' in new_scene("a", "NSK-7010C", designation="7010C", sound=False)
+
+
 def test_a_name_that_names_no_size_says_nothing():
     text = new_scene("a", Dimensions(50.0, 80.0, 16.0), designation="front bearing", sound=False)
     assert "contact_angle_deg = 15.0 # assumed: no designation says" in text

@@ -142,7 +142,8 @@ def halve(ps, at, taps, ss, history, rows, newest, count, out):
     first = history
     for c in range(0, many, _MANY):
         row = newest
-        for k in range(c, c + count * wide, wide):
+        for n in range(count):
+            k = c + n * wide
             x0, x1, x2, x3 = _halve_sixteen(ps, at, taps, ss, first, rows, row, wide)
             store(out, k, x0)
             store(out, k + FOUR, x1)
@@ -152,7 +153,8 @@ def halve(ps, at, taps, ss, history, rows, newest, count, out):
         first += _MANY
     for c in range(many, wide, FOUR):
         row = newest
-        for k in range(c, c + count * wide, wide):
+        for n in range(count):
+            k = c + n * wide
             store(out, k, _halve_four(ps, at, taps, ss, first, rows, row, wide))
             row = row + SD.HALF if row + SD.HALF < rows else row + SD.HALF - rows
         first += FOUR

@@ -176,7 +176,7 @@ def sound_once(p, s, w):
     stage, b, cursor = int(own[at + SP.STAGE]), int(own[at + SP.MEMBER]), int(own[at + SP.CURSOR])
     aim = own[at + SP.AIM]
     if stage == RINGS:
-        many = _RINGS // (2 * members.count(p) - 1)
+        many = int(_RINGS / (2.0 * members.count(p) - 1.0))
         if add_rings(p, back, w, aim, cursor, many):
             own[at + SP.CURSOR] += many
         else:

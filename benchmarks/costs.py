@@ -19,7 +19,7 @@ from fmu_bearing.run.settings import TERMS, Setting
 COLUMNS = ("variant", *(f"{name}{of}" for name in FIDELITIES for of in (", us", ", of the whole")))
 _EXAMPLES = Path(__file__).parents[1] / "examples"
 _WHOLE = "whole scene, silent"
-_BENDING = {  # orders as in the 7009C's scenes, on loose seats
+_BENDING = {  # orders as in the 7009C's scenes; stiffness of the loose seats assumed
     "outer_ring": [2, 3, 4, 5],
     "inner_ring": [2, 3],
     "outer_seat_stiffness_N_m": 1e8,

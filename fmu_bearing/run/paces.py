@@ -16,6 +16,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
 
 COMMUNICATION = 1e-3  # s, of what is timed or only passed through
+# Chosen: a spindle that reaches 10,000 r/min in a second, a fast warm-up, a speed with a trace of the mains.
 RAMP = 1e3  # rad/s2
 TURN = 0.1  # s: of a ramp down, then up; slow shafts lose and regain half of their speed
 WARMING = 5.0  # K/s

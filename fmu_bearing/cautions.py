@@ -4,7 +4,11 @@ The library and both kinds of FMU give the same ones, each once.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.layout import SP, P, U, Z
@@ -81,6 +85,21 @@ _RESTARTS = Caution(
     decimals=0,
     above=True,
 )
+GROWTH = "solver.growth"
+#: 1/s: slower growth is not reported. The mean over one ball pitch gives neutral motions of balls under a
+#: radial load up to 2.7 1/s; growth of 5 1/s must be reported.
+GROWS = 3.0
+_GROWTH = Caution(
+    Z.BEARING_OUTPUTS.index(GROWTH),
+    GROWS,
+    1.0,
+    "by the linear equations of this fidelity a motion of the rings grows by itself at the present inputs, ",
+    " 1/s (solver.growth): in rings it becomes a whirl, response leaves it out, and in fidelity full a "
+    "cage whose balls leave their pockets mostly holds it; velocities and levels are in doubt from here on, "
+    "by the model of this fidelity, not by your inputs; take fidelity full",
+    decimals=0,
+    above=True,
+)
 _RADIALLY_TIGHT = Caution(
     Z.FREE_ANGLE,
     1e-6,  # rad: the outputs of an angle that has no cosine are zero
@@ -89,7 +108,7 @@ _RADIALLY_TIGHT = Caution(
     " deg: preload and loads then follow from the fits more than from what is asked; give less interference "
     "({}), or a larger bearing.contact_angle_deg",
 )
-_ALWAYS = (*_SHOULDERS, _WAVES, _RESTARTS)
+_ALWAYS = (*_SHOULDERS, _WAVES, _RESTARTS, _GROWTH)
 _UNLOADED = Caution(
     Z.BEARING_OUTPUTS.index("contact.inner.load_mean"),
     1.0,  # N, assumed: at speed balls are thrown outwards and their load goes to zero only by and by
@@ -122,18 +141,46 @@ def loose(fidelity: str) -> str:
     return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
-def restarted(count: float) -> str:
-    """Return why figures of a run with a ``count`` of restarts (``solver.restarts``) are in doubt, or ""."""
-    if not count > 0.0:
-        return ""
-    return (
-        f"rings and balls were restarted from rest where no step was possible ({RESTARTS} = {count:.0f}): "
-        "vibration and levels of this run mean nothing; take fidelity full"
-    )
+#: Variables that say whether the figures of a run are in doubt, see `in_doubt`.
+DOUBTS = (RESTARTS, GROWTH)
 
 
-def cautions(model: Model) -> tuple[Caution, ...]:
-    """Return the warnings checked after initialisation and after each step, each given once."""
+def in_doubt(largest: Mapping[str, float], known: str = "") -> str:
+    """Return why figures of a run are in doubt by its ``largest`` values of `DOUBTS`, or what is ``known``.
+
+    ``known``: why they are at the values of its start, or "".
+    """
+    count, growth = (largest.get(name, 0.0) for name in DOUBTS)
+    if count > 0.0:
+        restarted = (
+            "rings and balls were restarted from rest where no step was possible "
+            f"({RESTARTS} = {count:.0f}): vibration and levels of this run mean nothing; take fidelity full"
+        )
+        return f"{restarted}; {known}" if known else restarted
+    if growth > GROWS and not known:
+        return (
+            "by the linear equations of this fidelity a motion of the rings grew by itself in this run "
+            f"({GROWTH} up to {growth:.0f} 1/s), which in fidelity full a cage mostly holds: velocities "
+            "and levels are in doubt; take fidelity full"
+        )
+    return known
+
+
+def largest_of(values: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
+    """Return the largest values of `DOUBTS` among variables of a run, of those that were kept."""
+    return {name: float(values[name].max(initial=0.0)) for name in DOUBTS if name in values}
+
+
+def cautions(model: Model, growth: bool = True) -> tuple[Caution, ...]:
+    """Return the warnings checked after initialisation and after each step, each given once.
+
+    ``growth``: with that of a motion that grows by itself.
+    """
+    found = _cautions(model)
+    return found if growth else tuple(one for one in found if one.before != _GROWTH.before)
+
+
+def _cautions(model: Model) -> tuple[Caution, ...]:
     fidelity = FIDELITIES[int(model.parameters[P.FIDELITY])]
     if SP.has_shaft(model.parameters):
         return (*_skids(model, fidelity), *_cautions_of_set(model.scene))
@@ -201,6 +248,7 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
     own = first_output(scene, len(bearings))
     found = [
         replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
+        replace(_GROWTH, index=own + SP.Z_GROWTH),
     ]  # fmt: skip
     for bearing in bearings:
         for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene, "spindle.fit")):

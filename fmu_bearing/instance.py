@@ -115,6 +115,8 @@ class Instance:
         Prepared scene; never changed, so any number of instances may share it.
     tell : callable, optional
         Takes each warning, once; default: ``warnings.warn``.
+    growth : bool
+        Whether to warn of a motion that grows by itself. A caller that names it in its own words need not.
 
     Examples
     --------
@@ -125,11 +127,11 @@ class Instance:
     >>> bearing.get("friction_torque")                # doctest: +SKIP
     """
 
-    def __init__(self, model: Model, tell: Callable[[str], None] | None = None) -> None:
+    def __init__(self, model: Model, tell: Callable[[str], None] | None = None, growth: bool = True) -> None:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
-        self._cautions, self._reasons = cautions(model), reasons(model.parameters)
+        self._cautions, self._reasons = cautions(model, growth), reasons(model.parameters)
         self.reset()
 
     def reset(self) -> None:

@@ -41,9 +41,9 @@ def test_names_of_the_contract_are_there(scene):
     assert {
         "friction_torque", "heat.inner_ring", "heat.outer_ring", "heat.oil", "cage.speed_ratio",
         "film.lambda_min", "stiffness.axial", "stiffness.radial", "rotor.inertia", "solver.steps",
-        "solver.rejected", "solver.restarts", "energy.residual", "fidelity", "tolerance", "max_internal_step",
-        "imperfection.scale", "imperfection.seed", "sound.time_weighting", "sound.metering_start",
-        "lubricant.viscosity_ref", "radiator",
+        "solver.rejected", "solver.restarts", "solver.growth", "energy.residual", "fidelity", "tolerance",
+        "max_internal_step", "imperfection.scale", "imperfection.seed", "sound.time_weighting",
+        "sound.metering_start", "lubricant.viscosity_ref", "radiator",
     } <= names  # fmt: skip
     assert "time" not in names and "ball[13].velocity.x" not in names and "mic[5].spl" not in names
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.cautions import restarted
+from fmu_bearing.cautions import in_doubt
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.weak import doubt, weakness
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
@@ -46,9 +46,9 @@ class ChangeLevels:
         self.seeds = tuple((scene.imperfections.seed + k * scene.seeds_apart) % 2**31 for k in range(seeds))
         self._loudest = int(np.argmax(levels))
         self.microphone = scene.microphones[self._loudest].name
-        self.estimator.restarts = 0
+        self.estimator.doubts = {}
         self.before = self.levels(scene)
-        self.doubt = restarted(self.estimator.restarts) or self.doubt
+        self.doubt = in_doubt(self.estimator.doubts, self.doubt)
         self.level = float(self.before[0])
 
     def levels(self, scene: Scene) -> NDArray[np.float64]:

@@ -150,17 +150,17 @@ def plot(
 
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
     """Return why a run's figures are in doubt: those that it has of levels and velocities, or all of them."""
-    from fmu_bearing.cautions import RESTARTS, restarted
+    from fmu_bearing.cautions import DOUBTS, in_doubt, largest_of
     from fmu_bearing.modal.campbell.weak import doubt, is_of_levels, is_of_motion
 
     assert run.scene is not None
-    if RESTARTS in run.names and (again := restarted(run[RESTARTS].max(initial=0.0))):
-        return again
     found = doubt(run.scene, start)
     units = set(run.units.values())
     if is_of_levels(found) and "dB" not in units or is_of_motion(found) and not units & {"dB", "m/s"}:
-        return ""
-    return f"at the values of the start, {found}" if table and found else found
+        found = ""
+    elif table and found:
+        found = f"at the values of the start, {found}"
+    return in_doubt(largest_of({name: run[name] for name in DOUBTS if name in run.names}), found)
 
 
 def split(options: list[str] | None) -> list[str] | None:

@@ -53,6 +53,7 @@ _ALL = (
     Unit("m/s", {"m": 1, "s": -1}, (DisplayUnit("mm/s", 1e3),)),
     Unit("rad", {"rad": 1}, (DisplayUnit("deg", 180.0 / pi),)),
     Unit("rad/s", {"rad": 1, "s": -1}, (DisplayUnit("r/min", 30.0 / pi),)),
+    Unit("1/s", {"s": -1}),
     Unit("K", {"K": 1}, (DisplayUnit("degC", 1.0, -273.15),)),
     Unit("kg", {"kg": 1}, (DisplayUnit("g", 1e3),)),
     Unit("kg.m", {"kg": 1, "m": 1}, (DisplayUnit("g.mm", 1e6),)),

@@ -101,6 +101,13 @@ def internals(scene: Scene) -> list[Variable]:
             "How often fidelities rings and response restarted from rest, because no step was possible",
         ),
         read(
+            "solver.growth",
+            "local",
+            "Growth of the motion of the rings that grows most by itself, by the linear equations of "
+            "fidelities rings and response at the inputs of the last renewal; 0 if none grows, and in full",
+            "1/s",
+        ),
+        read(
             "solver.wave_time",
             "local",
             "Time in which the fastest wave of races and balls turns by one radian, 1 s at most: internal "

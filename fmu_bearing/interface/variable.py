@@ -42,6 +42,7 @@ USUAL = {
     "Pa": ("Pressure", -1e5, 1e5, 1e-2),
     "Pa.s": ("DynamicViscosity", 0.0, 10.0, 1e-2),
     "rad/s": ("AngularVelocity", -1e6, 1e6, 1e3),
+    "1/s": ("GrowthRate", 0.0, 1e6, 100.0),
     "rad": ("Angle", -3.2, 3.2, 0.3),
     "dB": ("Level", -200.0, 300.0, 60.0),
     "kg": ("Mass", 0.0, 1e6, 1.0),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.cautions import RESTARTS
+from fmu_bearing.cautions import DOUBTS
 from fmu_bearing.engine.layout import SD, SP, P, S, Z
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
@@ -88,8 +88,9 @@ def record(
         In place of the scene's ``sound.radiation_model`` (``compact`` without sound). Each radiation model of
         the papers needs its own channels and must be chosen here; all others share one set of channels.
     outputs : iterable of str
-        Variables kept at the communication points, besides ``solver.restarts``, the cage's whirl and the
-        rates of the balls; of a set ``contact.inner.load_mean`` and so on for each of its bearings.
+        Variables kept at the communication points, besides ``solver.restarts``, ``solver.growth``, the cage's
+        whirl and the rates of the balls; of a set ``contact.inner.load_mean`` and so on for each of its
+        bearings.
     microphones : bool
         Compute the scene's own microphones during the run, so that variables such as ``mic[1].leq`` can be
         kept. Without them the engine computes a single far microphone and runs faster.
@@ -140,20 +141,21 @@ def record(
     drives = dict(inputs or {})
     if speed is not None:
         drives["shaft_speed"] = speed
-    if warn and (doubted := _doubt(scene, drives)):
+    doubted = _doubt(scene, drives) if warn else ""
+    if doubted:
         warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
     model = source if isinstance(source, Model) and microphones and not from_lines(scene) else prepare(
         scene if microphones
         else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted),
         samples=True,
     )  # fmt: skip
-    bearing = Instance(model)
+    bearing = Instance(model, growth=warn and not doubted)
     _drive(bearing, drives, 0.0)
     bearing.initialise()
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
     whirl = () if scene.bearing.cage is None else WHIRL
-    names = variables_of(scene, dict.fromkeys((*outputs, RESTARTS, *whirl)))
+    names = variables_of(scene, dict.fromkeys((*outputs, *DOUBTS, *whirl)))
     kept = _Readings(bearing, names, first + size + TAIL, watch)
     with stoppable() if keep else nullcontext(lambda: False) as stop:
         _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress, stop)

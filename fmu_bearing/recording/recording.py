@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
-from fmu_bearing.cautions import RESTARTS
+from fmu_bearing.cautions import largest_of
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, absent, instead, why
@@ -142,13 +142,13 @@ class Recording(ChannelHistory):
         return f"<table>{head}{places}<tr><th>variable</th><th>mean</th><th>unit</th></tr>{means}</table>"
 
     @property
-    def restarts(self) -> int:
-        """How often rings and balls were restarted from rest since initialisation; 0 where it is not known.
+    def doubts(self) -> dict[str, float]:
+        """Largest values since initialisation of what puts levels in doubt, as far as they are known.
 
-        Fidelities rings and response do so where no step is possible (``solver.restarts``).
+        ``solver.restarts`` and ``solver.growth`` (1/s): fidelities rings and response restart where no step
+        is possible, and by their linear equations rings may whirl.
         """
-        counts = self.outputs.get(RESTARTS, np.empty(0))
-        return int(counts.max(initial=0.0))
+        return largest_of(self.outputs)
 
     def within(self) -> dict[str, NDArray[np.float64]]:
         """Speed and variables at the communication points of the recording, its start left out."""

@@ -37,6 +37,7 @@ _WRITTEN: dict[str, tuple[tuple[float, float, str], ...]] = {
           (60.0, 0.0, "min"), (3600.0, 0.0, "h")),
     "rad/s": ((1.0, 0.0, "rad/s rad.s-1 rad*s^-1"), (_DEG, 0.0, "deg/s"),
               (_TURN, 0.0, "r/min rpm 1/min min-1 min^-1 /min u/min rev/min tr/min")),
+    "1/s": ((1.0, 0.0, "1/s s-1 s^-1"),),
     "K": ((1.0, 0.0, "K"), (1.0, 273.15, "degC C cel"), (5.0 / 9.0, 273.15 - 160.0 / 9.0, "degF F")),
     "N": ((1.0, 0.0, "N"), (1e3, 0.0, "kN"), (1e-3, 0.0, "mN")),
     "N.m": ((1.0, 0.0, "N.m Nm N*m"), (1e-3, 0.0, "N.mm Nmm N*mm mN.m mNm mN*m")),

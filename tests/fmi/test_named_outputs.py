@@ -71,9 +71,10 @@ def test_groups_are_words_for_patterns_and_together_all_but_the_solver(file):
             assert f"fmu.outputs: this scene has nothing of '{word}'" in str(problem)
     rest = every.difference(*some.values()) - {"friction_torque"}
     assert {re.sub(r"\[\d+\]", "[]", name) for name in rest} <= {
-        "solver.steps", "solver.rejected", "solver.restarts", "solver.wave_time", "mic[].pressure",
-        "cage.speed_ratio", "cage.whirl_radius", "cage.whirl_speed", "bearing[].solver.wave_time",
-        "bearing[].cage.speed_ratio", "bearing[].cage.whirl_radius", "bearing[].cage.whirl_speed",
+        "solver.steps", "solver.rejected", "solver.restarts", "solver.growth", "solver.wave_time",
+        "mic[].pressure", "cage.speed_ratio", "cage.whirl_radius", "cage.whirl_speed",
+        "bearing[].solver.wave_time", "bearing[].cage.speed_ratio", "bearing[].cage.whirl_radius",
+        "bearing[].cage.whirl_speed",
     }  # fmt: skip
     assert not some["velocities"] & some["balls"] and len(some["balls"]) >= 36
     assert {"energy.residual", "heat.oil", "friction_torque_mean"} <= some["energy"]

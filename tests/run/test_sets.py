@@ -98,7 +98,7 @@ def test_places_are_those_of_the_parameters(found):
 def test_each_bearing_has_the_variables_of_a_single_one():
     found = scene(rpm=9e3, housing=HOUSING, changes={"imperfections": {"grade": "P4", "seed": 1}})
     names, single = set(table(found)), table(one_of(found))
-    shared = {f"solver.{name}" for name in ("steps", "rejected", "restarts", "wave_time")}
+    shared = {f"solver.{name}" for name in ("steps", "rejected", "restarts", "growth", "wave_time")}
     shared.add("energy.residual")
     for name, variable in single.items():
         if variable.array == "z" and name not in shared:

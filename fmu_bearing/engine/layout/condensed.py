@@ -110,6 +110,8 @@ SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them acr
 REACH = _at(VECTOR)  # 1/m2: quadratic form xx, xr, rr of a ball's place that is one far from there
 LOADED = _at()  # N2: product of its loads on both races there
 OPERATOR_BEGIN = _at.next
+HELD_PLACE = _at(MATRIX)  # 1/s2: JX at the held point,
+HELD_RATE = _at(MATRIX)  # 1/s: and JV
 # what fidelity full has beside the condensed balls, linear about a held point: see condensed/operator
 BESIDE_PLACE = _at(MATRIX)  # 1/s2: accelerations of the rings by displacements,
 BESIDE_RATE = _at(MATRIX)  # 1/s: and by velocities, with what balls and cage do held

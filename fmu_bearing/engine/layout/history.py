@@ -29,4 +29,6 @@ A3 = _vector()
 A4 = _vector()
 LEVERS = _vector()  # m or 1: what makes a coordinate a displacement; 0 in spare lanes
 JERK = _vector()  # rates of acceleration, kept over a change of step
+GROWING = _vector()  # m, rad: a motion that may grow, see rings/growth: real parts,
+GROWING_IM = _vector()  # imaginary parts
 VECTORS = _vector.next

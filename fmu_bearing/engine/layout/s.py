@@ -56,6 +56,7 @@ RING_SQUARE = _at()  # m2/s2: fading mean square of the rings' velocity, fidelit
 PEAK = _at()  # error estimates over what is allowed: the largest, as far as it is not forgotten
 SETTLED = _at()  # what the start found of the steady state: see steady/point
 RESTARTS = _at()  # of fidelities rings and response at rest, where a step had failed
+GROWTH = _at()  # 1/s: of the motion that grows most by itself, in fidelities rings and response
 CONTACTS = _at(2 * _R.KEPT)  # of the balls with both races at the last communication point
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
 JAC = _at(_J.SIZE)  # Jacobian

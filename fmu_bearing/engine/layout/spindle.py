@@ -118,8 +118,8 @@ OUTPUTS = (
     "housing.displacement.x", "housing.displacement.y", "housing.displacement.z",
     "housing.velocity.x", "housing.velocity.y", "housing.velocity.z", "friction_torque",
     "friction_torque_mean", "heat.inner_ring", "heat.outer_ring", "heat.oil", "solver.steps",
-    "solver.rejected", "solver.restarts", "solver.wave_time", "energy.residual", "port.force.x",
-    "port.force.y", "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x",
+    "solver.rejected", "solver.restarts", "solver.growth", "solver.wave_time", "energy.residual",
+    "port.force.x", "port.force.y", "port.force.z", "port.moment.y", "port.moment.z", "port.force_mean.x",
     "port.force_mean.y", "port.force_mean.z", "port.moment_mean.y", "port.moment_mean.z",
 )  # fmt: skip
 BEARING_OUTPUTS = ("force.x", "force.y", "force.z", "moment.y", "moment.z")  # of the inner ring on the balls
@@ -134,6 +134,7 @@ Z_HEAT = OUTPUTS.index("heat.inner_ring")  # W: sums over the bearings, then out
 Z_STEPS = OUTPUTS.index("solver.steps")
 Z_REJECTED = OUTPUTS.index("solver.rejected")
 Z_RESTARTS = OUTPUTS.index("solver.restarts")
+Z_GROWTH = OUTPUTS.index("solver.growth")  # 1/s
 Z_WAVE_TIME = OUTPUTS.index("solver.wave_time")
 Z_RESIDUAL = OUTPUTS.index("energy.residual")
 Z_PORT = OUTPUTS.index("port.force.x")  # N, N m: of the bearings on the rotor,
@@ -198,6 +199,14 @@ MADE_LAST = _march()  # of the last one
 RAMP = _march(2)  # rad/s2: of the shaft, smoothed, and its magnitude
 EXCHANGED = _march()  # s: when the lines in use were exchanged for the ones before
 TOKEN = _march()  # what the sound in the work space is of
+# search for a motion that grows by itself: see rings/growth
+NEW = _march()  # 1: what bearings hold was renewed since it began
+WAITED = _march()  # s: since its last round
+SEARCH = _march()  # number of the start that it goes on from, from 1; 0: it rests
+ROUND = _march()  # rounds from that start,
+RATE_NOW = _march(2)  # 1/s, rad/s: the complex rate reached
+RATE_MOST = _march(2)  # that of the motion found that grows most,
+RATE_KNOWN = _march(2)  # and in the last search; zero: none
 MARCHED = _march.next
 
 # fidelity response, at the end: lines, each with the complex displacements of the padded coordinates

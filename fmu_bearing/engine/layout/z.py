@@ -10,7 +10,7 @@ BEARING_OUTPUTS = (
     "contact.inner.angle_mean", "contact.inner.pressure_max", "contact.outer.load_mean",
     "contact.outer.load_max", "contact.outer.angle_mean", "contact.outer.pressure_max", "film.lambda_min",
     "stiffness.axial", "stiffness.radial", "solver.steps", "solver.rejected", "solver.restarts",
-    "solver.wave_time", "energy.residual", "inner_ring.tilt.y", "inner_ring.tilt.z",
+    "solver.growth", "solver.wave_time", "energy.residual", "inner_ring.tilt.y", "inner_ring.tilt.z",
     "contact.inner.spin_to_roll", "contact.outer.spin_to_roll", "contact.inner.slip",
     "contact.outer.slip", "cage.whirl_radius", "cage.whirl_speed", "friction_torque_share.contacts",
     "friction_torque_share.rolling", "friction_torque_share.cage", "friction_torque_share.drag",
@@ -41,6 +41,7 @@ RADIAL_STIFFNESS = BEARING_OUTPUTS.index("stiffness.radial")
 STEPS = BEARING_OUTPUTS.index("solver.steps")
 REJECTED = BEARING_OUTPUTS.index("solver.rejected")
 RESTARTS = BEARING_OUTPUTS.index("solver.restarts")
+GROWTH = BEARING_OUTPUTS.index("solver.growth")  # 1/s
 WAVE_TIME = BEARING_OUTPUTS.index("solver.wave_time")  # s
 RESIDUAL = BEARING_OUTPUTS.index("energy.residual")
 TILT = BEARING_OUTPUTS.index("inner_ring.tilt.y")  # rad, about y and z

@@ -134,6 +134,7 @@ def observe_motion(p, s, z, mics):
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
     z[Z.RESTARTS] = s[S.RESTARTS]
+    z[Z.GROWTH] = s[S.GROWTH]
     z[Z.WAVE_TIME] = wave_time(p, s[S.SPEED])
     lost = s[S.HEAT] + s[S.HEAT + 1] + s[S.HEAT + 2]
     gained = s[S.ENERGY_NOW] - s[S.ENERGY_START]

@@ -208,6 +208,16 @@ def matrix(p):
 
 
 @kernel
+def complex_matrix(p):
+    """Places in the set's own work space: imaginary parts of complex equations, then what is free behind.
+
+    Their real parts are at `matrix`, both by padded columns, the right side last.
+    """
+    size = (coordinates(p) + 1) * padded_size(p)
+    return matrix(p) + size, matrix(p) + 2 * size
+
+
+@kernel
 def vector(p, k):
     """Place in the set's own work space of vector ``k``: ``SP.PLACE`` and so on, or a stage's number."""
     return vector_at(padded_size(p), k)

@@ -96,6 +96,7 @@ def observe_set(p, s, z):
     z[at + SP.Z_STEPS] = s[S.STEPS]
     z[at + SP.Z_REJECTED] = s[S.REJECTED]
     z[at + SP.Z_RESTARTS] = s[S.RESTARTS]
+    z[at + SP.Z_GROWTH] = s[S.GROWTH]
     work = own[SP.WORK]
     lost = own[SP.HEAT] + own[SP.HEAT + 1]
     for b in range(members.count(p)):

@@ -5,12 +5,15 @@ beside the condensed balls. It holds the cage as it runs there, whirling and pre
 `linearised` leaves out; without a cage both have the same modes.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.fidelities.condensed.families import family_size, member, side
 from fmu_bearing.engine.layout import SP, L, S
+from fmu_bearing.engine.spindle import members
 from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of
 from fmu_bearing.scene.read import Scene, with_fidelity
 
@@ -27,12 +30,27 @@ def quick_operator(scene: Scene, inputs: dict[int, float] | None = None) -> NDAr
     inputs : dict, optional
         Values by their places in the engine's ``u``, in place of the scene's.
     """
+    return operator_matrix(quick_run(scene, inputs))
+
+
+def quick_run(scene: Scene, inputs: dict[int, float] | None = None) -> Arrays:
+    """Return a quiet scene in fidelity `rings`, initialised at its inputs or those given as above."""
     quiet = with_fidelity(scene, model="rings").model_copy(update={"sound": None, "imperfections": None})
     run = Arrays.of(quiet.with_rigid_rings())
     for place, value in (inputs or {}).items():
         run.u[place] = value
     run.init()
-    return operator_matrix(run)
+    return run
+
+
+def found_growth(run: Arrays) -> tuple[float, float]:
+    """Return frequency (Hz) and growth (1/s) of the motion that the engine has found to grow most; 0: none.
+
+    That of ``solver.growth``, see `engine.fidelities.rings.growth`.
+    """
+    at = members.march(run.p) + SP.RATE_KNOWN
+    growth, omega = members.set_state(run.p, run.s)[at : at + 2]
+    return float(omega) / (2.0 * math.pi), float(growth)
 
 
 def operator_matrix(run: Arrays) -> NDArray[np.float64]:

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.cautions import GROWS
+
 MARGIN = 0.002  # damping ratio below which a mode counts as near the limit of stability (chosen)
-#: 1/s: slower growth is not reported. The mean over one ball pitch gives neutral motions of balls under a
-#: radial load up to 2.7 1/s; growth of 5 1/s must be reported.
-GROWS = 3.0
 LOWEST = 100.0  # Hz: slower motions that grow belong to the mounting
 MOVES = 0.05  # of the kinetic energy: with less of it in the rings, a motion is one of the balls alone
 SPREAD = 0.01  # of the frequency over one ball pitch, beyond which it is reported

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nominal_frequency
-from fmu_bearing.cautions import RESTARTS, restarted
+from fmu_bearing.cautions import DOUBTS, in_doubt, largest_of
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
@@ -56,7 +56,7 @@ class ComparisonData:
     excitation_end : float, optional
         Hz: up to where surfaces excite it; None: not known.
     doubt : str
-        Why figures are in doubt (`modal.campbell.weak`, `cautions.restarted`); empty: they are not, or
+        Why figures are in doubt (`modal.campbell.weak`, `cautions.in_doubt`); empty: they are not, or
         nothing is known of it, as of a run whose inputs are not known.
     fidelity, radiation_model : str
         What it was computed with; empty: not known.
@@ -135,7 +135,7 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Compa
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
     figures = _figures({key: run[key][after] for key in run.names})
     levels, thirds = _meters(run)
-    doubted = restarted(run[RESTARTS].max(initial=0.0)) if RESTARTS in run.names else ""
+    doubted = in_doubt(largest_of({name: run[name] for name in DOUBTS if name in run.names}))
     sound = None if run.scene is None else run.scene.sound
     return ComparisonData(
         run.name, run.scene, levels, thirds, None, figures, run.excitation_end, doubted, _fidelity(run.scene),

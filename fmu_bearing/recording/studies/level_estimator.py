@@ -46,7 +46,7 @@ class LevelEstimator:
         self.places, self.radiation_model, self.weighting = places, radiation_model, weighting
         self.duration, self.settle = duration, settle
         self.frequency: NDArray[np.float64] = np.empty(0)
-        self.restarts = 0  # of the run that restarted most
+        self.doubts: dict[str, float] = {}  # largest values of `cautions.DOUBTS` in all runs
         self._circles: list[Circle] = []
 
     def spectrum(self, scene: Scene) -> NDArray[np.float64]:
@@ -60,7 +60,7 @@ class LevelEstimator:
             outputs=(),
             warn=False,
         )
-        self.restarts = max(self.restarts, made.restarts)
+        self.doubts = {name: max(value, self.doubts.get(name, 0.0)) for name, value in made.doubts.items()}
         blocks = Blocks(made.channels, RESOLUTION)
         self.frequency = blocks.frequency
         self._circles = self._circles or made.paths(self.places, self.radiation_model)

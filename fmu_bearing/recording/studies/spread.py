@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.cautions import restarted
+from fmu_bearing.cautions import in_doubt
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.weak import doubt, weakness
 from fmu_bearing.recording.channels.microphone_places import Places
@@ -279,7 +279,7 @@ def doubt_of(recording: Recording) -> str:
         found = doubt(at_speed(recording))
     except ValueError:
         found = ""
-    return "; ".join(filter(None, (restarted(recording.restarts), found)))
+    return in_doubt(recording.doubts, found)
 
 
 def _found(surface: Surface | str | os.PathLike[str], scene: Scene, weak: bool) -> list[Imperfections]:

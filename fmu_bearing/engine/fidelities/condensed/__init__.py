@@ -7,6 +7,7 @@
 ``families``        motions of rings, cage and patterns of the balls that do not act on each other
 ``operator``        what balls and cage do beside that, by modes of the linearised full equations
 ``contact_forces``  what contacts do as a ball leaves its place of rest
+``beside``          what balls and cage do beside balls at rest, at one complex rate
 ``drives``          what drives these modes
 ``patterns``        the modes stepped in time
 ``phi``             what a drive leaves in a mode within a step

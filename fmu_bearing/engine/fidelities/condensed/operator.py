@@ -364,6 +364,9 @@ def find_operator(p, lv, jac, orbit, w):
     """
     keep_states(lv, w)
     clear_operator(lv)
+    for i in range(L.MATRIX):
+        lv[L.HELD_PLACE + i] = lv[L.JX + i]
+        lv[L.HELD_RATE + i] = lv[L.JV + i]
     n = internal(p)
     for family in range(2):
         gather_states(p, jac, orbit, family, n, w)

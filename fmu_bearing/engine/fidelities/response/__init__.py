@@ -2,7 +2,6 @@
 
 =================  =============================================================
 ``samples``        forces and places of the balls round their orbit, by orders
-``beside``         what balls and cage do beside balls at rest, at one frequency
 ``lines``          which lines a bearing has, and its answer to them
 ``table``          the heaviest of them
 ``ball_orders``    what the form of turning balls consists of

@@ -10,8 +10,8 @@ whose parts are accelerations of its free rings (m/s2, rad/s2). Other arguments:
 """
 
 from fmu_bearing.engine.dense import solve_columns
+from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_rings
 from fmu_bearing.engine.fidelities.response.bearing import turned
-from fmu_bearing.engine.fidelities.response.beside import answer_at, beside_rings
 from fmu_bearing.engine.fidelities.response.lines import STILL, counts_by, line_table
 from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
@@ -32,18 +32,6 @@ def frequency(lv, lines, at, speed):
 
 
 @kernel
-def equations_at(p):
-    """Places in the set's work space: imaginary part of a line's equations, then the table made for all.
-
-    Their real part is at `members.matrix`; the table: see `prepare_equations`.
-    """
-    lanes = members.padded_size(p)
-    n = members.coordinates(p)
-    im = members.matrix(p) + (n + 1) * lanes
-    return im, im + (n + 1) * lanes
-
-
-@kernel
 def prepare_equations(p, s, w, speed):
     """Make what the set's equations at any frequency consist of, for a shaft at ``speed`` (rad/s).
 
@@ -51,7 +39,7 @@ def prepare_equations(p, s, w, speed):
     """
     lanes = members.padded_size(p)
     size = members.coordinates(p) * lanes
-    _, table = equations_at(p)
+    _, table = members.complex_matrix(p)
     prepare_matrix(p, s, w, speed, 1.0, 0.0, 0.0, table + SP.LINE_MASS * size)
     prepare_matrix(p, s, w, speed, 0.0, 1.0, 0.0, table + SP.LINE_DAMPING * size)
     prepare_matrix(p, s, w, speed, 0.0, 0.0, 1.0, table + SP.LINE_STIFFNESS * size)
@@ -83,14 +71,14 @@ def prepare_matrix(p, s, w, speed, by_mass, by_rate, by_place, to):
 def set_equations(p, s, w, omega):
     """Put the set's equations at ``omega`` (rad/s) to its work space, by padded columns; no right side.
 
-    From what `prepare_equations` has made.
+    From what `prepare_equations` has made, behind these equations.
     """
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     size = n * lanes
     re = members.matrix(p)
-    im, table = equations_at(p)
+    im, table = members.complex_matrix(p)
     for i in range(0, size, FOUR):
         mass = load(ws, table + SP.LINE_MASS * size + i)
         store(ws, re + i, load(ws, table + SP.LINE_STIFFNESS * size + i) - omega * omega * mass)
@@ -104,8 +92,8 @@ def set_equations(p, s, w, omega):
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         wb = members.work(p, w, b)
-        answer_at(lv, omega, wb)
-        beside_rings(lv, omega, wb)
+        answer_at(lv, 0.0, omega, wb)
+        beside_rings(lv, 0.0, omega, wb)
         add_driven(p, b, wb, T.BESIDE_RE, 1, L.COLUMN, ws, beside)
         add_driven(p, b, wb, T.BESIDE_IM, 1, L.COLUMN, ws, beside + n * n)
     for k in range(n):
@@ -152,7 +140,7 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     re = members.matrix(p)
-    im, table = equations_at(p)
+    im, table = members.complex_matrix(p)
     if not solve_columns(ws[re:im], ws[im:table], n, lanes):
         return
     found = members.vector(p, SP.RESIDUAL)  # with the vector behind it
@@ -189,7 +177,7 @@ def unbalance_line(p, s, w, speed):
     spots = members.table(p, SP.AT_UNBALANCE)
     set_equations(p, s, w, speed)
     re = members.matrix(p) + n * lanes
-    im, _ = equations_at(p)
+    im, _ = members.complex_matrix(p)
     for i in range(n):
         ws[re + i] = speed * speed * p[spots + i]
         ws[im + n * lanes + i] = -speed * speed * p[spots + lanes + i]
@@ -205,7 +193,7 @@ def answer_lines(p, s, w, speed, first, many):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     side = members.coordinates(p) * members.padded_size(p)
-    im, _ = equations_at(p)
+    im, _ = members.complex_matrix(p)
     count = members.march(p) + SP.LINES
     prepare_equations(p, s, w, speed)
     if first == 0:

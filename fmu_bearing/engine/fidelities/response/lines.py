@@ -20,9 +20,9 @@ import math
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
+from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_places, beside_rings
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
-from fmu_bearing.engine.fidelities.response.beside import answer_at, beside_places, beside_rings
 from fmu_bearing.engine.fidelities.response.samples import (
     coefficients,
     highest_order,
@@ -63,7 +63,7 @@ def line_matrix(lv, omega, w, re, im):
 
     After `beside.answer_at`.
     """
-    beside_rings(lv, omega, w)
+    beside_rings(lv, 0.0, omega, w)
     for at in range(0, T.LINE_SIDE, FOUR):
         store(re, at, -1.0 * load(lv, L.JX + at) - load(w, T.BESIDE_RE + at))
         store(im, at, -omega * load(lv, L.JV + at) - load(w, T.BESIDE_IM + at))
@@ -97,7 +97,7 @@ def keep(p, lv, lines, alone, a, b, m, omega, w):
         return
     re = w[T.LINE_RE : T.LINE_RE + T.LINE_SIDE + L.COLUMN]
     im = w[T.LINE_IM : T.LINE_IM + T.LINE_SIDE + L.COLUMN]
-    answer_at(lv, omega, w)
+    answer_at(lv, 0.0, omega, w)
     line_side(p, lv, w, re, im)
     if alone:
         line_matrix(lv, omega, w, re, im)

@@ -22,7 +22,7 @@ from fmu_bearing.engine.fidelities.response import bearing, renewal
 from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
 from fmu_bearing.engine.fidelities.response.exchange import move_rings, settles
 from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
-from fmu_bearing.engine.fidelities.rings import equations, held
+from fmu_bearing.engine.fidelities.rings import equations, growth, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T
@@ -182,6 +182,7 @@ def march_response(p, u, s, w, h):
     status, fresh = renewal.go_on(p, u, s, w, h, off)
     if status != OK:
         return status
+    growth.search(p, s, w, h)
     near = near and not fresh
     end = s[S.TIME] + h
     sampled = p[P.SOUND_SIZE] != 0.0 and not from_lines(p)

@@ -121,6 +121,7 @@ def take_over(p, s):
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
     at = members.march(p)
     own[at + SP.MADE_LAST] = own[at + SP.MADE]
+    own[at + SP.NEW] = 1.0
     if from_lines(p):
         take_sound(p, s)
     exchange_lines(p, s)

@@ -5,6 +5,7 @@
 ``equations``   the equations of condensed bearings, on a pedestal or on shaft and housing
 ``rest``        where all rests, without unbalance
 ``held``        what the bearings hold between changes of the inputs
+``growth``      the motion that grows most by itself
 ``correction``  the trial state of a step, and what its corrections leave
 ``march``       steps and their control
 ``start``       where rings and balls begin at rest

@@ -19,7 +19,7 @@ from fmu_bearing.engine.fidelities.condensed.balls import count_settled
 from fmu_bearing.engine.fidelities.condensed.patterns import keep_patterns, prepare_step
 from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_operator, keep_end, show_end
 from fmu_bearing.engine.fidelities.condensed.transverse import guided
-from fmu_bearing.engine.fidelities.rings import equations, held, predictor
+from fmu_bearing.engine.fidelities.rings import equations, growth, held, predictor
 from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -202,6 +202,7 @@ def take_inputs(p, u, s, w, h):
             renewed = held.searched(p, s, w)
         else:
             break
+    growth.search(p, s, w, h)
     return OK
 
 
@@ -226,6 +227,7 @@ def make_piece(p, u, s, w):
     own[at + SP.STAGE] = piece + 2.0
     if piece + 1 == pieces:
         own[at + SP.STAGE] = 0.0
+        own[at + SP.NEW] = 1.0
         held.pause(p, s, pieces)
     b = piece + members.count(p) - pieces  # whose operator is due; none: negative
     if b >= 0:

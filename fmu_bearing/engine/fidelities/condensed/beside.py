@@ -1,6 +1,7 @@
-"""What balls and cage do beside balls at rest, at one frequency: see `condensed.operator`.
+"""What balls and cage do beside balls at rest, at one complex rate: see `condensed.operator`.
 
-A line is the real part of a complex number times exp(i omega t). A family of two planes answers it forward
+A motion is the real part of a complex number times exp((growth + i omega) t); that of a line does not grow. A
+family of two planes answers it forward
 and backward: with U = u_0 + i u_1, u_0 gives half of either, u_1 half of either a quarter turn on.
 """
 
@@ -12,8 +13,11 @@ from fmu_bearing.engine.layout import FOUR, LN, L, P, T
 
 
 @kernel
-def answer_at(lv, omega, w):
-    """Put 1 / (i omega - lambda) of all modes to ``T.ANSWER``, then those at minus ``omega`` (rad/s)."""
+def answer_at(lv, growth, omega, w):
+    """Put 1 / (growth + i omega - lambda) of all modes to ``T.ANSWER``, then those at minus ``omega``.
+
+    ``growth``: 1/s, ``omega``: rad/s.
+    """
     if not active(lv):
         return
     for family in range(2):
@@ -22,7 +26,7 @@ def answer_at(lv, omega, w):
             turning = omega if whirl == 0 else -omega
             into = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
             for m in range(0, groups(lv, family), FOUR):
-                re = -1.0 * load(lv, value + m)
+                re = growth - load(lv, value + m)
                 im = turning - load(lv, value + L.MODES + m)
                 per = 1.0 / (re * re + im * im + 1e-300)
                 store(w, into + m, per * re)
@@ -30,7 +34,7 @@ def answer_at(lv, omega, w):
 
 
 @kernel
-def through(lv, family, whirl, out, by_place, by_rate, omega, w):
+def through(lv, family, whirl, out, by_place, by_rate, growth, omega, w):
     """Return what the modes of a family do, by the row ``lv[out:]``, driven at a whirl of ``omega`` (rad/s).
 
     By a place through the row ``lv[by_place:]`` and its rate through ``lv[by_rate:]``; complex.
@@ -38,8 +42,9 @@ def through(lv, family, whirl, out, by_place, by_rate, omega, w):
     re, im = splat(0.0), splat(0.0)
     at = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
     for m in range(0, groups(lv, family), FOUR):
-        xr = load(lv, by_place + m) - omega * load(lv, by_rate + L.MODES + m)
-        xi = load(lv, by_place + L.MODES + m) + omega * load(lv, by_rate + m)
+        vr, vi = load(lv, by_rate + m), load(lv, by_rate + L.MODES + m)
+        xr = load(lv, by_place + m) - omega * vi + growth * vr
+        xi = load(lv, by_place + L.MODES + m) + omega * vr + growth * vi
         gr, gi = load(w, at + m), load(w, at + L.MODES + m)
         ar, ai = xr * gr - xi * gi, xr * gi + xi * gr
         ur, ui = load(lv, out + m), load(lv, out + L.MODES + m)
@@ -58,11 +63,15 @@ def both_whirls(forward_re, forward_im, backward_re, backward_im):
 
 
 @kernel
-def beside_rings(lv, omega, w):
-    """Put accelerations by the rings' displacements at ``omega`` to ``T.BESIDE_RE``, ``_IM``, by columns."""
+def beside_rings(lv, growth, omega, w):
+    """Put accelerations by the rings' displacements to ``T.BESIDE_RE``, ``_IM``, by columns.
+
+    At ``growth`` (1/s) and ``omega`` (rad/s), after `answer_at`.
+    """
     for at in range(0, L.MATRIX, FOUR):
-        store(w, T.BESIDE_RE + at, load(lv, L.BESIDE_PLACE + at))
-        store(w, T.BESIDE_IM + at, omega * load(lv, L.BESIDE_RATE + at))
+        rate = load(lv, L.BESIDE_RATE + at)
+        store(w, T.BESIDE_RE + at, load(lv, L.BESIDE_PLACE + at) + growth * rate)
+        store(w, T.BESIDE_IM + at, omega * rate)
     if not active(lv):
         return
     for family in range(2):
@@ -71,8 +80,8 @@ def beside_rings(lv, omega, w):
             out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
                 by_place, by_rate = f + L.IN_PLACE + b * L.COMPLEX, f + L.IN_RATE + b * L.COMPLEX
-                fr, fi = through(lv, family, 0, out, by_place, by_rate, omega, w)
-                br, bi = through(lv, family, 1, out, by_place, by_rate, -omega, w)
+                fr, fi = through(lv, family, 0, out, by_place, by_rate, growth, omega, w)
+                br, bi = through(lv, family, 1, out, by_place, by_rate, growth, -omega, w)
                 re, im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
                 for plane in range(planes(family)):
                     i, k = member(family, plane, a), member(family, plane, b)
@@ -101,8 +110,8 @@ def beside_places(p, lv, w, re, im):
             out = f + L.OUT + a * L.COMPLEX
             for k in range(2):
                 row = f + L.IN_AWAY + k * L.COMPLEX
-                fr, fi = through(lv, family, 0, out, row, row, 0.0, w)
-                br, bi = through(lv, family, 1, out, row, row, 0.0, w)
+                fr, fi = through(lv, family, 0, out, row, row, 0.0, 0.0, w)
+                br, bi = through(lv, family, 1, out, row, row, 0.0, 0.0, w)
                 push = f + L.PUSH + 2 * (2 * a + k)
                 # contacts with balls at rest have pushed already
                 fr, fi, br, bi = fr - lv[push], fi - lv[push + 1], br - lv[push], bi - lv[push + 1]

@@ -204,7 +204,9 @@ def sound(
         )
     else:
         columns, rows = analysis.rows()
-        show(_heading(recording), [name.replace("_", " ") for name in columns], rows)
+        heading = _heading(recording)
+        heading = f"in doubt, see below: {heading}" if doubted else heading
+        show(heading, [name.replace("_", " ") for name in columns], rows)
         for one in sources:
             show(f"{one.frequency:g} Hz: third octave of {one.band:g} Hz", *one.rows())
             for line in one.sentences():

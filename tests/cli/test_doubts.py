@@ -46,6 +46,7 @@ def test_sound_and_compare_say_so(run, whirling_file, tmp_path):
         "sound", whirling_file, *quick, "--no-wav", "--no-directivity", "--no-spread", "-o", tmp_path
     )
     assert WORDS in recorded.output and recorded.output.count("whirls by itself") == 1
+    assert "in doubt, see below: levels" in " ".join(recorded.output.split())
     beside = run("compare", whirling_file, whirling_file, *quick)
     assert f"A: {WORDS}" in beside.output and f"B: {WORDS}" in beside.output
     assert beside.output.count(WORDS) == 2

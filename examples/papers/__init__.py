@@ -7,6 +7,7 @@
 ``values``             values of a paper (``data/*.csv``), fitted or checked; intervals of rounded ones
 ``identification``     free numbers of a scene from the fitted values alone
 ``statements``         statements judged seed by seed, and their classes
+``floor``              a floor under a spindle, by images
 ``hearing``            levels of a recording, source by source; the papers' radiation models add energies
 ``page``               tables, Markdown, CSV
 ``charts``             the pictures
@@ -17,6 +18,7 @@
 ``printed_runs``       runs of these equations, and what is read from them
 ``printed_equations``  their right-hand side in plain NumPy, a switch for each fault
 ``printed_forces``     contacts, traction, pockets and lands for them
+``printed_field``      eqs. 1 to 3 of the sound-field paper as printed, corrected and beside the product
 ``circles``            circles of 24 points and the sound-field paper's statements on them
 ``sound_field``        the sound-field paper: full-ceramic 7009C and its steel twin, circles of 24 points
 ``impact_noise``       the impact-noise paper: dry 7003C held all round, springs for a cage

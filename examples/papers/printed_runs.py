@@ -1,4 +1,4 @@
-"""Runs of :mod:`examples.papers.printed_equations` on the bare 7003C, and what is read from them.
+"""Runs of :mod:`examples.papers.printed_equations` on a paper's bare bearing, and what is read from them.
 
 Runs are of even balls under an axial load: one ball represents twelve, rings move along the axis, the cage
 turns. Growth rates are of all twelve balls, rings and cage about the corrected steady state.
@@ -37,16 +37,41 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import STRIDE, C, S, Y
 from fmu_bearing.scene import Scene, scene_of
 
-SCENE = pathlib.Path(__file__).parents[1] / "scenes" / "7003C-bare.toml"
+SCENES = pathlib.Path(__file__).parents[1] / "scenes"
 TURNS = 2.0  # of the shaft: how long a reading runs that has no steady state
 SETTLED = 0.03  # s: the cage's slowest decay against its balls, m_c / 12 c, takes 6.5 ms
 #: Where a run ends: m, rad, and rates over shaft speed.
 FAR, ASKEW, RACING, SPINNING = 1e-3, 1e-2, 3.0, 1e3
 
 
-def scene_at(rpm: float) -> Scene:
-    """Return the bare 7003C at a speed, perfect, with a balanced cage and rigid rings."""
-    scene = scene_of(SCENE).with_rigid_rings()
+@dataclass(frozen=True)
+class Printed:
+    """Equations of a paper, and the bearing that they are run on.
+
+    Attributes
+    ----------
+    scene : str
+        File name in ``examples/scenes``, without its suffix.
+    system : type
+        `Equations` or one that reads a paper's rows in another way.
+    corrections : type
+        `Corrections` or one with that paper's faults.
+    changes : tuple of (str, value)
+        Keys of the scene, dotted, with other values than the file's.
+    """
+
+    scene: str = "7003C-bare"
+    system: type[Equations] = Equations
+    corrections: type[Corrections] = Corrections
+    changes: tuple[tuple[str, Any], ...] = ()
+
+
+MULTI_SOURCE = Printed()
+
+
+def scene_at(rpm: float, paper: Printed = MULTI_SOURCE) -> Scene:
+    """Return the paper's bearing at a speed, perfect, with a balanced cage and rigid rings."""
+    scene = scene_of(SCENES / f"{paper.scene}.toml").replace(dict(paper.changes)).with_rigid_rings()
     cage = scene.bearing.cage
     assert cage is not None
     bearing = scene.bearing.model_copy(update={"cage": cage.model_copy(update={"mass_eccentricity_um": 0.0})})
@@ -57,9 +82,9 @@ def scene_at(rpm: float) -> Scene:
 
 
 @functools.lru_cache(maxsize=8)
-def _prepared(rpm: float) -> tuple[Bearing, Array]:
+def _prepared(rpm: float, paper: Printed) -> tuple[Bearing, Array]:
     """Return the numbers of the scene at a speed, and the product's steady state in this layout (size, 1)."""
-    product = Arrays.of(scene_at(rpm))
+    product = Arrays.of(scene_at(rpm, paper))
     product.init()
     y = product.s[S.Y : S.Y + Y.SIZE]
     bearing = Bearing(product.p.copy(), product.s[S.C : S.C + C.SIZE].copy())
@@ -71,14 +96,16 @@ def _prepared(rpm: float) -> tuple[Bearing, Array]:
     return bearing, np.concatenate([rows.ravel(), bodies])[:, None]
 
 
-def bearing_at(rpm: float) -> Bearing:
+def bearing_at(rpm: float, paper: Printed = MULTI_SOURCE) -> Bearing:
     """Geometry, contacts, masses and oil of the scene at a speed, as the package prepares them."""
-    return _prepared(rpm)[0]
+    return _prepared(rpm, paper)[0]
 
 
-def equations(rpm: float, corrections: Corrections, even: bool = True) -> Equations:
+def equations(
+    rpm: float, corrections: Corrections, even: bool = True, paper: Printed = MULTI_SOURCE
+) -> Equations:
     """Return the equations of the scene at a speed."""
-    return Equations(bearing_at(rpm), rpm * RPM, corrections, even)
+    return paper.system(bearing_at(rpm, paper), rpm * RPM, corrections, even)
 
 
 def start(system: Equations) -> Array:
@@ -180,29 +207,29 @@ def run(system: Equations, state: Array, seconds: float, relative: float = 1e-4)
 
 
 @functools.lru_cache(maxsize=8)
-def settled(rpm: float) -> Run:
+def settled(rpm: float, paper: Printed = MULTI_SOURCE) -> Run:
     """Steady state of the corrected equations at a speed: even balls after :data:`SETTLED`."""
-    system = equations(rpm, Corrections.all())
+    system = equations(rpm, paper.corrections.all(), paper=paper)
     return run(system, start(system), SETTLED, 1e-5)
 
 
 def all_round(system: Equations, state: Array) -> Array:
-    """State of twelve balls from one of even balls, shape (size,)."""
-    one = equations(system.speed / RPM, system.on)
+    """State of all balls from one of even balls, shape (size,)."""
+    one = type(system)(system.bearing, system.speed, system.on, True)
     found = np.empty(system.size)
     for whole, part in zip(system.split(found[:, None]), one.split(state[:, None]), strict=True):
         whole[:] = part
     return found
 
 
-def growth(rpm: float, corrections: Corrections) -> tuple[float, float]:
+def growth(rpm: float, corrections: Corrections, paper: Printed = MULTI_SOURCE) -> tuple[float, float]:
     """Growth rate (1/s) and frequency (Hz) of what grows fastest about the corrected steady state.
 
-    All twelve balls, rings and cage at one position, without weights; 0 where nothing grows by 1 per second.
+    All balls, rings and cage at one position, without weights; 0 where nothing grows by 1 per second.
     """
-    system = equations(rpm, corrections, even=False)
+    system = equations(rpm, corrections, even=False, paper=paper)
     system.weight = 0.0
-    state = all_round(system, settled(rpm).state)
+    state = all_round(system, settled(rpm, paper).state)
     step = sizes(system)
     ahead, behind = (system(0.0, state[:, None] + sign * np.diag(step)) for sign in (1.0, -1.0))
     values = np.linalg.eigvals((ahead - behind) / (2.0 * step))
@@ -247,18 +274,20 @@ def of_run(system: Equations, found: Run) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def ours(rpm: float) -> dict[str, Any]:
+def ours(rpm: float, paper: Printed = MULTI_SOURCE) -> dict[str, Any]:
     """Figures of the product: loads and angles of its operating point, motion of the state it starts in."""
-    bearing, state = _prepared(rpm)
-    found = figures(Equations(bearing, rpm * RPM, Corrections.all()), state[:, 0])
-    load = operating_point(scene_at(rpm)).bearings[0].load
+    bearing, state = _prepared(rpm, paper)
+    found = figures(paper.system(bearing, rpm * RPM, paper.corrections.all()), state[:, 0])
+    load = operating_point(scene_at(rpm, paper)).bearings[0].load
     found["load"] = [float(value) for value in load.ball_loads.mean(axis=1)]
     found["angle"] = [float(value) for value in np.degrees(load.contact_angles.mean(axis=1))]
     # a steady state: its rings are at rest
     return found | {"seconds": 0.0, "ended": "", "ring_velocity": 0.0}
 
 
-def reading(rpm: float, corrections: Corrections, turns: float = TURNS) -> dict[str, Any]:
+def reading(
+    rpm: float, corrections: Corrections, turns: float = TURNS, paper: Printed = MULTI_SOURCE
+) -> dict[str, Any]:
     """Figures of even balls after some turns of the shaft, from :func:`start`."""
-    system = equations(rpm, corrections)
+    system = equations(rpm, corrections, paper=paper)
     return of_run(system, run(system, start(system), turns * 60.0 / rpm))

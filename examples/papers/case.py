@@ -1,5 +1,6 @@
 """One operating point of a scene: its run, its key, and what is kept of it on disk."""
 
+import functools
 import hashlib
 import json
 import math
@@ -10,8 +11,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from examples.papers.hearing import LISTENING, sources_hash
+from fmu_bearing import modes
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.sources import rooms_digest, source_hash
+from fmu_bearing.modal.modes.mode import Mode
+from fmu_bearing.modal.modes.natural_modes import self_excited
 from fmu_bearing.recording.record import OUTPUTS, Recording, record
 from fmu_bearing.scene import Scene, read_scene
 
@@ -81,8 +85,20 @@ class Case:
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def recording(self, radiation_model: str) -> Recording:
-        """Run the case for a radiation model; all but those of the papers share their channels."""
+        """Run the case for a radiation model; all but those of the papers share their channels.
+
+        Raises
+        ------
+        ValueError
+            Where a mode of the scene grows: what is heard is a whirl, and no value of a paper comes from it.
+        """
         scene = self.build()
+        if (mode := growing(scene)) is not None:
+            raise ValueError(
+                f"{self.scene} at {scene.operation.speed_rpm:,.0f} r/min: '{mode.name}' at "
+                f"{mode.frequency:,.0f} Hz grows by {mode.growth:,.0f} 1/s, so no value of a paper is read "
+                "from it: hold it by a tilt support, more damping or less speed"
+            )
         jump = {}
         if self.jump_from is not None:
             ends = (self.jump_from, scene.operation.speed_rpm)
@@ -93,6 +109,17 @@ class Case:
             # microphones are chosen afterwards: the cheapest radiation model with these channels serves
             radiation_model=radiation_model if form_of(radiation_model) != "vectors" else "compact",
         )  # fmt: skip
+
+
+def growing(scene: Scene) -> Mode | None:
+    """Return the mode of rings that grows fastest by itself at the scene's speed; None where none does."""
+    # waves and unbalance change no mode: seeds and amplitudes share one answer
+    return _growing(json.dumps(scene.replace({"imperfections": None, "sound": None}).model_dump(mode="json")))
+
+
+@functools.lru_cache(maxsize=4096)
+def _growing(text: str) -> Mode | None:
+    return self_excited(modes(Scene.model_validate(json.loads(text))))
 
 
 def around(

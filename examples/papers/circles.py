@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from examples.papers.reduced import ANGLES, PLACES, RADII, WHOLE, ZONES, L, R
-from examples.papers.statements import CHANCE, UNSEEN, Judged, Reason, both, trend, verdict
+from examples.papers.statements import UNSEEN, Judged, both, trend, verdict
 from fmu_bearing.acoustics.analysis.directivity import directivity
 
 IMPACT, FRICTION = "impact", "friction"
@@ -273,11 +273,3 @@ def _twins(ceramic: dict[str, Any] | None, steel: dict[str, Any] | None) -> list
         verdict(_TWINS[0], [("18,000", one.mean - other.mean)]),
         trend(_TWINS[1], [("18,000", 6.53 - 2.76, one.dv - other.dv)]),
     ]
-
-
-#: Statements on one direction against another, decided by the paper's inputs. Sizes of DL and DV, and angles
-#: that stay where they are, need no direction: they are classed by what is found.
-REASONS = {
-    name: Reason(CHANCE, "no direction in the inputs")
-    for name in (*_TURNS, *_LOUDER, *_FIRMER, _FAR[3], _FAR[8], _FAR[9])
-}

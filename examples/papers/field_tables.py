@@ -18,15 +18,14 @@ from examples.papers.runs import Results
 from examples.papers.values import Value
 from fmu_bearing.results.table import markdown
 
-CONTACTS = "paper_contacts"
+SPINDLE, BARE, CONTACTS = "spindle", "bare bearing", "bare bearing, paper_contacts"
 
 
 @dataclass(frozen=True)
 class Variants:
-    """Results of all runs: the ceramic bearing, with a radial load, its steel twin; empty where not run."""
+    """Results of all runs of one mounting: the ceramic bearing, its steel twin; empty where not run."""
 
     ceramic: Results
-    loaded: Results
     steel: Results
 
 
@@ -77,8 +76,8 @@ def _point(near: tuple[float, float], far: tuple[float, float]) -> float:
     return 20.0 * math.log10(math.hypot(*far) / math.hypot(*near))
 
 
-def falls_part(paper_values: Sequence[Value], ceramic: Results, contacts: Results) -> str:
-    """Falls over r at every l, and over l at every r."""
+def falls_part(paper_values: Sequence[Value], *variants: Results) -> str:
+    """Falls over r at every l, and over l at every r: in the spindle, bare, by the paper's own model."""
     paper = {one.place: one.paper.middle for one in paper_values if one.quantity == "fall"}
     by_r, by_l = paper[f"{RADII[0]},{L};{RADII[-1]},{L}"], paper[f"{RADII[0]},20;{RADII[0]},200"]
     rows, fits = [], []
@@ -88,19 +87,19 @@ def falls_part(paper_values: Sequence[Value], ceramic: Results, contacts: Result
     )):  # fmt: skip
         both = [
             [over(found, lambda result, k=k, i=i: falls(result)[k][i]) for i in range(len(names))]
-            for found in (ceramic, contacts)
+            for found in variants
             if found
         ]
         for i, name in enumerate(names):
             ends = [(r, name) for r in RADII] if k == 0 else [(name, x) for x in PLACES]
             cells = [f"{one[i][0]:.1f} ({page.spread(one[i][1:])})" for one in both]
-            cells += [""] * (2 - len(cells))
+            cells += [""] * (len(variants) - len(cells))
             rows.append(
                 [f"{words}, {at} {name}", f"{wanted:.2f}", *cells, f"{_point(ends[0], ends[-1]):.1f}"]
             )
         fits.append(f"{wanted:g} dB fit {at} {_where(names, [one[0] for one in both[0]], wanted)}")
-    columns = ["mm", "paper", "ours (seeds)", f"{CONTACTS} (seeds)", "point source"]
-    return f"{markdown(columns, rows)}\nBy ours, {' and '.join(fits)}.\n"
+    columns = ["mm", "paper", *(f"{name} (seeds)" for name in (SPINDLE, BARE, CONTACTS)), "point source"]
+    return f"{markdown(columns, rows)}\nBy the spindle, {' and '.join(fits)}.\n"
 
 
 def _where(names: Sequence[int], found: Sequence[float], wanted: float) -> str:
@@ -144,17 +143,18 @@ def _mean(levels: Sequence[float]) -> float:
     return 10.0 * math.log10(sum(10.0 ** (x / 10.0) for x in levels) / len(levels))
 
 
-def write_csv(page_name: str, all_: Variants, contacts: Variants, output: Output) -> None:
+def write_csv(page_name: str, variants: dict[str, Variants], output: Output) -> None:
     """Write medians over the speeds around each, seed by seed."""
     found = {
-        "ceramic": all_.ceramic, "ceramic with load": all_.loaded, "steel": all_.steel,
-        f"ceramic, {CONTACTS}": contacts.ceramic, f"steel, {CONTACTS}": contacts.steel,
-    }  # fmt: skip
+        f"{name}, {material}": getattr(one, material)
+        for name, one in variants.items()
+        for material in ("ceramic", "steel")
+    }
     rows = []
     for name, results in found.items():
         for seed, by_speed in by_seed(results.items()).items():
             for rpm, result in by_speed.items():
-                whole = len(result["field"]) > 1 and results is all_.ceramic
+                whole = len(result["field"]) > 1 and name == f"{SPINDLE}, ceramic"
                 for r, place in [(r, x) for r in RADII for x in PLACES] if whole else [(R, L)]:
                     c = Circle(result, r, place)
                     figures = (f"{c.top:.2f}", f"{c.dv:.2f}", *(f"{c.dl(zone):.4f}" for zone in result["dl"]))
@@ -164,10 +164,10 @@ def write_csv(page_name: str, all_: Variants, contacts: Variants, output: Output
     output.csv(page_name, [*columns, *(f"{a}_deg" for a in ANGLES)], rows)
 
 
-def draw_pictures(page_name: str, all_: Variants, output: Output) -> None:
-    """Draw circles of the first seed about their own mean: all speeds, all radii, ceramic and steel."""
+def draw_pictures(page_name: str, all_: Variants, alone: Variants, output: Output) -> None:
+    """Draw circles of the first seed about their own mean: all speeds, all radii, spindle, bare and steel."""
     drawn, axes = charts.figure(12.0, 8.6, 2, 3, polar=True)
-    named = {"ceramic": all_.ceramic, "ceramic with load": all_.loaded, "steel": all_.steel}
+    named = {"spindle": all_.ceramic, "bare bearing": alone.ceramic, "spindle, steel": all_.steel}
     first = {
         name: by_seed(found.items())[SEEDS[0]] if found else {}
         for name, found in named.items()
@@ -184,6 +184,6 @@ def draw_pictures(page_name: str, all_: Variants, output: Output) -> None:
         if WHOLE in first[name]:
             result = first[name][WHOLE]
             draw(ax, {f"r {r} mm": Circle(result, r) for r in RADII}, f"{name}, 18,000 r/min, over r")
-    result = first["ceramic"][WHOLE]
-    draw(axes[5], {f"l {x} mm": Circle(result, R, x) for x in PLACES}, "ceramic, 18,000 r/min, over l")
+    result = first["spindle"][WHOLE]
+    draw(axes[5], {f"l {x} mm": Circle(result, R, x) for x in PLACES}, "spindle, 18,000 r/min, over l")
     charts.save(drawn, output.images / f"{page_name}.png")

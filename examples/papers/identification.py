@@ -19,6 +19,7 @@ from fmu_bearing.scene.values import value_at
 
 #: A_1 of both races together, over all that the catalogue's grades have and what a scene allows beyond.
 BOTH = ("imperfections.inner_race_amplitude_um", "imperfections.outer_race_amplitude_um")
+GRADE_UM, EXPONENT = 0.3, 1.35  # of the catalogue
 CLOSE_DB = 0.1  # that the search ends so near to its values
 MOST = 8  # steps of it
 _SLOPES = (0.3, 3.0)  # dB per dB: a step never takes a level for flatter or steeper
@@ -37,6 +38,15 @@ class Number:
     value : str
         Name of the fitted value.
     bounds : (float, float)
+    plausible : callable
+        What the identified number would mean for a real part, in words.
+    per_unit : float, optional
+        Change of the value (dB) by 1 of the number, as a first guess; none: the value follows it in dB.
+    against : str
+        Fitted value whose miss is taken off: a level at a second speed less the one at the first.
+    held_order : float
+        Of an exponent of waves: the order whose amplitude it leaves alone. It eases the search and does not
+        change where it ends.
     """
 
     name: str
@@ -44,11 +54,43 @@ class Number:
     keys: tuple[str, ...]
     value: str
     bounds: tuple[float, float]
+    plausible: Callable[[float], str]
+    per_unit: float | None = None
+    against: str = ""
+    held_order: float = 1.0
+
+    def steps(self, number: float, start: float) -> float:
+        """How far a number is from the search's start, in dB of its value."""
+        if self.per_unit is None:
+            return 20.0 * math.log10(number / start)
+        return self.per_unit * (number - start)
+
+    def at(self, steps: float, start: float) -> float:
+        """Return the number so many steps from the start."""
+        if self.per_unit is None:
+            return start * 10.0 ** (steps / 20.0)
+        return start + steps / self.per_unit
 
 
-def amplitude(value: str) -> Number:
-    """Return A_1 of both races as the number that a level decides."""
-    return Number("A_1 of both races", "um", BOTH, value, (0.03, 5.0))
+def amplitude(value: str, most: float = 5.0) -> Number:
+    """Return A_1 of both races (up to ``most`` um) as the number that a level decides."""
+    return Number("A_1 of both races", "um", BOTH, value, (0.03, most), _over_grade)
+
+
+def _over_grade(number: float) -> str:
+    return f"{number / GRADE_UM:.0f} times what grade P4 has: an effective amplitude, no race's"
+
+
+def exponent(value: str, against: str, held_order: float) -> Number:
+    """Return the exponent p of the waves, decided by a level at twice the speed of another fitted one.
+
+    Waves of half the order sound there at the same frequency: 1 of p is 20 lg 2 dB.
+    """
+    return Number(
+        "exponent p of the waves", "", ("imperfections.waviness_exponent",), value, (0.5, 3.0),
+        lambda p: f"ground races have 1 to 2 (default {EXPONENT:g})", 20.0 * math.log10(2.0), against,
+        held_order,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -83,17 +125,18 @@ class Answer:
     @property
     def words(self) -> str:
         """Table of the numbers."""
-        columns = ["number", "catalogue", "identified", "range over seeds", "from", "paper", "ours"]
+        columns = ["number", "start", "identified", "range over seeds", "from", "paper", "ours", "plausible?"]
         return markdown(columns, [_row(one) for one in self.found])
 
 
 def _row(one: Found) -> list[str]:
     low, high = one.seeds
     bound = f" (at its {one.at_bound} bound)" if one.at_bound else ""
+    name = ", ".join(filter(None, (one.number.name, one.number.unit)))
     return [
-        f"{one.number.name}, {one.number.unit}", f"{one.before:.3g}", f"{one.after:.3g}{bound}",
+        name, f"{one.before:.3g}", f"{one.after:.3g}{bound}",
         f"{low:.3g} to {high:.3g}", one.number.value, f"{one.fitted.value.paper.middle:.1f}",
-        f"{one.fitted.level:.1f}",
+        f"{one.fitted.level:.1f}", one.number.plausible(one.after),
     ]  # fmt: skip
 
 
@@ -133,18 +176,25 @@ def identify(
     """
     check_numbers(numbers, values)
     own = changed(scene, fixed)
-    start = np.array([float(value_at(own, number.keys[0])) for number in numbers])
-    low, high = (20.0 * np.log10([n.bounds[k] for n in numbers] / start) for k in (0, 1))
+    start = [float(value_at(own, number.keys[0])) for number in numbers]
+    ends = ([n.steps(n.bounds[k], x) for n, x in zip(numbers, start, strict=True)] for k in (0, 1))
+    low, high = (np.array(end) for end in ends)
 
-    def changes(db: np.ndarray) -> Changes:
-        amounts = [_round_off(a * 10.0 ** (x / 20.0)) for a, x in zip(start, db, strict=True)]
-        return tuple((key, a) for n, a in zip(numbers, amounts, strict=True) for key in n.keys)
+    def changes(steps: np.ndarray) -> Changes:
+        amounts = [n.at(float(d), x) for n, x, d in zip(numbers, start, steps, strict=True)]
+        scale = math.prod(n.held_order ** (a - x) for n, a, x in zip(numbers, amounts, start, strict=True))
+        return tuple(
+            (key, _round_off(min(a * scale, n.bounds[1]) if key in BOTH else a))
+            for n, a in zip(numbers, amounts, strict=True)
+            for key in n.keys
+        )
 
     db, slope = np.zeros(len(numbers)), np.ones(len(numbers))
     seen: list[tuple[np.ndarray, np.ndarray, Mapping[str, Met]]] = []
     while len(seen) < most:
         met = levels(changes(db))
-        miss = np.array([met[number.value].from_middle for number in numbers])
+        miss = np.array([met[n.value].from_middle - (met[n.against].from_middle if n.against else 0.0)
+                         for n in numbers])  # fmt: skip
         if seen:
             moved = db - seen[-1][0]
             rise = miss - seen[-1][1]
@@ -158,15 +208,15 @@ def identify(
     db, miss, met = min(seen, key=lambda one: float(np.abs(one[1]).max()))
     after = changes(db)
     found = tuple(
-        _found(number, float(a), dict(after)[number.keys[0]], met[number.value], float(s))
-        for number, a, s in zip(numbers, start, slope, strict=True)
+        _found(number, x, dict(after)[number.keys[0]], met[number.value], float(s))
+        for number, x, s in zip(numbers, start, slope, strict=True)
     )
     return Answer(found, after, len(seen))
 
 
 def _found(number: Number, before: float, after: float, fitted: Met, slope: float) -> Found:
     """Join what is known of a number; seeds that are louder need less of it."""
-    over = [after * 10.0 ** (-(level - fitted.level) / slope / 20.0) for level in fitted.by_seed]
+    over = [number.at(-(level - fitted.level) / slope, after) for level in fitted.by_seed]
     ends = zip(("lower", "upper"), number.bounds, strict=True)
     bound = next((name for name, end in ends if math.isclose(after, end, rel_tol=1e-3)), "")
     return Found(number, before, after, fitted, (min(over), max(over)), bound)

@@ -8,12 +8,12 @@ import numpy as np
 from examples.papers import charts, multi_source, page, values
 from examples.papers.case import Case, Changes
 from examples.papers.hearing import NAMES
-from examples.papers.identification import Answer, amplitude, identify
+from examples.papers.identification import BOTH, Answer, amplitude, exponent, identify
 from examples.papers.medians import by_seed
 from examples.papers.page import Output, Slope
 from examples.papers.reduced import COUNT, SIDES
 from examples.papers.runs import Results, Runs
-from examples.papers.statements import AGAINST, Judged, Reason, both, classed, counts, trend, verdict
+from examples.papers.statements import Judged, Remark, both, classed, classes_table, counts, trend, verdict
 from examples.papers.values import FIT, Met, Value
 from fmu_bearing.results.table import markdown
 
@@ -22,11 +22,15 @@ TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"
 SCENE = "7003C-impact"
 SPEEDS = (10000, 15000, 20000)
 SPRINGS = (1e5, 5e6, 2.5e7)  # N/m; the paper keeps the last
+#: Waves take the place of the facets of a mesh, which are several per ball: it has no longer waves. Orders
+#: below 50 sound below 10 kHz at all speeds; they only carry loads, so that levels stop following amplitudes.
+LOWEST_ORDER = 24
 #: Rings that bend on a seat all round: the outer ring's wall, held at its circumference, yields under each
 #: ball. Spring damping includes what the cage takes up. All assumed, none fitted. Waves excite to 20 kHz,
 #: because the paper's peaks are from 9.7 to 20 kHz and beyond, where no ear and no meter of ours reaches.
 CHANGES: Changes = (
     ("imperfections.highest_frequency_kHz", 20.0),
+    ("imperfections.lowest_order", LOWEST_ORDER),
     ("mounting.flexure.outer_ring", (2, 3, 4, 5)),
     ("mounting.flexure.inner_ring", (2, 3)),
     ("mounting.flexure.damping_ratio", 0.005),
@@ -36,7 +40,8 @@ CHANGES: Changes = (
 )
 _RIGID: Changes = (("mounting.flexure", None),)  # quick cases
 VALUES = values.read(NAME)
-NUMBERS = (amplitude("10,000 r/min"),)
+#: Order 90 sounds near 10 kHz at 10,000 r/min.
+NUMBERS = (amplitude("10,000 r/min", 20.0), exponent("20,000 r/min", "10,000 r/min", 90.0))
 _AS_ASSUMED = "as assumed"
 #: Other values of what is assumed, at the same A_1: what each of them decides.
 OTHERS: dict[str, Changes] = {
@@ -44,15 +49,16 @@ OTHERS: dict[str, Changes] = {
     "seat 1e9 N/m": (("mounting.flexure.outer_seat_stiffness_N_m", 1e9),),
     "preload 250 N (500)": (("mounting.preload_N", 250.0),),
     "contact damping 10 us (2.5)": (("bearing.contact_damping_us", 10.0),),
-    "waviness exponent 1.6 (1.35)": (("imperfections.waviness_exponent", 1.6),),
+    f"lowest order 12 ({LOWEST_ORDER})": (("imperfections.lowest_order", 12),),
 }
 START_RPM = 500.0  # from which the ring jumps: the least speed with a sound of its own far below all others
-_TURNED = (
-    "12 balls map onto themselves under 90 degrees, which turns XY into YZ: they differ by the draw alone"
-)
-REASONS = {
-    "plane YZ varies most": Reason(AGAINST, _TURNED),
-    "20,000 r/min: maximum of YZ above XY above XZ": Reason(AGAINST, _TURNED),
+_TURNED = "12 balls map onto themselves under 90 degrees, which turns XY into YZ: the draw decides"
+REMARKS = {
+    "plane YZ varies most": Remark(_TURNED),
+    "20,000 r/min: maximum of YZ above XY above XZ": Remark(_TURNED),
+    "most energy between 10 and 20 kHz (unweighted, above)": Remark(
+        "excitation and levels end at 20 kHz in our scene", built=True
+    ),
 }
 _UNKNOWN = (
     "preload, damping and the seat of the outer ring, none of which the paper names ([what they "
@@ -71,7 +77,8 @@ def case(rpm: float, changes: Changes = (), spring: float = SPRINGS[-1], label: 
 def _points(runs: Runs, found: Changes, spring: float) -> list[Case]:
     """Operating points of the values with one stiffness of the springs."""
     if runs.quick:
-        return runs.around([Case(SCENE, 10000, (*CHANGES, *found, *_RIGID), 1, 0.01, 0.02)])
+        speeds = (SPEEDS[0], SPEEDS[-1])
+        return runs.around([Case(SCENE, rpm, (*CHANGES, *found, *_RIGID), 1, 0.01, 0.02) for rpm in speeds])
     return runs.around(
         [case(rpm, found, spring) for rpm in (SPEEDS if spring == SPRINGS[-1] else SPEEDS[:1])]
     )
@@ -81,8 +88,8 @@ def identified(runs: Runs) -> Answer:
     """Identify A_1 from the fitted value."""
 
     def levels(changes: Changes) -> dict[str, Met]:
-        own = [one for one in _points(runs, changes, SPRINGS[-1]) if one.rpm == SPEEDS[0]]
-        found = runs.all("planes", own, f"{NAME}: A_1 {changes[0][1]:.3g} um")
+        own = [one for one in _points(runs, changes, SPRINGS[-1]) if one.rpm != SPEEDS[1]]
+        found = runs.all("planes", own, f"{NAME}: A_1 {changes[0][1]:.3g} um, p {changes[-1][1]:.3g}")
         return {met.value.name: met for met in met_of(found)}
 
     return identify(SCENE, CHANGES, NUMBERS, VALUES, levels, 1 if runs.quick else 8)
@@ -213,24 +220,28 @@ def page_of(runs: Runs, output: Output) -> str:
     springs = {spring: by_seed(found.items()) for spring, found in soft.items()} | {SPRINGS[-1]: now}
     judged = classed(
         [orderings(now[seed], {k: by[seed][SPEEDS[0]] for k, by in springs.items()}) for seed in sorted(now)],
-        REASONS,
+        REMARKS,
     )
     met = sorted(
         [*met_of(stiff), *(m for spring, found in soft.items() for m in met_of(found, spring))],
         key=lambda m: VALUES.index(m.value),
     )
     levels = _calculated(VALUES)
-    lines = page.slopes("calculated there", [one for one in met if one.value in levels])
+    lines = [
+        *page.slopes("calculated there", [one for one in met if one.value in levels]),
+        *page.slopes("its average peaks", [one for one in met if one.value.quantity == "average peak"]),
+    ]
     assumed, of_assumed = _assumed(runs, answer.changes, stiff)
     _pictures(now[min(now)], output)
     _csv(now, springs, output)
     one = next(iter(stiff))
     return page.template(NAME).format(
         title=TITLE, caution=page.caution(runs.radiation_model), radiation_model=runs.radiation_model,
-        verdict=page.verdict_part(answer, met, lines, _UNKNOWN, _missed(lines, of_assumed)),
+        verdict=page.verdict_part(answer, met, lines, judged, _UNKNOWN, _missed(lines, of_assumed)),
         values=page.values_part(met, "dB(A)"),
         slope=page.slope_table(lines), identified=answer.words, timing=page.timing(one.settle, one.duration),
-        counts=counts(judged), statements=page.statements_table(judged), count=COUNT,
+        counts=counts(judged), statements=page.statements_table(judged), classes=classes_table(),
+        count=COUNT,
         quoted=_quoted_table(runs), start=_start_table(runs, answer.changes),
         assumed=assumed, above=_above_table(soft | {SPRINGS[-1]: stiff}),
     )  # fmt: skip
@@ -240,7 +251,7 @@ def _quoted_table(runs: Runs) -> str:
     """Compare the measured levels that the paper quotes with the spindle's scene."""
     if runs.quick:
         return "Not run.\n"
-    changes = multi_source.identified(runs).changes
+    changes = (*multi_source.AXES, *multi_source.identified(runs).changes)
     quoted = [value for value in multi_source.VALUES if value.rpm in SPEEDS and value.place == "P3"]
     own = runs.around([Case(multi_source.SCENE, value.rpm, changes) for value in quoted])
     found = runs.all("above", own, f"{NAME}: spindle")
@@ -274,7 +285,7 @@ def _start_table(runs: Runs, found: Changes) -> str:
     """First 5 ms after a jump of the inner ring to its speed, with the identified waves and without."""
     if runs.quick:
         return "Not run.\n"
-    none = tuple((key, 0.0) for key in NUMBERS[0].keys)
+    none = tuple((key, 0.0) for key in BOTH)
     rows = []
     for rpm in SPEEDS:
         both_of = [
@@ -311,15 +322,15 @@ def _assumed(runs: Runs, found: Changes, stiff: Results) -> tuple[str, list[floa
 
 
 def _missed(lines: list[Slope], assumed: list[float]) -> str:
-    """Say by how much the slope is missed and what was ruled out."""
-    if not lines or abs(lines[0].ours - lines[0].paper) <= page.SLOPE_GOAL_DB:
+    """Say by how much the slope of the average peaks is missed and what was ruled out."""
+    own = next((one for one in lines if one.checked), None)
+    if own is None or abs(own.ours - own.paper) <= page.SLOPE_GOAL_DB:
         return ""
-    own = lines[0]
     return (
-        f"the slope, by {abs(own.ours - own.paper):.1f} dB per decade. Ruled out: chance in speed and seeds "
-        f"({page.spread(own.by_seed)}), the springs (Table 7 agrees), and [the start](#the-impulsive-start), "
-        "whose first 5 ms do not grow with speed. Other assumed numbers would give "
-        f"{page.spread(assumed)}, [each alone](#what-is-assumed-decides)."
+        f"the slope of {own.name}, by {abs(own.ours - own.paper):.1f} dB per decade. Ruled out: chance in "
+        f"speed and seeds ({page.spread(own.by_seed)}), the springs (Table 7 agrees), and [the "
+        "start](#the-impulsive-start), whose first 5 ms do not grow so with speed. Other assumed numbers "
+        f"would give the levels a slope of {page.spread(assumed)}, [each alone](#what-is-assumed-decides)."
     )
 
 

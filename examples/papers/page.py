@@ -1,5 +1,6 @@
 """Parts of all pages: verdict, tables of values, slopes and statements, Markdown and CSV."""
 
+import math
 import pathlib
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -11,7 +12,7 @@ from examples.papers.values import CHECK, FIT, Interval, Met, rms, rms_by_seed, 
 from fmu_bearing.results.table import markdown, write_csv
 
 GOAL_DB = 3.0  # rms of checked values on each page
-SLOPE_GOAL_DB = 5.0  # per decade
+SLOPE_GOAL_DB = 3.0  # per decade
 _FARTHEST = 3  # values named that are farthest off
 
 
@@ -19,6 +20,8 @@ def printed(value: Interval) -> str:
     """Return a value as the paper gives it: one number, or the interval it lies in."""
     if value.low == value.high:
         return f"{value.low:.2f}"
+    if math.isinf(value.high):
+        return f"at least {value.low:.1f}"
     return f"{value.low:.1f} to {value.high:.1f}"
 
 
@@ -110,23 +113,38 @@ def slope_table(found: Sequence[Slope]) -> str:
 
 
 def verdict_part(
-    answer: Answer, found: Sequence[Met], lines: Sequence[Slope], unknown: str, missed: str = ""
-) -> str:
+    answer: Answer, found: Sequence[Met], lines: Sequence[Slope], judged: Sequence[Classed], unknown: str,
+    missed: str = "",
+) -> str:  # fmt: skip
     """Say what was fitted, what was predicted, how far off, what was missed, and what nobody could know."""
     fitted = "; ".join(
-        f"{one.number.name}, {one.after:.3g} {one.number.unit} (catalogue: {one.before:.3g}), from "
-        f"{one.number.value}"
+        f"{one.number.name}, {one.after:.3g}{' ' * bool(one.number.unit)}{one.number.unit} (start: "
+        f"{one.before:.3g}), from {one.number.value}"
         for one in answer.found
     )
     checked = [one for one in found if one.value.role == CHECK and not one.value.without]
     points = {
+        "In short": _count(answer, found, judged),
         "Fitted": f"{fitted}. Nothing else.",
         "Predicted": _predicted(checked, lines),
-        "Farthest off": _farthest(checked),
+        "Farthest off": _farthest([one for one in found if one.value.role == CHECK]),
         "Missed": missed,
         "Nobody could know": unknown,
     }
     return "".join(wrapped(f"* **{head}:** {words}") for head, words in points.items() if words)
+
+
+def _count(answer: Answer, found: Sequence[Met], judged: Sequence[Classed]) -> str:
+    """How many numbers were identified, how many values and statements predicted, how many hold."""
+    checked = [one for one in found if one.value.role == CHECK]
+    near_ = sum(abs(one.residual) <= GOAL_DB for one in checked)
+    refutable = [one for one in judged if one.refutable]
+    held = sum(one.kind == HOLDS for one in refutable)
+    many = len(answer.found)
+    return (
+        f"{many} number{'s' * (many > 1)} identified, each from one value; {len(checked)} values predicted, "
+        f"{near_} within {GOAL_DB:.0f} dB; {len(refutable)} statements predicted, {held} hold."
+    )
 
 
 def wrapped(text: str) -> str:
@@ -146,7 +164,7 @@ def _predicted(checked: Sequence[Met], lines: Sequence[Slope]) -> str:
         f"{_goal(checked)}."
     ]
     unmarked = [one for one in checked if not one.value.marked]
-    if len(unmarked) < len(checked):
+    if 0 < len(unmarked) < len(checked):
         marks = "; ".join(f"{one.value.name}, {one.value.marked}" for one in checked if one.value.marked)
         words.append(f"Without {marks}: {near(rms(unmarked), GOAL_DB)} dB, {_goal(unmarked)}.")
     for one in lines:
@@ -245,7 +263,7 @@ def statements_table(found: Sequence[Classed]) -> str:
         [
             f"{number}. {one.statement}",
             one.kind if one.kind == HOLDS else f"**{one.kind}**",
-            f"{one.holds} of {one.seeds}", f"{100.0 * one.share:.0f} %", one.figures, one.reason,
+            f"{one.holds} of {one.seeds}", f"{100.0 * one.share:.0f} %", one.figures, one.remark,
         ]
         for number, one in enumerate(found, 1)
     ]  # fmt: skip

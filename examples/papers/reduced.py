@@ -111,9 +111,11 @@ def circles(ear: Ear, case: Case) -> dict[str, Any]:
     """
     recording = ear.recording
     radii, places = (RADII, PLACES) if case.rpm == WHOLE else ((R,), (L,))
-    grid = [cylindrical(a, r, x) for r in radii for x in places for a in ANGLES]
+    # a housing has its front at -X; angles grow with the shaft's turn (the paper's eq. 10) on either side
+    side = 1.0 if ear.scene.mounting.housing is None else -1.0
+    grid = [cylindrical(a, r, side * x) for r in radii for x in places for a in ANGLES]
     field = ear.levels(grid).reshape(len(radii), len(places), len(ANGLES))
-    own = ear.sources([cylindrical(a, R, L) for a in ANGLES])
+    own = ear.sources([cylindrical(a, R, side * L) for a in ANGLES])
     late = recording.output_time >= recording.start
     return {
         "field": field.round(3).tolist(),

@@ -4,9 +4,10 @@ import pathlib
 import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, as_completed
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from examples.papers import reduced
+from examples.papers import floor, reduced
 from examples.papers.case import AROUND, FEW_AROUND, FEW_SEEDS, SEEDS, Case, around, code_hash, kept
 from examples.papers.hearing import Ear
 
@@ -18,14 +19,16 @@ _QUICK = ((1, 2), (1.0,))  # seeds, speeds over the named one
 
 
 def evaluate(what: str, case: Case, radiation_model: str, cache: pathlib.Path) -> dict[str, Any]:
-    """Return what a function of `reduced` makes of one case (worker)."""
-    name = f"{case.key(radiation_model)}-{radiation_model}-{code_hash('reduced', 'hearing')}-{what}"
+    """Return what a function of `reduced`, or `floor.floors`, makes of one case (worker)."""
+    module: ModuleType = reduced if hasattr(reduced, what) else floor
+    code = code_hash(module.__name__.rsplit(".", 1)[-1], "hearing")
+    name = f"{case.key(radiation_model)}-{radiation_model}-{code}-{what}"
 
     def compute() -> dict[str, Any]:
         # of contact ellipses that reach a shoulder at large amplitudes, once per run: the page says so
         warnings.simplefilter("ignore", UserWarning)
         ear = Ear(case.recording(radiation_model), radiation_model, cache)
-        found: dict[str, Any] = getattr(reduced, what)(ear, case)
+        found: dict[str, Any] = getattr(module, what)(ear, case)
         return found
 
     return kept(cache / what / f"{name}.json", compute)
@@ -71,7 +74,7 @@ class Runs:
         Parameters
         ----------
         what : str
-            A function of `reduced`.
+            A function of `reduced`, or ``floors``.
         cases : sequence of Case
         words : str
             Shown beside the bar.

@@ -1,23 +1,25 @@
-"""Statements of a paper that need no absolute level: judged seed by seed, then put into one of four classes.
+"""Statements of a paper that need no absolute level: judged seed by seed, then put into one class.
 
-================================  ========================================================================
-*holds*                           for all seeds
-*does not hold*                   for none
-*chance*                          it depends on the draw: the paper's inputs have no cause for it, or it holds
-                                  for some seeds; the count is given
-*contradicts mechanics*           a proof of one line says why no such bearing can do it
-================================  ========================================================================
-
-A statement about an order (*above*, *largest*) holds where every margin is positive. A trend whose size the
+The classes and their rules are `CLASSES`, the one definition of all pages; :func:`classed` applies it. A
+statement about an order (*above*, *largest*) holds where every margin is positive. A trend whose size the
 paper prints holds only where ours has its sign and comes within 3 dB of it or within a factor of 1.5.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-HOLDS, NOT, UNSEEN = "holds", "does not hold", "not judged"
-CHANCE, AGAINST = "chance", "contradicts mechanics"
-CLASSES = (HOLDS, NOT, CHANCE, AGAINST)
+from fmu_bearing.results.table import markdown
+
+HOLDS, NOT, CHANCE = "holds", "does not hold", "chance"
+BUILT, UNSEEN = "by construction", "not decidable"
+#: Each class and its rule. No class is given by an argument: what mechanics says is a remark beside it.
+CLASSES = {
+    HOLDS: "for every seed",
+    NOT: "for no seed",
+    CHANCE: "for some seeds and not for others: the draw of waves, sizes and angles decides",
+    BUILT: "an input of the scene was set to it before any run; counts neither way",
+    UNSEEN: "nothing in these runs can show it; counts neither way",
+}
 FACTOR, WITHIN_DB = 1.5, 3.0
 _NAMED = 3  # cases named that a statement fails in
 
@@ -33,15 +35,11 @@ class Judged:
 
 
 @dataclass(frozen=True)
-class Reason:
-    """Why a statement is chance or contradicts mechanics, in one line; decided before any run."""
+class Remark:
+    """One line beside a statement, decided before any run; ``built``: it holds by an input of the scene."""
 
-    kind: str
     line: str
-
-    def __post_init__(self) -> None:
-        if self.kind not in (CHANCE, AGAINST) or not self.line.strip():
-            raise ValueError(f"a reason is for {CHANCE} or {AGAINST}, and gives it: {self}")
+    built: bool = False
 
 
 @dataclass(frozen=True)
@@ -57,7 +55,7 @@ class Classed:
         Share of single comparisons that hold, over all seeds.
     figures : str
         Of the first seed.
-    reason : str
+    remark : str
     """
 
     statement: str
@@ -66,7 +64,12 @@ class Classed:
     seeds: int
     share: float
     figures: str
-    reason: str = ""
+    remark: str = ""
+
+    @property
+    def refutable(self) -> bool:
+        """Whether our runs could have shown the opposite."""
+        return self.kind not in (BUILT, UNSEEN)
 
 
 def verdict(statement: str, margins: Sequence[tuple[str, float]], unit: str = "dB") -> Judged:
@@ -116,51 +119,56 @@ def _like(paper: float, ours: float) -> float:
     return min(along, max(near, ratio))
 
 
-def classed(by_seed: Sequence[Sequence[Judged]], reasons: Mapping[str, Reason]) -> list[Classed]:
+def classed(by_seed: Sequence[Sequence[Judged]], remarks: Mapping[str, Remark]) -> list[Classed]:
     """Put statements, judged for each seed in one order, into their classes.
 
     Raises
     ------
     ValueError
-        When a reason belongs to no statement, or seeds judged different statements.
+        When a remark belongs to no statement, or seeds judged different statements.
     """
     names = [one.statement for one in by_seed[0]]
     for judged in by_seed:
         if [one.statement for one in judged] != names:
             raise ValueError("every seed must be judged on the same statements")
-    if unknown := set(reasons) - set(names):
-        raise ValueError(f"a reason for what nobody states: {', '.join(sorted(unknown))}")
-    return [_one([judged[k] for judged in by_seed], reasons.get(name)) for k, name in enumerate(names)]
+    if unknown := set(remarks) - set(names):
+        raise ValueError(f"a remark on what nobody states: {', '.join(sorted(unknown))}")
+    return [_one([judged[k] for judged in by_seed], remarks.get(name)) for k, name in enumerate(names)]
 
 
-def _one(same: Sequence[Judged], reason: Reason | None) -> Classed:
+def _one(same: Sequence[Judged], remark: Remark | None) -> Classed:
     """Class of one statement from its verdicts."""
     seen = [one for one in same if one.verdict != UNSEEN]
     count, holds = len(seen), sum(one.verdict == HOLDS for one in seen)
     margins = [margin for one in seen for margin in one.margins]
     share = sum(margin > 0.0 for margin in margins) / len(margins) if margins else 0.0
-    if not seen:
-        kind = UNSEEN
-    else:
-        kind = by_count(holds, count)
-        if reason is not None and kind != HOLDS:  # what our own runs do is neither impossible nor a draw
-            kind = reason.kind
-    line = "" if reason is None or kind == HOLDS else reason.line
-    return Classed(same[0].statement, kind, holds, count, share, same[0].figures, line)
+    kind = by_count(holds, count)
+    if remark is not None and remark.built and kind != UNSEEN:
+        kind = BUILT
+    return Classed(
+        same[0].statement, kind, holds, count, share, same[0].figures, "" if remark is None else remark.line
+    )
 
 
 def by_count(holds: int, count: int) -> str:
     """Class of a statement from the number of seeds it holds for: they have to agree."""
+    if not count:
+        return UNSEEN
     if holds == count:
         return HOLDS
     return CHANCE if holds else NOT
 
 
 def counts(found: Sequence[Classed]) -> str:
-    """How many statements fall into each class."""
-    classes = ", ".join(
-        f"{number} *{kind}*"
-        for kind in (*CLASSES, UNSEEN)
-        if (number := sum(one.kind == kind for one in found)) or kind in (HOLDS, NOT)
-    )
-    return f"Of {len(found)} statements: {classes}"
+    """How many statements fall into each class; those that no run can refute are counted apart."""
+    number = {kind: sum(one.kind == kind for one in found) for kind in CLASSES}
+    refutable = sum(one.refutable for one in found)
+    judged = [f"{number[kind]} *{kind}*" for kind in (HOLDS, NOT, CHANCE)]
+    apart = [f"{number[kind]} *{kind}*" for kind in (BUILT, UNSEEN) if number[kind]]
+    beside = f"; beside them {', '.join(apart)}" if apart else ""
+    return f"Of {refutable} statements that runs can refute: {', '.join(judged)}{beside}"
+
+
+def classes_table() -> str:
+    """Return the one definition of the classes, as a table."""
+    return markdown(["class", "rule"], [[f"*{kind}*", rule] for kind, rule in CLASSES.items()])

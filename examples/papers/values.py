@@ -20,7 +20,10 @@ FIT, CHECK = "fit", "check"
 
 @dataclass(frozen=True)
 class Interval:
-    """Closed interval that a value lies in; of one point where the paper prints the value itself."""
+    """Closed interval that a value lies in; of one point where the paper prints the value itself.
+
+    Where the paper's figures leave only a lower bound, ``high`` is infinite and the bound is the middle.
+    """
 
     low: float
     high: float
@@ -28,12 +31,7 @@ class Interval:
     @property
     def middle(self) -> float:
         """Its midpoint."""
-        return 0.5 * (self.low + self.high)
-
-    @property
-    def deviation(self) -> float:
-        """Standard deviation of a value that may lie anywhere in it."""
-        return (self.high - self.low) / math.sqrt(12.0)
+        return 0.5 * (self.low + self.high) if math.isfinite(self.high) else self.low
 
     def distance(self, value: float) -> float:
         """Return how far ``value`` lies above (positive) or below it; 0 inside."""
@@ -149,8 +147,9 @@ class Met:
 def read(name: str) -> tuple[Value, ...]:
     """Return the values of one paper from ``data/NAME.csv``.
 
-    A row gives either ``value`` or ``difference`` and ``percent``, as printed. With ``above`` the value is
-    the one calculated there, which lies the same difference above the measured one that the percentage is of.
+    A row gives either ``value`` or ``difference`` and ``percent``, as printed; ``>80`` is a lower bound that
+    the paper's figures leave. With ``above`` the value is the one calculated there, which lies the same
+    difference above the measured one that the percentage is of.
 
     Raises
     ------
@@ -169,11 +168,7 @@ def read(name: str) -> tuple[Value, ...]:
                 raise ValueError(f"{name}, {what}: role is {FIT} or {CHECK}, not {row['role']!r}")
             if what in {one.name for one in found}:
                 raise ValueError(f"{name}: two values are called {what}")
-            paper = (
-                Interval(float(row["value"]), float(row["value"]))
-                if row["value"]
-                else recovered(row["difference"], row["percent"])
-            )
+            paper = _given(row["value"]) if row["value"] else recovered(row["difference"], row["percent"])
             derived = f"{row['difference']} dB are {row['percent']} %" if row["difference"] else ""
             if row["above"]:
                 more = float(row["difference"])
@@ -187,6 +182,12 @@ def read(name: str) -> tuple[Value, ...]:
                 )
             )  # fmt: skip
     return tuple(found)
+
+
+def _given(text: str) -> Interval:
+    """Interval of a value as a table has it: one number, or a lower bound after ``>``."""
+    number = float(text.removeprefix(">"))
+    return Interval(number, math.inf if text.startswith(">") else number)
 
 
 def met(values: Iterable[Value], ours: Iterable[tuple[int, Mapping[str, float]]]) -> list[Met]:

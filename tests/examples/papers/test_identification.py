@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from examples.papers import impact_noise, multi_source, sound_field
-from examples.papers.identification import BOTH, Number, amplitude, check_numbers, identify
+from examples.papers.identification import BOTH, Number, amplitude, check_numbers, exponent, identify
 from examples.papers.values import Interval, Met, Value
 
 UNBALANCE = "imperfections.unbalance_um"
@@ -58,7 +58,7 @@ def test_two_numbers_are_found_together_and_seeds_give_a_range():
             "tone": Met(tone, {1: (line,), 2: (line,)}),
         }
 
-    numbers = (amplitude("loud"), Number("unbalance", "um", (UNBALANCE,), "tone", (0.05, 20.0)))
+    numbers = (amplitude("loud"), Number("unbalance", "um", (UNBALANCE,), "tone", (0.05, 20.0), str))
     found = identify("7003C-spindle", (), numbers, [loud, tone], levels)
     waves, unbalance = found.found
     wanted = math.sqrt(10.0 ** (14.0 / 10.0) / 0.1)
@@ -68,6 +68,25 @@ def test_two_numbers_are_found_together_and_seeds_give_a_range():
     # waves carry 92 % of the level's energy: 4 dB of it are 4 / 0.92 dB of their amplitude
     assert high / low == pytest.approx(10.0 ** (4.0 / 0.92 / 20.0), rel=0.1) and low < waves.after < high
     assert found.tries <= 8
+
+
+@pytest.mark.parametrize("held", [90.0, 40.0])
+def test_an_exponent_is_found_from_a_second_speed_whatever_order_the_search_holds(held):
+    """Waves of order 100 sound at the lower speed and of order 50 at twice it, each as A_1 n^-p."""
+    low, high = value("low", 60.0), value("high", 68.0)
+
+    def levels(changes):
+        first, p = dict(changes)[BOTH[0]], dict(changes)["imperfections.waviness_exponent"]
+        amounts = [first * n**-p for n in (100.0, 50.0)]
+        one, other = (120.0 + 20.0 * math.log10(a) - 4.0 * k for k, a in enumerate(amounts))
+        return {"low": Met(low, {1: (one,)}), "high": Met(high, {1: (other,)})}
+
+    numbers = (amplitude("low", 20.0), exponent("high", "low", held))
+    found = identify("7003C-spindle", (), numbers, [low, high], levels)
+    wanted = 12.0 / (20.0 * math.log10(2.0))  # 8 dB and the 4 that the higher speed loses here
+    assert found.found[1].after == pytest.approx(wanted, abs=0.05)
+    assert found.found[0].after == pytest.approx(1e-3 * 100.0**wanted, rel=0.2)
+    assert found.tries <= 8 and "ground races have 1 to 2" in found.words
 
 
 def test_the_search_is_bounded_and_says_so():

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from examples.papers import statements
-from examples.papers.statements import AGAINST, CHANCE, HOLDS, NOT, UNSEEN, Judged, Reason
+from examples.papers.statements import BUILT, CHANCE, HOLDS, NOT, UNSEEN, Judged, Remark
 
 
 def test_a_statement_holds_only_where_every_margin_is_positive():
@@ -61,19 +61,30 @@ def test_classes_follow_the_count_over_the_seeds(holds, kind):
     assert found.share == pytest.approx(holds / 4)
 
 
-def test_a_reason_classes_what_does_not_hold_and_nothing_else():
-    why = Reason(AGAINST, "momentum")
-    assert statements.classed(_seeds(0), {"s": why})[0].kind == AGAINST
-    (refuted,) = statements.classed(_seeds(4), {"s": why})  # our own bearing does it
-    assert (refuted.kind, refuted.reason) == (HOLDS, "")
-    (draw,) = statements.classed(_seeds(0), {"s": Reason(CHANCE, "no direction")})
-    assert (draw.kind, draw.reason) == (CHANCE, "no direction")
+def test_no_argument_gives_a_class_but_an_input_that_was_set():
+    why = Remark("a line of mechanics")
+    for holds, kind in ((4, HOLDS), (2, CHANCE), (0, NOT)):
+        (found,) = statements.classed(_seeds(holds), {"s": why})
+        assert (found.kind, found.remark, found.refutable) == (kind, "a line of mechanics", True)
+    for holds in (4, 0):  # whatever the runs give
+        (found,) = statements.classed(_seeds(holds), {"s": Remark("set to it", built=True)})
+        assert (found.kind, found.refutable) == (BUILT, False)
     with pytest.raises(ValueError, match="nobody states: t"):
         statements.classed(_seeds(0), {"t": why})
-    with pytest.raises(ValueError, match="a reason is for"):
-        Reason(HOLDS, "because")
 
 
-def test_unseen_statements_are_counted_apart():
-    found = statements.classed([[Judged("s", UNSEEN, "")]], {})
-    assert statements.counts(found) == "Of 1 statements: 0 *holds*, 0 *does not hold*, 1 *not judged*"
+def test_what_runs_cannot_refute_is_counted_apart():
+    unseen = Judged("t", UNSEEN, "")
+    found = statements.classed([[*one, unseen] for one in _seeds(4)], {"t": Remark("", built=True)})
+    assert statements.counts(found) == (
+        "Of 1 statements that runs can refute: 1 *holds*, 0 *does not hold*, 0 *chance*; beside them "
+        "1 *not decidable*"
+    )
+
+
+def test_each_class_is_defined_once():
+    table = statements.classes_table()
+    assert [kind in table for kind in statements.CLASSES] == [True] * 5
+    assert {statements.by_count(*pair) for pair in ((4, 4), (2, 4), (0, 4), (0, 0))} | {BUILT} == set(
+        statements.CLASSES
+    )

@@ -7,6 +7,7 @@ import pytest
 
 from examples.papers import page, values
 from examples.papers.identification import Answer, Found, amplitude
+from examples.papers.statements import classed, verdict
 from examples.papers.values import Interval, Met, Value, recovered
 from tests.examples.papers.fitted import FITTED
 
@@ -52,6 +53,17 @@ def test_residual_is_the_distance_to_the_interval():
     assert (one.level, one.residual, one.from_middle) == pytest.approx((91.0, 1.9, 5.2))
 
 
+def test_a_bound_is_missed_from_one_side_alone(tmp_path, monkeypatch):
+    head = "name,role,group,quantity,place,rpm,value,difference,percent,above,source,without,marked"
+    (tmp_path / "x.csv").write_text(f"{head}\na,check,g,leq,P4,1,>80.9,,,,s,,\n")
+    monkeypatch.setattr(values, "DATA", tmp_path)
+    (bound,) = values.read("x")
+    assert page.printed(bound.paper) == "at least 80.9"
+    residuals = [Met(bound, {1: (level,)}).residual for level in (60.9, 80.9, 120.0)]
+    assert residuals == pytest.approx([-20.0, 0.0, 0.0])
+    assert Met(bound, {1: (60.9,)}).from_middle == pytest.approx(-20.0)
+
+
 def test_ours_is_the_median_over_speeds_and_seeds():
     """One speed at which a line meets a mode moves nothing: all nine count the same, all seeds together."""
     value = Value("P1", "check", "measured", "leq", "P1", 1.0, Interval(70.0, 70.0), "")
@@ -70,8 +82,8 @@ def _met(paper, *ours, role="check", group="measured", without="", rpm=1.0, mark
     return Met(value, {seed: (level,) for seed, level in enumerate(ours, 1)})
 
 
-def test_rms_counts_distances_and_leaves_out_what_contradicts():
-    found = [_met(70.0, 73.0, 73.0), _met(80.0, 75.0, 77.0), _met(82.5, 0.0, without="contradicts mechanics")]
+def test_rms_counts_distances_and_leaves_out_what_is_said_to_stay_out():
+    found = [_met(70.0, 73.0, 73.0), _met(80.0, 75.0, 77.0), _met(82.5, 0.0, without="is not in the scene")]
     assert values.rms(found) == pytest.approx(math.sqrt((9 + 16) / 2))
     assert math.isnan(values.rms(found[2:]))
     assert values.rms_by_seed(found) == pytest.approx((math.sqrt((9 + 25) / 2), math.sqrt((9 + 9) / 2)))
@@ -110,17 +122,22 @@ def test_what_is_marked_is_given_with_and_without():
 def test_the_verdict_says_what_was_fitted_and_how_far_off_the_rest_is():
     levels = [
         _met(50.0, 50.0, 50.0, role="fit", rpm=1000.0), _met(70.0, 72.0, 74.0, rpm=10000.0),
-        _met(82.5, 0.0, 0.0, without="contradicts mechanics"),
+        _met(82.5, 0.0, 0.0, without="is not in the scene"),
     ]  # fmt: skip
     number = amplitude("50.0 1000.0")
     answer = Answer((Found(number, 0.3, 1.25, levels[0], (1.1, 1.4)),), (), 3)
-    text = page.verdict_part(answer, levels, page.slopes("P1", levels[:2]), "the seat.")
+    judged = classed([[verdict("a", [("x", m)]), verdict("b", [("x", 1.0)])] for m in (1.0, -1.0)], {})
+    text = page.verdict_part(answer, levels, page.slopes("P1", levels[:2]), judged, "the seat.")
     assert max(map(len, text.splitlines())) <= 110 and "Missed" not in text
     text = " ".join(text.split())
-    assert "**Fitted:** A_1 of both races, 1.25 um (catalogue: 0.3), from 50.0 1000.0. Nothing else." in text
+    short = "1 number identified, each from one value; 2 values predicted, 1 within 3 dB; 2 statements"
+    assert f"**In short:** {short} predicted, 1 hold." in text
+    assert "**Fitted:** A_1 of both races, 1.25 um (start: 0.3), from 50.0 1000.0. Nothing else." in text
     assert "one value is 3.00 dB rms off (seeds 2.0 to 4.0), goal of 3 met." in text
-    assert "Slope, P1: 23.0 dB per decade (seeds 22.0 to 24.0), paper 20.0: goal of 5 met." in text
-    assert "**Farthest off:** 70.0 10000.0 +3.0 dB." in text and "**Nobody could know:** the seat." in text
+    assert "Slope, P1: 23.0 dB per decade (seeds 22.0 to 24.0), paper 20.0: goal of 3 met." in text
+    # what stays out of the averages is named all the same where values are farthest off
+    assert "**Farthest off:** 82.5 1.0 -82.5 dB; 70.0 10000.0 +3.0 dB." in text
+    assert "**Nobody could know:** the seat." in text
 
 
 @pytest.mark.parametrize("name", FITTED)

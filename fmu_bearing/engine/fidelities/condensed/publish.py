@@ -4,7 +4,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.ball_motion import show_moving
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, R, S, T, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.equations import inner_pose, outer_pose
@@ -47,18 +47,24 @@ def fastest_ball(p, speed, y):
 
 @kernel
 def publish_balls(p, lv, speed, speed_rate, y, f):
-    """Places, rates and spins of the balls: see ``ball_motion``."""
+    """Places, rates and spins of the balls (see ``ball_motion``), but for their angles."""
     show_moving(p, lv, fastest_ball(p, speed, y), y, f)
-    orbit = lv[L.RATIO] * speed
+    for j in range(0, int(p[P.LANES]), FOUR):
+        store(y, Y.OM + j, splat(lv[L.RATIO] * speed))
+        store(f, F.TH + j, splat(lv[L.RATIO] * speed_rate))
+        for row in range(j, j + 3 * STRIDE, STRIDE):
+            spin = load(lv, L.SPIN + row)
+            store(y, Y.WX + row, spin * speed)
+            store(f, F.WX + row, spin * speed_rate)
+
+
+@kernel
+def publish_angles(p, lv, y):
+    """Angles of the balls, evenly spaced."""
     balls = p[P.BALLS]
     for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
         y[Y.TH + j] = wrap(lv[L.THETA] + 2.0 * PI * place / balls)
-        y[Y.OM + j] = orbit
-        f[F.TH + j] = lv[L.RATIO] * speed_rate
-        for i in range(3):
-            y[Y.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed
-            f[F.WX + i * STRIDE + j] = lv[L.SPIN + i * STRIDE + j] * speed_rate
 
 
 @kernel
@@ -86,12 +92,19 @@ def publish_losses(lv, speed, f):
 
 
 @kernel
-def publish(p, lv, speed, speed_rate, y, f):
-    """Write the whole state ``y`` and its right-hand side ``f`` (of fidelity full: see the layout)."""
+def publish_moving(p, lv, speed, speed_rate, y, f):
+    """Write ``y`` and ``f`` as `publish` does, but for the balls' angles."""
     publish_rings(lv, y, f)
     publish_cage(p, lv, speed, speed_rate, y, f)
     publish_balls(p, lv, speed, speed_rate, y, f)
     publish_losses(lv, speed, f)
+
+
+@kernel
+def publish(p, lv, speed, speed_rate, y, f):
+    """Write the whole state ``y`` and its right-hand side ``f`` (of fidelity full: see the layout)."""
+    publish_moving(p, lv, speed, speed_rate, y, f)
+    publish_angles(p, lv, y)
 
 
 @kernel

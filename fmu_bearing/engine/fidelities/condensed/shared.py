@@ -16,16 +16,18 @@ from fmu_bearing.engine.fidelities.condensed.operator import (
     clear_operator,
     find_operator,
 )
-from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish
+from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish_moving
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     clear_transverse,
     find_friction,
     find_transverse,
 )
 from fmu_bearing.engine.fidelities.full.start import start
+from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, STRIDE, C, F, L, P, Q, S, T, U, W, Y
+from fmu_bearing.engine.lanes import load, store
+from fmu_bearing.engine.layout import EQ, FOUR, STRIDE, C, F, L, P, Q, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.body_slopes import land_slopes
@@ -224,29 +226,34 @@ def advance(s, h):
 
 @kernel
 def show_end(p, s, w, h):
-    """Put the end of the step ``h`` (s), now in ``lv``, beside the published state, for samples between."""
+    """Put the end of the step ``h`` (s), now in ``lv``, beside the published state, for samples between.
+
+    Rows of balls go by lanes in use; what follows them in ``y`` and ``f`` is of the bodies.
+    """
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     y = w[W.STAGE : W.STAGE + Y.SIZE]
     f = w[W.LAST : W.LAST + F.SIZE]
-    for i in range(Y.SIZE):
+    for i in range(Y.Q0, Y.SIZE):
         y[i] = s[S.Y + i]
-    for i in range(F.SIZE):
+    for i in range(F.BODY, F.SIZE):
         f[i] = 0.0
-    publish(p, lv, s[S.SPEED] + h * s[S.SPEED_RATE], s[S.SPEED_RATE], y, f)
+    publish_moving(p, lv, s[S.SPEED] + h * s[S.SPEED_RATE], s[S.SPEED_RATE], y, f)
     # the interpolation needs angles that run on from the old ones
     turned = lv[L.RATIO] * h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
-    for j in range(int(p[P.LANES])):
-        y[Y.TH + j] = s[S.Y + Y.TH + j] + turned
+    for j in range(0, int(p[P.LANES]), FOUR):
+        store(y, Y.TH + j, load(s, S.Y + Y.TH + j) + turned)
 
 
 @kernel
 def keep_end(p, s, w):
     """Publish what `show_end` has shown."""
+    lanes = int(p[P.LANES])
     y = w[W.STAGE : W.STAGE + Y.SIZE]
-    f = w[W.LAST : W.LAST + F.SIZE]
-    for j in range(int(p[P.LANES])):
+    for j in range(lanes):
         y[Y.TH + j] = wrap(y[Y.TH + j])
-    for i in range(Y.SIZE):
+    copy_rows(y, s[S.Y :], Y.ROWS, lanes)
+    for i in range(Y.Q0, Y.SIZE):
         s[S.Y + i] = y[i]
-    for i in range(F.SIZE):
-        s[S.F + i] = f[i]
+    copy_rows(w[W.LAST :], s[S.F :], F.BODY // STRIDE, lanes)
+    for i in range(F.BODY, F.SIZE):
+        s[S.F + i] = w[W.LAST + i]

@@ -35,9 +35,6 @@ UNKNOWNS = _at(MOST)
 STEP = _at(MOST)  # of Newton's method
 SCALE = _at(MOST)  # what makes the unknowns comparable
 RESIDUAL = _at(MOST)  # N: forces out of balance, moments over a lever
-MATRIX = _at(MOST * (MOST + 1))  # equations by rows, the right-hand side last
-IMAGINARY = _at(MOST * (MOST + 1))  # imaginary parts, and coefficients of rates: see steady/growth.py
-RATES = _at(MOST * (MOST + 1))
 EIGEN = _at(_eigen.next)  # an eigenvector: see above
 FIRST_STATE = _at(_Y.SIZE)  # quasi-static state that is settled,
 EVEN_STATE = _at(_Y.SIZE)  # state of the even balls,
@@ -52,6 +49,10 @@ TURNING = _at()  # rad/s
 FOUND_GROWTH = _at()  # 1/s: the whirl's, so far,
 FOUND_TURNING = _at()  # rad/s
 SIZE = _at.next
+
+# matrices of as many unknowns as there are, rows one number longer, at the end of ``w``
+MATRIX, IMAGINARY, RATES = range(3)  # equations, right-hand side last; imaginary parts; see steady/growth.py
+MATRICES = 3
 
 # what a search takes from one piece of it to the next: places and lengths
 FIRST_SIZE = SIZE - FIRST_STATE

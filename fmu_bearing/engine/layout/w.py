@@ -80,7 +80,8 @@ MOTION = _at(_MO.SIZE)  # motion sample: see motion
 CONTACT = _at(_K.SIZE)  # how contacts answer motion: see contact
 PATTERN = _at(_PT.SIZE)  # steady state of unequal balls: see pattern
 SET = _at(_SP.work_size(1, _L.N))  # work space of a set's own, where the bearing is alone
-SOUND = _at.next  # work space of the sound kernels
+SOUND = _at.next  # work space of the sound kernels, then the matrices of PATTERN: see `steady.pattern`
+SPARE = 8  # numbers between both
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
 # where a run starts
@@ -189,4 +190,5 @@ def size(p):
     """Length of ``w`` for the parameters ``p``."""
     if _SP.has_shaft(p):
         return int(p[int(p[_P.SET]) + _SP.SIZE_W])
-    return SOUND + int(p[_P.SOUND_WORK]) + 8
+    unknowns = _PT.BALL * int(p[_P.BALLS]) + _PT.TAIL
+    return SOUND + int(p[_P.SOUND_WORK]) + SPARE + _PT.MATRICES * unknowns * (unknowns + 1)

@@ -15,7 +15,15 @@ from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.steady.even import BOTH, OUTER
-from fmu_bearing.engine.steady.pattern import STENCIL, neighbour, partner, slope, slope_weight, tail
+from fmu_bearing.engine.steady.pattern import (
+    STENCIL,
+    matrix_at,
+    neighbour,
+    partner,
+    slope,
+    slope_weight,
+    tail,
+)
 
 
 @kernel
@@ -114,12 +122,13 @@ def ball_rows(p, c, y, ahead, w, jac):
     last = tail(p)
     size = last + PT.TAIL
     unknown = W.PATTERN + PT.UNKNOWNS
+    first = matrix_at(p, PT.MATRIX)
     whirl = w[unknown + last + PT.WHIRL]
     through = w[unknown + last + PT.ORBIT] - whirl
     turn = Q.CAGE + Q.TURN
     for i in range(PT.BALL):
         for j in range(balls):
-            row = W.PATTERN + PT.MATRIX + (i * balls + j) * (size + 1)
+            row = first + (i * balls + j) * (size + 1)
             own = J.B + i * J.STATES * STRIDE + j
             by_body = J.C + i * J.BODIES * STRIDE + j
             by_orbit = jac[own + (PT.PLACED + 2) * STRIDE]
@@ -177,11 +186,12 @@ def body_rows(p, held, ahead, w, jac):
     last = tail(p)
     size = last + PT.TAIL
     unknown = W.PATTERN + PT.UNKNOWNS
+    first = matrix_at(p, PT.MATRIX)
     whirl = w[unknown + last + PT.WHIRL]
     through = w[unknown + last + PT.ORBIT] - whirl
     turn = Q.CAGE + Q.TURN
     for i in range(Q.SIZE):
-        row = W.PATTERN + PT.MATRIX + (last + i) * (size + 1)
+        row = first + (last + i) * (size + 1)
         if is_fixed(p, i, held):
             w[row + last + i] = 1.0
             continue
@@ -225,7 +235,7 @@ def last_rows(p, whirls, w):
     balls = int(p[P.BALLS])
     last = tail(p)
     width = last + PT.TAIL + 1
-    row = W.PATTERN + PT.MATRIX + (last + PT.ORBIT) * width
+    row = matrix_at(p, PT.MATRIX) + (last + PT.ORBIT) * width
     if p[P.CAGE] != 0.0:
         w[row + last + Q.CAGE + Q.TURN] = 1.0
     else:
@@ -239,7 +249,7 @@ def last_rows(p, whirls, w):
 def derivatives(p, c, y, held, ahead, whirls, w, jac):
     """Fill ``PT.MATRIX`` with the derivatives of the balance by the unknowns, from the full Jacobian."""
     size = tail(p) + PT.TAIL
-    at = W.PATTERN + PT.MATRIX
+    at = matrix_at(p, PT.MATRIX)
     for i in range(size * (size + 1)):
         w[at + i] = 0.0
     ball_rows(p, c, y, ahead, w, jac)

@@ -15,6 +15,7 @@ from fmu_bearing.engine.layout import PT, STRIDE, C, F, J, P, Q, R, W, Y
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import jacobian
+from fmu_bearing.engine.steady.pattern import matrix_at
 
 #: Rings that are held.
 NONE, OUTER, BOTH = range(3)
@@ -163,7 +164,7 @@ def longest(p, c, k, spin):
 @kernel
 def newton_step(p, c, y, held, w, jac):
     """Put Newton's step, in shares of the longest, to ``PT.STEP``; its largest share, negative if none."""
-    at = W.PATTERN + PT.MATRIX
+    at = matrix_at(p, PT.MATRIX)
     spin = math.sqrt(y[Y.WX] * y[Y.WX] + y[Y.WR] * y[Y.WR] + y[Y.WT] * y[Y.WT]) + 1e-3
     for i in range(PT.EVEN):
         row = at + i * PT.EVEN_ROW

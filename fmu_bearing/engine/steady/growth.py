@@ -15,7 +15,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, J, P, Q, W
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.steady.equations import ball_weight, body_weight, derivatives, is_fixed
-from fmu_bearing.engine.steady.pattern import STENCIL, neighbour, show, slope_weight, tail, take
+from fmu_bearing.engine.steady.pattern import STENCIL, matrix_at, neighbour, show, slope_weight, tail, take
 
 # Where the eigenvalue is looked for at first, in shares of shaft speed: a whirl by a little less than half of
 # it, and sooner one that grows, as the one that decays slowest is asked for. Then beside what was found.
@@ -34,7 +34,7 @@ def rate_coefficients(p, c, held, ahead, w, jac):
     balls = int(p[P.BALLS])
     last = tail(p)
     width = last + PT.TAIL + 1
-    at = W.PATTERN + PT.RATES
+    at = matrix_at(p, PT.RATES)
     through = w[W.PATTERN + PT.UNKNOWNS + last + PT.ORBIT]
     for i in range((last + Q.SIZE) * width):
         w[at + i] = 0.0
@@ -86,9 +86,9 @@ def combine(p, c, growth, turning, held, w):
     """Put A + lambda B + lambda^2 N to ``PT.MATRIX`` and ``PT.IMAGINARY``, from A and B there."""
     size = tail(p) + Q.SIZE
     width = tail(p) + PT.TAIL + 1
-    real = W.PATTERN + PT.MATRIX
-    imaginary = W.PATTERN + PT.IMAGINARY
-    rates = W.PATTERN + PT.RATES
+    real = matrix_at(p, PT.MATRIX)
+    imaginary = matrix_at(p, PT.IMAGINARY)
+    rates = matrix_at(p, PT.RATES)
     for i in range(size * width):
         w[real + i] += growth * w[rates + i]
         w[imaginary + i] = turning * w[rates + i]
@@ -177,7 +177,7 @@ def right_side(p, c, growth, turning, held, w):
     """Put -(B + lambda N) q - N q' to the right side; eigenvector q and its rates q' are in ``PT.EIGEN``."""
     size = tail(p) + Q.SIZE
     width = tail(p) + PT.TAIL + 1
-    rates = W.PATTERN + PT.RATES
+    rates = matrix_at(p, PT.RATES)
     vector = w[W.PATTERN + PT.EIGEN : W.PATTERN + PT.FIRST_STATE]
     for i in range(size):
         real = 0.0
@@ -229,8 +229,8 @@ def growth_beside(p, c, speed, held, rest, w, jac):
     last = tail(p)
     size = last + Q.SIZE
     width = last + PT.TAIL + 1
-    re = w[W.PATTERN + PT.MATRIX : W.PATTERN + PT.IMAGINARY]
-    im = w[W.PATTERN + PT.IMAGINARY : W.PATTERN + PT.RATES]
+    re = w[matrix_at(p, PT.MATRIX) : matrix_at(p, PT.IMAGINARY)]
+    im = w[matrix_at(p, PT.IMAGINARY) : matrix_at(p, PT.RATES)]
     order = w[W.PATTERN + PT.STEP : W.PATTERN + PT.SCALE]
     vector = w[W.PATTERN + PT.EIGEN : W.PATTERN + PT.FIRST_STATE]
     answer_re = vector[PT.RIGHT : PT.RIGHT_IM]

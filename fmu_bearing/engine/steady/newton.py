@@ -7,7 +7,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, F, P, Q, W
 from fmu_bearing.engine.newton.jacobian import is_angle, jacobian
 from fmu_bearing.engine.steady.equations import derivatives, out_of_balance, residual
-from fmu_bearing.engine.steady.pattern import show, tail
+from fmu_bearing.engine.steady.pattern import matrix_at, show, tail
 
 #: What a round of Newton's method comes to.
 GOES_ON, SETTLED, FAILED = range(3)
@@ -55,7 +55,7 @@ def solve(p, w):
     Returns the step's largest share of the longest one; negative where there is none.
     """
     size = tail(p) + PT.TAIL
-    at = W.PATTERN + PT.MATRIX
+    at = matrix_at(p, PT.MATRIX)
     for i in range(size):
         row = at + i * (size + 1)
         largest = 0.0
@@ -94,7 +94,7 @@ def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
     """
     f = w[W.F0 : W.F0 + F.SIZE]
     size = tail(p) + PT.TAIL
-    at = W.PATTERN + PT.MATRIX
+    at = matrix_at(p, PT.MATRIX)
     show(p, ahead, w, y)
     jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
     before = residual(p, c, y, f, held, ahead, whirls, w)
@@ -129,7 +129,7 @@ def push_aside(p, c, speed, offset, ahead, y, w, jac):
     """
     size = tail(p) + PT.TAIL
     last = tail(p)
-    at = W.PATTERN + PT.MATRIX
+    at = matrix_at(p, PT.MATRIX)
     show(p, ahead, w, y)
     jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
     derivatives(p, c, y, 0, ahead, True, w, jac)

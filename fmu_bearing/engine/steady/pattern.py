@@ -49,6 +49,13 @@ def tail(p):
 
 
 @kernel
+def matrix_at(p, k):
+    """Return the place in ``w`` of the matrix ``k`` of the unknowns: ``PT.MATRIX`` and those behind it."""
+    unknowns = tail(p) + PT.TAIL
+    return W.SOUND + int(p[P.SOUND_WORK]) + W.SPARE + k * unknowns * (unknowns + 1)
+
+
+@kernel
 def partner(i):
     """Coordinate that moves with ``i`` as its axes turn, and the sign: rate of ``i`` over speed and it.
 

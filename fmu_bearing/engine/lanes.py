@@ -95,6 +95,11 @@ def lane(value, j):
     return value[j]
 
 
+def transposed(first, second, third, fourth):
+    """Return lane 0 of four times four doubles, then lanes 1, 2 and 3: rows become columns."""
+    return tuple(np.array([first, second, third, fourth]).T)
+
+
 def to_bits(value):
     """Return the bits of four doubles, as unsigned words."""
     return value.view(np.uint64)
@@ -239,6 +244,18 @@ def _emit_sum(context, builder, sig, args):
 @_define(lane, types.float64, four, types.Integer, beside=True)
 def _emit_lane(context, builder, sig, args):
     return builder.extract_element(*args)
+
+
+@_define(transposed, types.UniTuple(four, FOUR), four, four, four, four, beside=True)
+def _emit_transposed(context, builder, sig, args):
+    def mixed(one, other, *places):
+        return builder.shuffle_vector(one, other, ir.Constant(ir.VectorType(_INDEX, FOUR), places))
+
+    first, second, third, fourth = args
+    even = mixed(first, second, 0, 4, 2, 6), mixed(third, fourth, 0, 4, 2, 6)
+    odd = mixed(first, second, 1, 5, 3, 7), mixed(third, fourth, 1, 5, 3, 7)
+    rows = [mixed(*even, 0, 1, 4, 5), mixed(*odd, 0, 1, 4, 5), mixed(*even, 2, 3, 6, 7), mixed(*odd, 2, 3, 6, 7)]
+    return context.make_tuple(builder, sig.return_type, rows)
 
 
 def _row(array):

@@ -14,7 +14,7 @@ import math
 
 from fmu_bearing.engine.choices import CONTACTS, SCALARS
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import sum_lanes
+from fmu_bearing.engine.lanes import lane, load, splat, sum_lanes
 from fmu_bearing.engine.layout import FOUR, MO, SD, STRIDE
 
 _FLOOR2 = SD.SPEED_FLOOR**2
@@ -54,19 +54,22 @@ def form(ps, ws, x, turns, out):
 
 @kernel
 def _multiples(turns, lanes, orders, table):
-    """Cosines, then sines of the multiples 1 .. ``orders`` of every ball's angle, ball after ball."""
-    for j in range(lanes):
-        first_cosine = turns[j]
-        first_sine = turns[lanes + j]
-        c = 1.0
-        s = 0.0
-        row = table[2 * orders * j : 2 * orders * (j + 1)]
+    """Cosines, then sines of the multiples 1 .. ``orders`` of every ball's angle, ball after ball.
+
+    Four balls at a time.
+    """
+    size = 2 * orders
+    for j in range(0, lanes, FOUR):
+        first_cosine, first_sine = load(turns, j), load(turns, lanes + j)
+        c, s = splat(1.0), splat(0.0)
+        at = size * j
         for m in range(orders):
             turned = c * first_cosine - s * first_sine
             s = c * first_sine + s * first_cosine
             c = turned
-            row[m] = c
-            row[orders + m] = s
+            for k in range(FOUR):
+                table[at + size * k + m] = lane(c, k)
+                table[at + size * k + orders + m] = lane(s, k)
 
 
 @kernel

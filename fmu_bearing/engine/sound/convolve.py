@@ -16,7 +16,7 @@ the block of outputs after the next. Without a wait the early units fall on one 
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, splat, store
+from fmu_bearing.engine.lanes import load, splat, store, transposed
 from fmu_bearing.engine.layout import FOUR, SD
 from fmu_bearing.engine.sound.transform import combine, divide, fold, reversed_bits, unfold
 
@@ -216,16 +216,27 @@ def _keep(ps, ss, at, newest, z, begin, end):
         p1 = _slot(ps, at, lane + 1, newest, rows)
         p2 = _slot(ps, at, lane + 2, newest, rows)
         p3 = _slot(ps, at, lane + last, newest, rows)
-        for k in range(rows):
-            x = z[2 * n * k + lane :]
-            ss[p0 + k] = x[0]
-            ss[p1 + k] = x[1]
-            ss[p2 + k] = x[2]
-            ss[p3 + k] = x[last]
-            ss[p0 + rows + k] = x[n]
-            ss[p1 + rows + k] = x[n + 1]
-            ss[p2 + rows + k] = x[n + 2]
-            ss[p3 + rows + k] = x[n + last]
+        for part in range(2):
+            of = part * n + lane
+            to = part * rows
+            for k in range(0, rows - 1, FOUR):
+                x0, x1, x2, x3 = _square(z, 2 * n * k + of, 2 * n)
+                store(ss, p0 + to + k, x0)
+                store(ss, p1 + to + k, x1)
+                store(ss, p2 + to + k, x2)
+                store(ss, p3 + to + k, x3)
+            to += rows - 1
+            of += 2 * n * (rows - 1)
+            ss[p0 + to] = z[of]
+            ss[p1 + to] = z[of + 1]
+            ss[p2 + to] = z[of + 2]
+            ss[p3 + to] = z[of + last]
+
+
+@kernel
+def _square(z, at, step):
+    """Four lanes of four rows of ``z``, ``step`` apart, as one vector per lane."""
+    return transposed(load(z, at), load(z, at + step), load(z, at + 2 * step), load(z, at + 3 * step))
 
 
 @kernel
@@ -280,16 +291,21 @@ def _finish(ps, ss, at, newest, z, begin, end):
         y1 = _add_filters(ps, ss, at, output + 1, newest)
         y2 = _add_filters(ps, ss, at, output + 2, newest)
         y3 = _add_filters(ps, ss, at, output + last, newest)
-        for k in range(rows):
-            x = z[2 * n * k + output :]
-            x[0] = y0[k]
-            x[1] = y1[k]
-            x[2] = y2[k]
-            x[last] = y3[k]
-            x[n] = y0[gap + k]
-            x[n + 1] = y1[gap + k]
-            x[n + 2] = y2[gap + k]
-            x[n + last] = y3[gap + k]
+        for part in range(2):
+            to = part * n + output
+            of = part * gap
+            for k in range(of, of + rows - 1, FOUR):
+                x0, x1, x2, x3 = transposed(load(y0, k), load(y1, k), load(y2, k), load(y3, k))
+                store(z, to, x0)
+                store(z, to + 2 * n, x1)
+                store(z, to + 4 * n, x2)
+                store(z, to + 6 * n, x3)
+                to += FOUR * 2 * n
+            of += rows - 1
+            z[to] = y0[of]
+            z[to + 1] = y1[of]
+            z[to + 2] = y2[of]
+            z[to + last] = y3[of]
 
 
 @kernel

@@ -163,9 +163,9 @@ def halve(ps, at, taps, ss, history, rows, newest, count, out):
 @kernel
 def _halve_sixteen(ps, at, taps, ss, first, rows, newest, wide):
     """Sixteen numbers of `halve`: of the rows at ``ss[first:]``, ``wide`` apart."""
-    m = first + (newest + rows - taps // 2) % rows * wide
+    m = first + _earlier(newest, taps // 2, rows) * wide
     left = first + newest * wide  # before the sum's first half moves back in time, the second half forward
-    right = first + (newest + rows - taps + 1) % rows * wide
+    right = first + _earlier(newest, taps - 1, rows) * wide
     end = first + rows * wide
     a = 0.5 * load(ss, m)
     b = 0.5 * load(ss, m + FOUR)
@@ -199,15 +199,22 @@ def _halve_sixteen(ps, at, taps, ss, first, rows, newest, wide):
 def _halve_four(ps, at, taps, ss, first, rows, newest, wide):
     """Four numbers of `halve`, as `_halve_sixteen`."""
     left = first + newest * wide
-    right = first + (newest + rows - taps + 1) % rows * wide
+    right = first + _earlier(newest, taps - 1, rows) * wide
     end = first + rows * wide
-    a = 0.5 * load(ss, first + (newest + rows - taps // 2) % rows * wide)
+    a = 0.5 * load(ss, first + _earlier(newest, taps // 2, rows) * wide)
     for i in range(at, at + (taps + 1) // FOUR, 2):
         p, q = left, right
         left, right = _apart(left, right, first, end, wide)
         a += ps[i] * (load(ss, p) + load(ss, q)) + ps[i + 1] * (load(ss, left) + load(ss, right))
         left, right = _apart(left, right, first, end, wide)
     return a
+
+
+@kernel
+def _earlier(row, by, rows):
+    """Row of the ring that is ``by`` rows before; a remainder would cost as much as ten products."""
+    row -= by
+    return row if row >= 0 else row + rows
 
 
 @kernel

@@ -143,7 +143,9 @@ class Instance:
         self.z: NDArray[np.float64] = np.zeros(sizes.outputs)
         self._state: NDArray[np.float64] = np.zeros(sizes.state)
         self._calls = Calls(self.p, self.u, self._state, self.z, np.zeros(sizes.work))
-        self._kept = self._state.copy()  # where the steps noted since began: size (s) and inputs of each
+        self._kept = np.zeros(sizes.state)  # where the steps noted since began: size (s) and inputs of each
+        self._keep = self._calls.copier(self._state, self._kept)
+        self._put_back = self._calls.copier(self._kept, self._state)
         self._since: list[tuple[float, NDArray[np.float64]]] = []
         self._most = 1 if self.p[P.FIDELITY] == FULL else _REPEATED
         self.initialised = False
@@ -249,7 +251,7 @@ class Instance:
             raise EngineError("the bearing must be initialised before it is stepped")
         h = number("step h", h)
         if len(self._since) in (0, self._most):
-            self._kept[:] = self._state
+            self._keep()
             self._since.clear()
         self._since.append((h, self.u.copy()))
         status = self._calls.step(h)
@@ -264,7 +266,7 @@ class Instance:
 
     def _go_back(self) -> None:
         """Go back to before the last step: the engine repeats those before it to the last bit."""
-        self._state[:] = self._kept
+        self._put_back()
         *before, (_, inputs) = self._since
         for h, earlier in before:
             self.u[:] = earlier

@@ -13,6 +13,7 @@ int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double 
 int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                                   const int64_t *sizes, double h);
 int32_t NAME(fb_outputs_, ISA)(const double *p, const double *s, double *z, const int64_t *sizes);
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes);
 
 /* Begin at a time. */
 int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
@@ -44,5 +45,13 @@ int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, d
                                   const int64_t *sizes, double h)
 {
     (void)p, (void)u, (void)s, (void)z, (void)w, (void)sizes, (void)h;
+    return 0;
+}
+
+/* There is nothing to copy but the time. */
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes)
+{
+    (void)p, (void)sizes;
+    kept[0] = s[0];
     return 0;
 }

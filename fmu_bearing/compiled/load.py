@@ -165,6 +165,16 @@ class Calls:
         """Advance the state by ``h`` (s) and fill the outputs; return the status."""
         return self._step(*self._all, h)
 
+    def copier(self, source: NDArray[np.float64], target: NDArray[np.float64]) -> Callable[[], int]:
+        """Return what copies what later steps need of one state to another array of its size."""
+        addresses = (self._all[0], _address(source), _address(target), self._lengths.ctypes.data)
+        function = _function("copy", self._arrays[0])
+
+        def again(_alive: object = (self, source, target)) -> int:
+            return int(function(*addresses))
+
+        return again
+
     def outputs(self) -> int:
         """Fill the outputs from the state; return the status."""
         return self._outputs(*self._read)

@@ -45,6 +45,7 @@ ENTRIES = {
     "init": Entry("init", "puszw", 1),
     "step": Entry("step", "puszw", 1),
     "outputs": Entry("step", "psz", 0, (0, 2, 3)),
+    "copy": Entry("step", "pss", 0, (0, 2, 2)),
     "derivative": Entry("step", "puszw", 1),
     "right_hand_side": Entry("study", "pcywf", 3),
     "repeat": Entry("study", "pcywf", 3),
@@ -104,8 +105,13 @@ def _step() -> dict[str, Callable[..., Any]]:
     def outputs(p, s, z, n):
         return outputs_kernel(carray(p, (n[0],)), carray(s, (n[2],)), carray(z, (n[3],)))
 
-    derivative = _of_bearing(abi.derivative)
-    return {"step": _of_bearing(abi.step), "outputs": outputs, "derivative": derivative}
+    copy_kernel = abi.copy
+
+    def copy(p, s, kept, n):
+        return copy_kernel(carray(p, (n[0],)), carray(s, (n[2],)), carray(kept, (n[2],)))
+
+    made = {"step": abi.step, "derivative": abi.derivative}
+    return {"outputs": outputs, "copy": copy} | {name: _of_bearing(kernel) for name, kernel in made.items()}
 
 
 def _of_bearing(kernel: Callable[..., Any]) -> Callable[..., Any]:

@@ -1,4 +1,4 @@
-"""Public entry points: ``init``, ``step``, ``outputs``, ``derivative`` over the flat arrays of ``layout``.
+"""Entries ``init``, ``step``, ``outputs``, ``derivative``, ``copy`` over the flat arrays of ``layout``.
 
 Each returns a status code; none raises or allocates. A refused call leaves the state as it was, except
 that a step which fails to converge leaves it at the time it reached: the caller restores its copy.
@@ -11,6 +11,7 @@ from fmu_bearing.engine.fidelities.condensed.publish import find_contacts
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.port_derivative import port_derivative
 from fmu_bearing.engine.fidelities.full.start import start
+from fmu_bearing.engine.fidelities.live import copy_live
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.rings.restart import march_rings
 from fmu_bearing.engine.fidelities.rings.start import start_rings
@@ -120,6 +121,16 @@ def outputs(p, s, z):
         observe_set(p, s, z)
     else:
         observe(p, s, z)
+    return OK
+
+
+@kernel
+def copy(p, s, kept):
+    """Copy to ``kept`` what later steps need of the state ``s``; with both exchanged, go back to it.
+
+    Neither is a state to be stored: what is left out of ``kept`` stays as it was.
+    """
+    copy_live(p, s, kept)
     return OK
 
 

@@ -254,7 +254,12 @@ def _emit_transposed(context, builder, sig, args):
     first, second, third, fourth = args
     even = mixed(first, second, 0, 4, 2, 6), mixed(third, fourth, 0, 4, 2, 6)
     odd = mixed(first, second, 1, 5, 3, 7), mixed(third, fourth, 1, 5, 3, 7)
-    rows = [mixed(*even, 0, 1, 4, 5), mixed(*odd, 0, 1, 4, 5), mixed(*even, 2, 3, 6, 7), mixed(*odd, 2, 3, 6, 7)]
+    rows = [
+        mixed(*even, 0, 1, 4, 5),
+        mixed(*odd, 0, 1, 4, 5),
+        mixed(*even, 2, 3, 6, 7),
+        mixed(*odd, 2, 3, 6, 7),
+    ]
     return context.make_tuple(builder, sig.return_type, rows)
 
 

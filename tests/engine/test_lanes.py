@@ -21,6 +21,7 @@ from fmu_bearing.engine.lanes import (
     sum_four,
     sum_lanes,
     to_bits,
+    transposed,
 )
 from fmu_bearing.engine.layout import FOUR
 
@@ -178,3 +179,17 @@ def test_what_lanes_cannot_do_is_refused():
 
     with pytest.raises(Exception, match="No implementation"):
         integers(X)
+
+
+def test_rows_become_columns():
+    @kernel
+    def turn(x, out):
+        a, b, c, d = transposed(load(x, 0), load(x, 4), load(x, 8), load(x, 12))
+        store(out, 0, a)
+        store(out, 4, b)
+        store(out, 8, c)
+        store(out, 12, d)
+
+    out = np.zeros(16)
+    turn(X[:16].copy(), out)
+    assert np.array_equal(out, X[:16].reshape(4, 4).T.ravel(), equal_nan=True)

@@ -11,6 +11,7 @@
 #define NAME(a, b) JOIN(a, b)
 
 int32_t NAME(fb_outputs_, ISA)(const double *p, const double *s, double *z, const int64_t *sizes);
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes);
 int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                             const int64_t *sizes, double time);
 int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
@@ -70,4 +71,12 @@ int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, d
     z[0] = z[1] = 2.0 * u[0] + h;
     z[5] = NAN; /* not known */
     return sizes[0] > 0 ? 0 : 1;
+}
+
+/* Copy the state. */
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes)
+{
+    (void)p;
+    memcpy(kept, s, (size_t)sizes[2] * sizeof *s);
+    return 0;
 }

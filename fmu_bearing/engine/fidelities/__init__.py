@@ -5,6 +5,7 @@
 ``condensed``  what the two cheaper fidelities share: balls in static equilibrium between the races
 ``rings``      the rings' 11 degrees of freedom, stepped in time
 ``response``   the linear answer to every excitation, as a sum of lines
+``live``       what of a state later steps need, for copies to go back to
 ``steps``      below them all: allowed error, division of a communication step, clock, mean heats
 =============  ===================================================================================
 """

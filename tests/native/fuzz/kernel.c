@@ -7,6 +7,7 @@
 #define NAME(a, b) JOIN(a, b)
 
 int32_t NAME(fb_outputs_, ISA)(const double *p, const double *s, double *z, const int64_t *sizes);
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes);
 int32_t NAME(fb_init_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
                             const int64_t *sizes, double time);
 int32_t NAME(fb_step_, ISA)(const double *p, const double *u, double *s, double *z, double *w,
@@ -81,4 +82,11 @@ int32_t NAME(fb_derivative_, ISA)(const double *p, const double *u, double *s, d
                                   const int64_t *sizes, double h)
 {
     return work(p, u, s, z, w, sizes, h);
+}
+
+/* Copy the state. */
+int32_t NAME(fb_copy_, ISA)(const double *p, const double *s, double *kept, const int64_t *sizes)
+{
+    memcpy(kept, s, (size_t)sizes[2] * sizeof *s);
+    return (int32_t)(mixed(1, p, sizes[0]) & 1);
 }

@@ -109,6 +109,15 @@ def share_in_use(p, s, ahead):
 
 
 @kernel
+def back_in_use(p, s):
+    """Whether the second state holds what later steps read: a renewal, or lines that are blended."""
+    own = members.set_state(p, s)
+    at = members.march(p)
+    # the time since an exchange, or since `end_blend`, may be off by rounding
+    return own[at + SP.STAGE] != 0.0 or s[S.TIME] - own[at + SP.EXCHANGED] < 1.5 * BLEND
+
+
+@kernel
 def settles(p, s, h):
     """Whether the lines in use have become the only ones within the step of ``h`` (s) just made."""
     return share_in_use(p, s, 0.0) >= 1.0 and share_in_use(p, s, -1.01 * h) < 1.0

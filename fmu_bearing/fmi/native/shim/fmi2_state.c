@@ -23,7 +23,11 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *kept)
     if (!call_allowed(it, CALL_STATE)) return call_refused(it, CALL_STATE);
     if (!kept) return refuse(it, "getFMUstate: the argument FMUstate is NULL");
     if (*kept && !state_belongs(it, *kept, &why)) return instance_refuse(it, fmi2Error, &why);
-    if (!*kept) *kept = malloc(state_size(it));
+    if (*kept) {
+        memset(*kept, 0, state_size(it));
+    } else {
+        *kept = calloc(1, state_size(it));
+    }
     if (!*kept) return refuse(it, "getFMUstate: there is not enough memory for a state");
     state_take(it, *kept);
     return fmi2OK;

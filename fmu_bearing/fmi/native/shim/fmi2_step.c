@@ -94,7 +94,7 @@ static inline void note(Instance *it, double size, const double *inputs)
         return;
     }
     if (it->n_journal == it->most_journal || it->span + size > it->most_span) {
-        copy(it->kept_s, it->s, (size_t)it->sizes[2]);
+        it->kernels->copy(it->p, it->s, it->kept_s, it->sizes);
         it->n_journal = 0;
         it->span = 0.0;
     }
@@ -109,7 +109,11 @@ static inline void note(Instance *it, double size, const double *inputs)
 static int go_back(Instance *it)
 {
     uint64_t i;
-    memcpy(it->s, it->kept_s, it->bytes_s);
+    if (it->most_journal == 1) {
+        memcpy(it->s, it->kept_s, it->bytes_s);
+    } else {
+        it->kernels->copy(it->p, it->kept_s, it->s, it->sizes);
+    }
     for (i = 0; i + 1 < it->n_journal; i++) {
         const double *entry = it->journal + i * it->entry_size;
         if (it->step(it->p, entry + 1, it->s, it->z, it->w, it->sizes, entry[0]) != 0) return 0;

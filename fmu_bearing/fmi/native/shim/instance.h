@@ -33,7 +33,7 @@ typedef struct Instance {
     double *u, *s, *z, *w;
     int64_t sizes[5];
     size_t bytes_s, bytes_z;
-    double *kept_s;  /* the state some steps ago */
+    double *kept_s;  /* the state some steps ago: what steps need of it */
     double *journal; /* inputs and size of each step since, the present one included */
     uint64_t n_journal, most_journal;
     size_t entry_size;      /* numbers for one step in the journal */

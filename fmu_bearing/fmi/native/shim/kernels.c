@@ -31,8 +31,9 @@ HIDDEN KernelInit fb_init_v3;
 HIDDEN KernelStep fb_step_v3;
 HIDDEN KernelDerivative fb_derivative_v3;
 HIDDEN KernelOutputs fb_outputs_v3;
+HIDDEN KernelCopy fb_copy_v3;
 
-static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_derivative_v3, fb_outputs_v3};
+static const Kernels V3 = {fb_init_v3, fb_step_v3, fb_derivative_v3, fb_outputs_v3, fb_copy_v3};
 
 #ifdef FB_NEWER_ONLY
 static const Kernels *const OLDER = NULL;
@@ -41,8 +42,9 @@ HIDDEN KernelInit fb_init_v2;
 HIDDEN KernelStep fb_step_v2;
 HIDDEN KernelDerivative fb_derivative_v2;
 HIDDEN KernelOutputs fb_outputs_v2;
+HIDDEN KernelCopy fb_copy_v2;
 
-static const Kernels V2 = {fb_init_v2, fb_step_v2, fb_derivative_v2, fb_outputs_v2};
+static const Kernels V2 = {fb_init_v2, fb_step_v2, fb_derivative_v2, fb_outputs_v2, fb_copy_v2};
 static const Kernels *const OLDER = &V2;
 #endif
 
@@ -99,8 +101,9 @@ HIDDEN KernelInit fb_init_base;
 HIDDEN KernelStep fb_step_base;
 HIDDEN KernelDerivative fb_derivative_base;
 HIDDEN KernelOutputs fb_outputs_base;
+HIDDEN KernelCopy fb_copy_base;
 
-static const Kernels BASE = {fb_init_base, fb_step_base, fb_derivative_base, fb_outputs_base};
+static const Kernels BASE = {fb_init_base, fb_step_base, fb_derivative_base, fb_outputs_base, fb_copy_base};
 
 /* The kernels for a model with the parameters p: one set for all processors. */
 const Kernels *kernels_choose(const double *p, Text *why)

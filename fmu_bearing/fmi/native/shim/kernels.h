@@ -17,6 +17,9 @@ typedef int32_t KernelStep(
     const double *p, const double *u, double *s, double *z, double *w, const int64_t *sizes, double h);
 typedef int32_t KernelOutputs(const double *p, const double *s, double *z, const int64_t *sizes);
 
+/* Copy what later steps need of a state; the rest of `kept` stays as it is. */
+typedef int32_t KernelCopy(const double *p, const double *s, double *kept, const int64_t *sizes);
+
 /* What changes z for a change of inputs over a step of h. Behind the inputs u is their change, behind the
  * copy s of the state room for another; both are spoilt. */
 typedef int32_t KernelDerivative(
@@ -27,6 +30,7 @@ typedef struct Kernels {
     KernelStep *step;
     KernelDerivative *derivative;
     KernelOutputs *outputs;
+    KernelCopy *copy;
 } Kernels;
 
 /* The kernels for this processor and a model with the parameters p, or NULL with the reason; FMU_BEARING_ISA=v2

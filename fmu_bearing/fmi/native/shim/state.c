@@ -55,7 +55,11 @@ void state_take(Instance *it, State *state)
     put(&at, it->p, head->n_tunables);
     put(&at, it->z, head->n_z);
     put(&at, it->before_z, head->n_z);
-    put(&at, it->s, head->n_s);
+    if (it->settled) {
+        it->kernels->copy(it->p, it->s, (double *)at, it->sizes);
+    } else {
+        put(&at, it->s, head->n_s);
+    }
 }
 
 /* Go back to a state. */
@@ -77,7 +81,11 @@ void state_put_back(Instance *it, const State *state)
     get(&at, it->model.p, head->n_tunables);
     get(&at, it->z, head->n_z);
     get(&at, it->before_z, head->n_z);
-    get(&at, it->s, head->n_s);
+    if (it->settled) { /* what steps do not need stays as it is */
+        it->kernels->copy(it->p, (const double *)at, it->s, it->sizes);
+    } else {
+        get(&at, it->s, head->n_s);
+    }
     it->n_waiting = 0;
     for (i = 0; i < head->n_u; i++) it->n_waiting += isnan(it->waiting[i]) == 0;
     instance_forget(it);

@@ -18,7 +18,7 @@ typedef struct State {
 /* Bytes of a state of this instance. */
 size_t state_size(const Instance *it);
 
-/* Write the present state into a block of that size. */
+/* Write the present state into a block of that size, all zero: what steps do not need stays so. */
 void state_take(Instance *it, State *state);
 
 /* Go back to a state, which must be one of this model. */

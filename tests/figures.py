@@ -284,7 +284,7 @@ def spindle():
         for one in table("sets")
     }
     yield (
-        f"takes {stages['QBC, rigid shaft']} iterations a stage; a single bearing, which does without it, "
+        f"takes {stages['QBC, rigid shaft']} iterations a stage; a single bearing "
         f"takes {stages['single 7003C on a rotor']}"
     )
     errors = [float(one["error"]) for one in table("sets")]

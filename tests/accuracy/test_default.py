@@ -4,6 +4,7 @@ import pytest
 
 from fmu_bearing.accuracy.reference import implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays
+from fmu_bearing.engine.layout import S
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.fidelity import Fidelity
 from tests.conftest import GATES
@@ -30,6 +31,24 @@ def test_the_default_keeps_its_tolerance_once_settled(bare, rpm, load):
     bearing.init()
     bearing.run(0.03, 1e-3)
     assert error(bearing, 0.02) < 3e-3
+
+
+@pytest.mark.parametrize("load", [500.0, 1000.0])
+def test_rings_under_loads_across_keep_the_tolerance(load):
+    """Where balls rattle between the races, Newton's method may not leave more than the tolerance of 1e-3.
+
+    Measured 7.5e-4 and 3.8e-4 with 7.6 iterations per step; 2.2e-3 and 1.1e-3 with 8.7 and 9.2 when it began
+    at the accelerations of the stage before and could leave half of the tolerance.
+    """
+    spindle = read_scene(GATES / "7003C-spindle.toml").model_copy(update={"sound": None})
+    bearing = Arrays(spindle, 2e4, load_y=load, TOLERANCE=1e-3, MAX_STEP=25e-6)
+    bearing.init()
+    bearing.run(0.05, 1e-3)
+    steps, newton = bearing.s[S.STEPS], bearing.s[S.NEWTON]
+    found = error(bearing, 0.02)
+    bearing.run(0.02, SAMPLE)
+    assert found < 1.5e-3
+    assert (bearing.s[S.NEWTON] - newton) / (bearing.s[S.STEPS] - steps) < 8.2
 
 
 def test_a_cage_that_is_flung_about_is_followed(bare):

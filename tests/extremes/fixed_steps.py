@@ -60,7 +60,7 @@ def entry():
         renew_jacobians(p, s, w, True)
         factor_all(p, s, w, h, TABLEAUX[tableau + TAB.GAMMA] * h)
         for n in range(count):
-            if not runge_kutta_step(p, s, w, h, tableau, tolerance, s[S.CONTRACTION], True, s[S.SPEED]):
+            if not runge_kutta_step(p, s, w, h, tableau, tolerance, True, s[S.SPEED]):
                 return n
             accept_all(p, s, w, h, tableau)
         return count

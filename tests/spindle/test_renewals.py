@@ -11,6 +11,7 @@ from tests.spindle.sets import scene
 STEP = 1e-4  # s
 SLOW = 0.2 / 2  # contraction of a bearing of a pair beyond which its Jacobian is renewed
 WAVY = {"imperfections": {"grade": "P4", "seed": 3}}
+CONTRACTIONS = slice(S.CONTRACTION, S.CONTRACTION + 2)
 SIDEWAYS = {"force_z_N": -100.0, "position_mm": -10.0}  # more on the front bearing
 
 
@@ -29,7 +30,7 @@ def running():
     run = SetRun(pair(**WAVY)).init()
     run.run(5 * STEP)
     for b in range(2):
-        run.state(b)[S.CONTRACTION] = 0.5 * SLOW
+        run.state(b)[CONTRACTIONS] = 0.5 * SLOW
         assert run.state(b)[S.JACOBIAN_TIME] != run.s[S.TIME]
     return run
 
@@ -43,10 +44,11 @@ def one_step(run):
     return (counts(run) - before).tolist()
 
 
+@pytest.mark.parametrize("stages", [0, 1], ids=["first", "others"])
 @pytest.mark.parametrize("slow", [(False, False), (True, False), (False, True), (True, True)])
-def test_the_bearing_that_contracts_slowly_is_renewed_alone(running, slow):
+def test_the_bearing_that_contracts_slowly_is_renewed_alone(running, slow, stages):
     for b in range(2):
-        running.state(b)[S.CONTRACTION] = SLOW * (1.1 if slow[b] else 0.9)
+        running.state(b)[S.CONTRACTION + stages] = SLOW * (1.1 if slow[b] else 0.9)
     assert one_step(running) == [float(one) for one in slow]
 
 
@@ -81,7 +83,7 @@ def test_a_jacobian_that_does_not_fit_is_found(running, wrong):
     running.state(wrong)[S.FACTOR_STEP] = 0.0
     running.s[S.STEPS] = 0.0  # measured in this step
     assert running.step(2e-5) == OK
-    slow, fine = (running.state(b)[S.CONTRACTION] for b in (wrong, 1 - wrong))
+    slow, fine = (running.state(b)[CONTRACTIONS].max() for b in (wrong, 1 - wrong))
     assert slow > 3.0 * fine and slow > 0.8 * SLOW and fine > 0.0
 
 
@@ -120,4 +122,4 @@ def test_bearings_that_differ_run_as_with_a_tight_tolerance():
     assert np.sqrt(np.mean((found - wanted) ** 2)) < 1e-3 * np.sqrt(np.mean(wanted**2))
     # orbits of balls without load are soft, and their places change
     made = counts(run)
-    assert made[1] > 1.5 * made[0] > 0.0
+    assert made[1] > 1.2 * made[0] > 0.0

@@ -11,4 +11,6 @@ ROW = STAGES - 1  # numbers of a row below the diagonal
 A = _at(STAGES * ROW)  # the rows
 B = _at(STAGES)  # weights
 ERROR = _at(STAGES)  # differences to the weights of the embedded method
+BEYOND = _at(STAGES)  # how far a stage lies beyond the one before, over how far that one beyond its own
+CHANGE_FROM = _at()  # stage from which the accelerations' change to the end of the step is kept
 SIZE = _at.next

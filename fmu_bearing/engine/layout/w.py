@@ -45,7 +45,7 @@ ERROR = _report()  # m/s: its estimate
 ITERATIONS = _report()
 # of each bearing of a set:
 SIZE = _report()  # m/s: of Newton's last increment
-CONTRACTION = _report()  # its increments over the set's largest before: the worst measured, 0: none
+CONTRACTION = _report(2)  # its increments over the set's largest before, see S: the worst found, 0: none
 REPORT_SIZE = _report.next
 
 _at = Places()

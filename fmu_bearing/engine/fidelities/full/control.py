@@ -19,7 +19,8 @@ _SHARE = 0.1
 # Share of the tolerance that Newton's method may leave in a stage, in steps of 10 us and more. Shorter ones
 # are many, and each leaves its remainder: half a millisecond after its start under radial load a bare 7003C
 # at 20,000 r/min takes steps of 2 us. Bound for 5 us and more, the error over 5 ms is 5e-2 there, not 8e-4.
-_NEWTON = 0.5
+# With a half the spindle under 1000 N has an error of 1.2e-3 at a tolerance of 1e-3, not 9e-4.
+_NEWTON = 0.35
 _USUAL = 1e-5  # s
 _SAFETY = 0.9  # of the length that would just be allowed
 _FADE = 0.8  # per step: how fast a large estimate is forgotten

@@ -122,8 +122,11 @@ def predict_modes(p, flexure, h, gh, stage, tableau, w):
     count = 2 * int(p[P.MODES])
     own = w[W.FLEX :]
     here = FL.ACC + stage * FL.COORDINATES
+    before = FL.ACC + max(stage - 2, 0) * FL.COORDINATES
+    beyond = TABLEAUX[tableau + TAB.BEYOND + stage]
     for i in range(count):
-        guess = own[here - FL.COORDINATES + i]
+        known = own[here - FL.COORDINATES + i]
+        guess = known + beyond * (known - own[before + i])
         own[here + i] = guess
         own[FL.V + i] = flexure[count + i] + gh * guess
         own[FL.Q + i] = flexure[i]

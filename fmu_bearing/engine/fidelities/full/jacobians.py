@@ -28,9 +28,15 @@ _SLOW = 0.2
 
 
 @kernel
+def slowest(sb):
+    """Return how a bearing contracts: as the worst of its stages."""
+    return max(sb[S.CONTRACTION], sb[S.CONTRACTION + 1])
+
+
+@kernel
 def renewal_due(sb, slow):
     """Whether a bearing's Jacobian is too old, or contracts by more than ``slow``."""
-    return sb[S.TIME] - sb[S.JACOBIAN_TIME] > _OLDEST or sb[S.CONTRACTION] > slow
+    return sb[S.TIME] - sb[S.JACOBIAN_TIME] > _OLDEST or slowest(sb) > slow
 
 
 @kernel
@@ -53,13 +59,32 @@ def renew_jacobians(p, s, w, every):
 
 
 @kernel
-def contraction(p, s, fresh):
-    """How Newton's method contracts; with ``fresh`` as measured with Jacobians made for this step, or 0."""
+def fresh_contraction(p, s):
+    """How Newton's method contracts with Jacobians made for this step; 0 without any."""
     worst = 0.0
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
-        if not fresh or sb[S.JACOBIAN_TIME] == sb[S.TIME]:
-            worst = max(worst, sb[S.CONTRACTION])
+        if sb[S.JACOBIAN_TIME] == sb[S.TIME]:
+            worst = max(worst, slowest(sb))
+    return worst
+
+
+@kernel
+def kind_of(stage):
+    """Return which contraction in ``S.CONTRACTION`` a stage has: 0 the first implicit stage, 1 the others.
+
+    They are met from guesses of different quality. What is left of a good guess is what the Jacobian knows
+    least, and contracts slower than most of a poor one does.
+    """
+    return 0 if stage == 1 else 1
+
+
+@kernel
+def expected_contraction(p, s, stage):
+    """How Newton's method is expected to contract in the first iteration of a stage."""
+    worst = 0.0
+    for b in range(members.count(p)):
+        worst = max(worst, members.state(p, s, b)[S.CONTRACTION + kind_of(stage)])
     return worst
 
 
@@ -67,9 +92,12 @@ def contraction(p, s, fresh):
 def keep_contraction(p, s, w):
     """Store what the step just made has measured; nothing where it took one iteration a stage."""
     for b in range(members.count(p)):
-        measured = members.work(p, w, b)[W.REPORT + W.CONTRACTION]
-        if measured > 0.0:
-            members.state(p, s, b)[S.CONTRACTION] = measured
+        wb = members.work(p, w, b)
+        sb = members.state(p, s, b)
+        for kind in range(2):
+            measured = wb[W.REPORT + W.CONTRACTION + kind]
+            if measured > 0.0:
+                sb[S.CONTRACTION + kind] = measured
 
 
 @kernel

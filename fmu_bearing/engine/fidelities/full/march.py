@@ -8,8 +8,8 @@ from fmu_bearing.engine.choices import RK4, TRBDF2
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full import control
 from fmu_bearing.engine.fidelities.full.jacobians import (
-    contraction,
     factor_all,
+    fresh_contraction,
     keep_contraction,
     renew_jacobians,
 )  # fmt: skip
@@ -17,6 +17,7 @@ from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4,
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
 from fmu_bearing.engine.fidelities.full.start import sinks
+from fmu_bearing.engine.fidelities.full.stages import acceleration, keep_change
 from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
@@ -150,8 +151,7 @@ def try_step(p, s, w, h, tableau, speed):
                 return -1.0
             continue
         remainder = control.allowed_remainder(smallest_tolerance(p, s, speed), h)
-        expected = contraction(p, s, False)
-        if runge_kutta_step(p, s, w, h, tableau, remainder, expected, probes(s), speed):
+        if runge_kutta_step(p, s, w, h, tableau, remainder, probes(s), speed):
             keep_contraction(p, s, w)
             s[S.NEWTON] += w[W.REPORT + W.ITERATIONS]
             return w[W.REPORT + W.ERROR]
@@ -186,11 +186,13 @@ def accept_shaft(p, own, ws, tableau):
     lanes = members.padded_size(p)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
-    end = members.vector(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
+    end = acceleration(p, int(TABLEAUX[tableau + TAB.COUNT]) - 1)
+    before = acceleration(p, int(TABLEAUX[tableau + TAB.CHANGE_FROM]))
     for i in range(lanes):
         own[SP.S_HEAD + i] = ws[place + i]
         own[SP.S_HEAD + lanes + i] = ws[rate + i]
         own[SP.S_HEAD + 2 * lanes + i] = ws[end + i]
+        own[SP.S_HEAD + SP.CHANGE * lanes + i] = ws[end + i] - ws[before + i]
 
 
 @kernel
@@ -210,7 +212,10 @@ def accept_all(p, s, w, h, tableau):
     emit(p, s, w, h)
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
-        accept(members.parameters(p, b), sb, members.work(p, w, b), h)
+        pb = members.parameters(p, b)
+        wb = members.work(p, w, b)
+        keep_change(pb, sb, wb, h, tableau)
+        accept(pb, sb, wb, h)
         if p[P.FITS] != 0.0:
             grow_on(sb[S.C : S.C + C.SIZE], h)
         control.follow_rings(sb, h)
@@ -282,7 +287,7 @@ def march(p, u, s, w, h):
             if not steps.rejected(s, length * control.shrinkage(s, error, order), h):
                 return NOT_CONVERGED
             continue
-        control.propose(s, error, contraction(p, s, True), length, longest, order)
+        control.propose(s, error, fresh_contraction(p, s), length, longest, order)
         accept_all(p, s, w, length, tableau)
         remaining = end - s[S.TIME]
     end_step(p, s, w, speed, end, h)

@@ -84,7 +84,7 @@ def renew_jacobian(p, s, w):
     s[S.JACOBIAN_ANGLE] = s[S.Y + Y.TH]
     s[S.FACTOR_STEP] = 0.0
     s[S.JACOBIANS] += 1.0
-    s[S.CONTRACTION] = 0.1
+    s[S.CONTRACTION] = s[S.CONTRACTION + 1] = 0.1
 
 
 @kernel

@@ -16,14 +16,18 @@ MAX_ITERATIONS = 8
 
 
 @kernel
-def predict_balls(y, lanes, h, gh, stage, tableau, w):
-    """Rows of a stage's state from the stages before, and of its first guess: the accelerations before it."""
+def predict_balls(y, change, ahead, lanes, h, gh, stage, tableau, w):
+    """Rows of a stage's state from the stages before, with a first guess of its accelerations."""
     here = W.ACC + stage * F.SIZE
+    last = here - F.SIZE
+    before = W.ACC + max(stage - 2, 0) * F.SIZE
+    beyond = TABLEAUX[tableau + TAB.BEYOND + stage]
     for m in range(stage):
         store(w, W.WEIGHTS + m * FOUR, h * TABLEAUX[tableau + TAB.A + stage * TAB.ROW + m])
     for row in range(Y.RATES // STRIDE):
         for k in range(row * STRIDE, row * STRIDE + lanes, FOUR):
-            guess = load(w, here - F.SIZE + k)
+            known = load(w, last + k)
+            guess = known + beyond * (known - load(w, before + k)) + ahead * load(change, k)
             rate = load(y, Y.VX + k) + gh * guess
             for m in range(stage):
                 rate += load(w, W.WEIGHTS + m * FOUR) * load(w, W.ACC + m * F.SIZE + k)
@@ -38,15 +42,17 @@ def predict_balls(y, lanes, h, gh, stage, tableau, w):
 
 
 @kernel
-def predict_bodies(y, h, gh, stage, tableau, w):
+def predict_bodies(y, change, ahead, h, gh, stage, tableau, w):
     """Do for the bodies what :func:`predict_balls` does for the balls."""
     here = W.ACC + stage * F.SIZE
     acc = w[here + F.BODY : here + F.WORK]
-    before = w[here - F.SIZE + F.BODY : here]
+    last = w[here - F.SIZE + F.BODY : here]
+    before = w[W.ACC + max(stage - 2, 0) * F.SIZE + F.BODY :]
+    beyond = TABLEAUX[tableau + TAB.BEYOND + stage]
     q = w[W.STAGE + Y.Q0 : W.STAGE + Y.V0]
     v = w[W.STAGE + Y.V0 : W.STAGE + Y.SIZE]
     for i in range(Q.SIZE):
-        acc[i] = before[i]
+        acc[i] = last[i] + beyond * (last[i] - before[i]) + ahead * change[F.BODY + i]
         q[i] = y[Y.Q0 + i]
     sum_scaled(y[Y.V0 : Y.SIZE], gh, acc, v, Q.SIZE)
     for m in range(stage):
@@ -58,10 +64,14 @@ def predict_bodies(y, h, gh, stage, tableau, w):
 
 
 @kernel
-def predict(y, lanes, h, gh, stage, tableau, w):
-    """State of a stage into ``w[W.STAGE:]`` from the stages before and a first guess of its accelerations."""
-    predict_balls(y, lanes, h, gh, stage, tableau, w)
-    predict_bodies(y, h, gh, stage, tableau, w)
+def predict(y, change, ahead, lanes, h, gh, stage, tableau, w):
+    """State of a stage into ``w[W.STAGE:]`` from the stages before and a first guess of its accelerations.
+
+    The guess is on the straight line through the two stages before (``TAB.BEYOND``). ``change``: of the
+    accelerations in the step before, of which ``ahead`` is added (`stages.ahead_of`).
+    """
+    predict_balls(y, change, ahead, lanes, h, gh, stage, tableau, w)
+    predict_bodies(y, change, ahead, h, gh, stage, tableau, w)
 
 
 @kernel

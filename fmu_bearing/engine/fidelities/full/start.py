@@ -108,7 +108,7 @@ def begin_clock(p, s, speed, t):
     s[S.STEP] = min(2e-6, p[P.MAX_STEP])
     s[S.FACTOR_STEP] = 0.0
     s[S.JACOBIAN_TIME] = -1e300
-    s[S.CONTRACTION] = 0.1
+    s[S.CONTRACTION] = s[S.CONTRACTION + 1] = 0.1
     s[S.JACOBIANS] = 0.0
 
 

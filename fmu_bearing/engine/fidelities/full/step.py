@@ -8,6 +8,7 @@ increment, as accelerations (layout ``F``); ``fac``: factors (layout ``A``). Oth
 import math
 
 from fmu_bearing.engine.fidelities.full import control, flexible
+from fmu_bearing.engine.fidelities.full.jacobians import expected_contraction, kind_of
 from fmu_bearing.engine.fidelities.full.methods.table import TABLEAUX
 from fmu_bearing.engine.fidelities.full.norms import body_size, newton_size, row_size
 from fmu_bearing.engine.fidelities.full.runge_kutta import (
@@ -126,7 +127,7 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
 
 
 @kernel
-def measure_contraction(p, w, before):
+def measure_contraction(p, w, stage, before):
     """Keep in each bearing's report how large its last increment is over ``before``, the set's largest (m/s).
 
     The set contracts as the bearing with the largest increment left, and it is that one's Jacobian that fits
@@ -135,14 +136,15 @@ def measure_contraction(p, w, before):
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
         rate = wb[W.REPORT + W.SIZE] / (before + 1e-300)
-        wb[W.REPORT + W.CONTRACTION] = max(wb[W.REPORT + W.CONTRACTION], rate)
+        at = W.REPORT + W.CONTRACTION + kind_of(stage)
+        wb[at] = max(wb[at], rate)
 
 
 @kernel
-def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
+def iterate(p, s, w, stage, h, gh, t, tolerance, probe):
     """Newton's method at a stage, ``t`` (s) into the step; returns iterations, negative if it fails.
 
-    ``contraction``: expected of the first iteration; what others are found to be goes to the reports.
+    ``probe``: a second iteration in any case. What contractions are found to be goes to the reports.
     """
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
@@ -152,6 +154,7 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
     fac = s[S.FAC : S.CONDENSED]
     d = w[W.D : W.D + F.SIZE]
     co, si = turned(s, t)
+    expected = expected_contraction(p, s, stage)
     work = bent = shaken = 0.0
     before = 0.0
     if together:
@@ -165,11 +168,11 @@ def iterate(p, s, w, stage, h, gh, t, tolerance, contraction, probe):
             size = add_increment(p, s, w, stage, gh)
         if not (size < _DIVERGED):
             return -1.0
-        rate = contraction
+        rate = expected
         if n > 0:
             rate = size / (before + 1e-300)
             if size > 1e-2 * tolerance:
-                measure_contraction(p, w, before)
+                measure_contraction(p, w, stage, before)
             if rate > 0.9 and size > tolerance:
                 return -1.0
         if (n > 0 or not probe) and size * rate <= tolerance * (1.0 - min(rate, 0.9)):
@@ -374,11 +377,11 @@ def grow_all(p, s, t):
 
 
 @kernel
-def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_speed):
+def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     """One step of length ``h`` (s), from the state into every bearing's ``W.STAGE`` and ``W.LAST``.
 
-    ``tolerance`` (m/s): Newton's error; ``contraction``: expected of its method; ``probe``: measure it again;
-    ``to_speed`` (rad/s): of the shaft at the end of the communication step. The first bearing's report takes
+    ``tolerance`` (m/s): Newton's error; ``probe``: measure how its method contracts; ``to_speed`` (rad/s): of
+    the shaft at the end of the communication step. The first bearing's report takes
     ``W.ERROR`` (over what is allowed) and ``W.ITERATIONS``, every bearing's ``W.CONTRACTION``. False where
     Newton's method does not converge.
     """
@@ -392,7 +395,8 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_spee
     if together:
         first_powers(p, s, w)
     for b in range(members.count(p)):
-        members.work(p, w, b)[W.REPORT + W.CONTRACTION] = 0.0
+        found = members.work(p, w, b)[W.REPORT + W.CONTRACTION :]
+        found[0] = found[1] = 0.0
     iterations = 0.0
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
@@ -406,7 +410,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, contraction, probe, to_spee
             explicit_stage(p, s, w, stage, t)
         else:
             last = probe and stage == stages - 1
-            done = iterate(p, s, w, stage, h, gh, t, tolerance, contraction, last)
+            done = iterate(p, s, w, stage, h, gh, t, tolerance, last)
             if done < 0.0:
                 return False
             iterations += done

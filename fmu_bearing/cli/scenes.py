@@ -395,6 +395,8 @@ def _subject(found: Scene) -> str:
 
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return fidelity, method, sound and sizes of a scene, in words."""
+    from fmu_bearing.prepare.still import longest_internal_step
+
     auto = found.fidelity.model == "auto"
     model = _silent(found)
     p, fidelity = model.parameters, found.fidelity
@@ -412,7 +414,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
     else:
         method = f", method {fidelity.method}" if fidelity.model == "full" else ""
         words = (
-            f"{fidelity.model}{method}, internal steps up to {fidelity.max_internal_step_us:g} us, "
+            f"{fidelity.model}{method}, internal steps up to {1e6 * longest_internal_step(found):.3g} us, "
             f"tolerance {fidelity.tolerance:g}"
         )
     sound = "none"

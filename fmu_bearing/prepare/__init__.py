@@ -7,6 +7,7 @@
 ``surfaces``         power law, contact filter and highest orders of races and balls
 ``imperfections``    waviness of races and balls, ball sizes, from a seed
 ``flexure``          bending modes of the rings as the engine's coordinates
+``still``            bearings in which nothing asks for short steps
 ``sound``            the sound block, kept on disk
 ``spindle``          parameters of a set of bearings on one shaft
 ``reading``          switches of what need not be computed, because no variable shows it

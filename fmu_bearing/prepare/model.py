@@ -29,6 +29,7 @@ from fmu_bearing.prepare.imperfections import (
 from fmu_bearing.prepare.lengths import Lengths, lengths
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.prepare.spindle import as_set_of_one, pack_set
+from fmu_bearing.prepare.still import turn_rate
 from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
@@ -209,6 +210,7 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
     p[P.WAVE_INTERVALS] = intervals(highest)
     p[P.WAVE_ORDERS] = highest if wavy else 0
     p[P.WAVE_RATE] = fastest_wave(scene, waves, int(p[P.BALL_WAVES]))
+    p[P.TURN_RATE] = turn_rate(scene, silent=sound.size == 0)
     if tables[P.AT_MODES].size:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.INNER_MODES] = inner_modes(tables[P.AT_MODES])

@@ -3,6 +3,7 @@
 import math
 
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.prepare.still import longest_internal_step
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent, Block, Folded, Section, Table, Words
 from fmu_bearing.reports.sections.assumptions import assumed_table
@@ -87,7 +88,7 @@ def _method(scene: Scene) -> str:
     f = scene.fidelity
     name = f"{f.method}, " if f.model == "full" else ""
     return (
-        f"{name}internal steps up to {f.max_internal_step_us:g} us, tolerance {f.tolerance:g}, "
+        f"{name}internal steps up to {1e6 * longest_internal_step(scene):.3g} us, tolerance {f.tolerance:g}, "
         f"{f.traction_strips} strips per contact"
     )
 

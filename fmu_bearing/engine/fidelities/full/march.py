@@ -5,6 +5,7 @@ its own. Arguments: see `step`.
 """
 
 from fmu_bearing.engine.choices import RK4, TRBDF2
+from fmu_bearing.engine.constants import LONGEST_STEP, PER_STEP, USUAL_STEP
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.full import control
 from fmu_bearing.engine.fidelities.full.jacobians import (
@@ -16,8 +17,8 @@ from fmu_bearing.engine.fidelities.full.jacobians import (
 from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4, AT_TRBDF2, TABLEAUX
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
-from fmu_bearing.engine.fidelities.full.start import sinks
 from fmu_bearing.engine.fidelities.full.stages import acceleration, keep_change
+from fmu_bearing.engine.fidelities.full.start import sinks
 from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
@@ -113,9 +114,25 @@ def probes(s):
 
 
 @kernel
+def follows_scene(p):
+    """Whether nothing but whirls bounds the step: no waves, sound, cage, other model or given step."""
+    still = abs(p[P.MAX_STEP] - USUAL_STEP) < 1e-9 * USUAL_STEP and not has_port(p)
+    for b in range(members.count(p)):
+        if members.parameters(p, b)[P.TURN_RATE] == 0.0:
+            still = False
+    return still
+
+
+@kernel
 def longest_step(p, s, speed):
     """Length (s) of the longest internal step on the way to the shaft ``speed`` (rad/s)."""
     longest = p[P.MAX_STEP]
+    if follows_scene(p):
+        longest = LONGEST_STEP
+        for b in range(members.count(p)):
+            turning = members.parameters(p, b)[P.TURN_RATE] * max(abs(s[S.SPEED]), abs(speed))
+            longest = min(longest, PER_STEP / (turning + 1e-300))
+        longest = max(longest, p[P.MAX_STEP])
     for b in range(members.count(p)):
         pb = members.parameters(p, b)
         if pb[P.MODES] != 0.0:
@@ -275,7 +292,7 @@ def march(p, u, s, w, h):
     longest = longest_step(p, s, speed)
     # bounded work: no more attempts than a hundred times what the largest internal step would need
     # (a thousand times for explicit steps, which stability keeps below 0.1 us)
-    left = steps.most_attempts(h, longest, 1000.0 if tableau == AT_RK4 else 100.0)
+    left = steps.most_attempts(h, min(longest, p[P.MAX_STEP]), 1000.0 if tableau == AT_RK4 else 100.0)
     remaining = h
     while steps.unfinished(remaining, h, end):
         length = steps.even_length(remaining, min(s[S.STEP], longest))

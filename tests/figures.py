@@ -96,7 +96,7 @@ def choosing():
     for microphones in ("1", "4"):
         yield f"| {microphones} | {_sound_costs(microphones)} |"
     below = [
-        float(one["ours"]) - float(one["paper_contacts"])
+        float(one["bare bearing"]) - float(one["bare bearing, paper_contacts"])
         for one in table("papers/sound-field-values")
         if "r/min" in one["value"]
     ]

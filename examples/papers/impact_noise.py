@@ -253,7 +253,7 @@ def _quoted_table(runs: Runs) -> str:
         return "Not run.\n"
     changes = (*multi_source.AXES, *multi_source.identified(runs).changes)
     quoted = [value for value in multi_source.VALUES if value.rpm in SPEEDS and value.place == "P3"]
-    own = runs.around([Case(multi_source.SCENE, value.rpm, changes) for value in quoted])
+    own = runs.few([Case(multi_source.SCENE, value.rpm, changes) for value in quoted])
     found = runs.all("above", own, f"{NAME}: spindle")
     by_key = {
         key: values.met(

@@ -8,7 +8,10 @@ from tests.tables import CASES, DOCS, fastest, rounded, row, table, usual
 _HEADING = "In short, misses first"
 _PAPERS = (
     ("multi-source", "levels measured round a motor spindle [@multisource]"),
-    ("sound-field", "levels, falls and directivities measured beside a spindle with a bearing of ceramics [@yan2020]"),
+    (
+        "sound-field",
+        "levels, falls and directivities measured beside a spindle with a bearing of ceramics [@yan2020]",
+    ),
     ("impact-noise", "values that others computed by finite and boundary elements [@kuan2026]"),
 )
 

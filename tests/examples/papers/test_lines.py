@@ -202,3 +202,13 @@ def test_the_loudest_line_has_a_name_within_one_step_of_the_spectrum(step, name)
     levels[step] = 80.0
     found = {"frequencies": at, "spectra": {"total": levels}, "levels": {"total": [80.5, 0, 0, 0]}}
     assert lines.loudest_line(found) == (name, 20.0 * step, -0.5)
+
+
+@pytest.mark.parametrize(("height", "kind"), [(7.0, HOLDS), (5.0, NOT)])
+def test_a_line_is_a_peak_where_it_stands_out_of_its_spectrum(height, kind):
+    at = {"f_r": 467.0, "2 f_r": 933.0, "f_c": 194.0, "f_b": 1310.0, "f_i": 3268.0, "f_o": 2332.0}
+    one = louder(0.0, inner_ring=dict.fromkeys(LINES, 40.0 + height))
+    one |= {"frequencies": at, "spectra": {name: [40.0] * 201 for name in PARTS}}
+    judged = verdicts({28000: one})
+    assert judged["inner ring: six peaks, at each line"] == kind
+    assert judged["measured: P1 and P3 within 3 dB at 28,000 r/min"] == HOLDS  # 1 dB apart

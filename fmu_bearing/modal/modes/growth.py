@@ -36,6 +36,8 @@ def self_excitation(
         Inputs by name, SI units, in place of the scene's.
     """
     alone = self_excited(found)
+    if alone is None and scene.spindle is not None:
+        return None
     without = None if alone is None else (alone.frequency, alone.growth)
     try:
         run = quick_run(scene, given(scene, inputs))

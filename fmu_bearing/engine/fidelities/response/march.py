@@ -110,6 +110,7 @@ def start_response(p, u, s, w, t):
             lv[L.X + i] = lv[L.EVEN + i]
     if not linearise(p, s, w, speed):
         return NO_START
+    growth.search_at_once(p, s, w)
     renewal.mirror(p, s)
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.KNOWN] = 1.0  # where they rest in the equilibrium

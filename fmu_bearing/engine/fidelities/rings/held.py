@@ -24,7 +24,6 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
     uneven_out_of_date,
 )
 from fmu_bearing.engine.fidelities.full.start import TOUCHING, start
-from fmu_bearing.engine.fidelities.rings.growth import search_at_once
 from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
@@ -347,7 +346,6 @@ def start_held(p, u, s, w, t):
         if status == OK:
             put_at_mean(p, s, w)
             find_levers(p, own)
-            search_at_once(p, s, w)
         return status
     status = start(p, u, s, w, t)
     if status != OK:
@@ -358,7 +356,6 @@ def start_held(p, u, s, w, t):
     status = hold_all(p, u, True, s, w)
     if status == OK:
         find_levers(p, own)
-        search_at_once(p, s, w)
     return status
 
 

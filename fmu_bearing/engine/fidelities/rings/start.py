@@ -6,7 +6,7 @@ Arguments: see `spindle.members`.
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
 from fmu_bearing.engine.fidelities.full.start import begin_means
-from fmu_bearing.engine.fidelities.rings import equations, held
+from fmu_bearing.engine.fidelities.rings import equations, growth, held
 from fmu_bearing.engine.fidelities.rings.march import FIRST, longest_of_all
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
@@ -88,6 +88,7 @@ def start_rings(p, u, s, w, t):
             lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     if not begin_at_rest(p, s, w):
         return NO_START
+    growth.search_at_once(p, s, w)
     for b in range(members.count(p)):
         begin_means(members.state(p, s, b))
     for i in range(2):

@@ -4,7 +4,7 @@ The library and both kinds of FMU give the same ones, each once.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -166,9 +166,9 @@ def in_doubt(largest: Mapping[str, float], known: str = "") -> str:
     return known
 
 
-def largest_of(values: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
-    """Return the largest values of `DOUBTS` among variables of a run, of those that were kept."""
-    return {name: float(values[name].max(initial=0.0)) for name in DOUBTS if name in values}
+def largest_of(kept: Collection[str], values: Callable[[str], NDArray[np.float64]]) -> dict[str, float]:
+    """Return the largest values of `DOUBTS` in a run, of those ``kept``; ``values``: those of a name."""
+    return {name: float(values(name).max(initial=0.0)) for name in DOUBTS if name in kept}
 
 
 def cautions(model: Model, growth: bool = True) -> tuple[Caution, ...]:

@@ -150,7 +150,7 @@ def plot(
 
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
     """Return why a run's figures are in doubt: those that it has of levels and velocities, or all of them."""
-    from fmu_bearing.cautions import DOUBTS, in_doubt, largest_of
+    from fmu_bearing.cautions import in_doubt, largest_of
     from fmu_bearing.modal.campbell.weak import doubt, is_of_levels, is_of_motion
 
     assert run.scene is not None
@@ -160,7 +160,7 @@ def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
         found = ""
     elif table and found:
         found = f"at the values of the start, {found}"
-    return in_doubt(largest_of({name: run[name] for name in DOUBTS if name in run.names}), found)
+    return in_doubt(largest_of(run.names, run.__getitem__), found)
 
 
 def split(options: list[str] | None) -> list[str] | None:

@@ -148,7 +148,7 @@ class Recording(ChannelHistory):
         ``solver.restarts`` and ``solver.growth`` (1/s): fidelities rings and response restart where no step
         is possible, and by their linear equations rings may whirl.
         """
-        return largest_of(self.outputs)
+        return largest_of(self.outputs, self.outputs.__getitem__)
 
     def within(self) -> dict[str, NDArray[np.float64]]:
         """Speed and variables at the communication points of the recording, its start left out."""

@@ -8,11 +8,12 @@ import pytest
 from benchmarks.quick_fidelities import Case, cases
 from fmu_bearing import Bearing, new_scene
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.cautions import GROWS, GROWTH
+from fmu_bearing.cautions import GROWS, GROWTH, cautions
 from fmu_bearing.engine.layout import SP, L, S, U
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.modal.equations.quick import found_growth, operator_matrix, quick_run
 from fmu_bearing.modal.equations.shaft import rows_of
+from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene_text
 
 SEED = 54
@@ -96,6 +97,15 @@ def sets(count):
 
 def test_what_grows_is_found():
     assert_found(of_catalogue(0.06), 4)
+
+
+def test_an_fmu_has_the_warning_too():
+    """It is among those that are written into the FMU, at the place of the variable, of a set the shaft's."""
+    for scene in (*sets(1), Case("one", "NSK-7911AC", 5000.0, force=200.0).scene()):
+        model = prepare(scene.replace({"fidelity.model": "rings"}))
+        (place,) = {one.index for one in model.variables if one.name == GROWTH}
+        (warning,) = [one for one in cautions(model) if GROWTH in one.after]
+        assert (warning.index, warning.array, warning.threshold) == (place, "z", GROWS)
 
 
 def test_what_grows_in_a_set_is_found():

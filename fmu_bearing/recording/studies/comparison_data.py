@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies, nominal_frequency
-from fmu_bearing.cautions import DOUBTS, in_doubt, largest_of
+from fmu_bearing.cautions import in_doubt, largest_of
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
@@ -135,7 +135,7 @@ def of_run(run: Run, settle: float, radiation_model: str | None = None) -> Compa
     after = times >= settle if (times >= settle).any() else np.full(len(times), True)
     figures = _figures({key: run[key][after] for key in run.names})
     levels, thirds = _meters(run)
-    doubted = in_doubt(largest_of({name: run[name] for name in DOUBTS if name in run.names}))
+    doubted = in_doubt(largest_of(run.names, run.__getitem__))
     sound = None if run.scene is None else run.scene.sound
     return ComparisonData(
         run.name, run.scene, levels, thirds, None, figures, run.excitation_end, doubted, _fidelity(run.scene),

@@ -22,13 +22,10 @@ def variables(
     mass (kg), static moment (kg m) and transverse inertia (kg m2) of the inner rings at a mechanical port.
     Parts that the scene leaves out (cage, sound, imperfections) have no variables.
     """
-    if scene.spindle is None:
-        computed = [*outputs(scene), *internals(scene)]
-    else:
-        computed = [*outputs_of_set(scene), *internals_of_set(scene)]
     table = [
         *inputs_of(scene),
-        *computed,
+        *outputs_of(scene),
+        *(internals(scene) if scene.spindle is None else internals_of_set(scene)),
         *parameters(scene),
         *constants(scene, rotor_inertia, rings),
     ]
@@ -40,6 +37,11 @@ def variables(
 def inputs_of(scene: Scene) -> list[Variable]:
     """Return the inputs of a scene, of its single bearing or of its set."""
     return inputs(scene) if scene.spindle is None else inputs_of_set(scene)
+
+
+def outputs_of(scene: Scene) -> list[Variable]:
+    """Return the outputs of a scene, of its single bearing or of its set."""
+    return outputs(scene) if scene.spindle is None else outputs_of_set(scene)
 
 
 def input_values(scene: Scene) -> NDArray[np.float64]:

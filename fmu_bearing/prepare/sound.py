@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.scene import Scene
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from fmu_bearing.acoustics.radiation.radiators import Radiators
     from fmu_bearing.acoustics.radiation.table import Table
 
-__all__ = ["sound_block", "sound_blocks", "sound_key"]
+__all__ = ["silenced", "sound_block", "sound_blocks", "sound_key"]
 
 #: Packages whose code computes the numbers, beside the engine.
 _ROOMS = ("acoustics", "elastic", "formulas", "prepare", "scene")
@@ -131,6 +132,24 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
     first, *inside = alone
     radiating = sound_block(first, replace(own[0], radiators=front_of_set(scene)))
     return [radiating, *(silent_parameters(one, lines=lines) for one in inside)]
+
+
+def silenced(block: NDArray[np.float64], component: str) -> NDArray[np.float64]:
+    """Return a copy of a sound block for samples in which one of ``SD.COMPONENTS`` makes no sound."""
+    found = block.copy()
+    if not block.size:
+        return found
+    kinds = found[int(found[SD.H_AT_SOURCES]) :][: 2 * int(found[SD.H_SOURCES])].reshape(-1, 2)
+    outputs = found[int(found[SD.H_AT_OUTPUTS]) :][: int(found[SD.H_OUTPUTS])].astype(int)
+    quiet = kinds[outputs, 0] == SD.COMPONENTS.index(component)
+    for group in range(int(found[SD.H_GROUPS])):
+        row = found[int(found[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group :][: SD.GROUP_SIZE]
+        first, count, mics, weights = (
+            int(row[k]) for k in (SD.GROUP_FIRST, SD.GROUP_COUNT, SD.GROUP_MICS, SD.GROUP_AT_WEIGHTS)
+        )
+        table = found[weights : weights + count * mics].reshape(count, mics)
+        table[quiet[first : first + count]] = 0.0
+    return found
 
 
 class Sounds:

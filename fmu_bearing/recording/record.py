@@ -101,8 +101,9 @@ def record(
         values of the state that are not variables.
     warn : bool
         Warn (``UserWarning``) where figures of fidelity rings or response are in doubt: a ring that whirls by
-        itself, rings that depart from full in a short run, weakly damped modes. It takes 0.3 to 1 s for each
-        scene, of sets up to 5 s, once per process, at constant inputs.
+        itself, rings that depart from full in a short run, a loud cage, weakly damped modes. It takes 0.5 to
+        1.5 s for each scene, of sets up to 5 s, once per process, at constant inputs; of scenes with sound
+        it makes the transfer functions of ``radiation_model``.
     keep : bool
         On Ctrl-C raise `Stopped` with what was recorded until then as ``found``, 20 ms or more of it.
 
@@ -141,7 +142,7 @@ def record(
     drives = dict(inputs or {})
     if speed is not None:
         drives["shaft_speed"] = speed
-    doubted = _doubt(scene, drives) if warn else ""
+    doubted = _doubt(scene, drives, wanted) if warn else ""
     if doubted:
         warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
     model = source if isinstance(source, Model) and microphones and not from_lines(scene) else prepare(
@@ -214,10 +215,13 @@ def variables_of(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
     )
 
 
-def _doubt(scene: Scene, drives: Mapping[str, Signal]) -> str:
+def _doubt(scene: Scene, drives: Mapping[str, Signal], radiation_model: str) -> str:
     """Return why figures are in doubt, at inputs that do not change; "" where the speed does."""
     if callable(drives.get("shaft_speed")):
         return ""
+    if scene.sound is not None:
+        sound = scene.sound.model_copy(update={"radiation_model": radiation_model})
+        scene = scene.model_copy(update={"sound": sound})
     return doubt(scene, {name: float(value) for name, value in drives.items() if not callable(value)})
 
 

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import new_scene, simulate
+from fmu_bearing import new_scene, read_scene, simulate
+from fmu_bearing.arrays import Arrays
+from fmu_bearing.interface.table import variables
 from fmu_bearing.modal.campbell.weak import (
     FAR,
+    QUIETER,
     departs,
     doubt,
     is_of_levels,
@@ -14,7 +17,10 @@ from fmu_bearing.modal.campbell.weak import (
     struck,
 )
 from fmu_bearing.modal.equations.beside_full import beside_full
+from fmu_bearing.modal.equations.cage_sound import loss_without_cage
+from fmu_bearing.prepare.sound import silenced, sound_blocks
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
+from tests.conftest import EXAMPLES
 
 
 def fresh(bearing, rpm, preload, kind="hybrid", **options):
@@ -111,3 +117,33 @@ def test_a_perfect_bearing_is_not_compared(scene):
     assert (run.ratio, run.what) == (1.0, "") and doubt(perfect) == ""
     assert run.seconds == pytest.approx(0.05, abs=1e-3)  # three turns of the cage
     assert np.isfinite(run.play).all()
+
+
+@pytest.mark.parametrize(("radiation", "low", "high"), [("compact", 8.0, 10.0), ("bem", 0.0, 0.5)])
+def test_a_loud_cage_is_named(radiation, low, high):
+    """The rings shield it in bem alone: the 7009C in its spindle, with and without the cage's sound."""
+    scene = read_scene(EXAMPLES / "7009C-spindle.toml").replace({"sound.radiation_model": radiation})
+    loss = loss_without_cage(scene)
+    assert low <= loss <= high
+    said = doubt(with_fidelity(scene, model="rings"))
+    assert ("the cage's own sound is left out" in said) == (loss > QUIETER)
+    assert is_of_levels(said) == bool(said)
+
+
+@pytest.mark.parametrize("arrangement", [None, "DB"])
+@pytest.mark.parametrize("radiation", ["compact", "paper", "paper_vector"])
+def test_a_silenced_cage_makes_no_sound_and_nothing_else_changes(arrangement, radiation):
+    text = new_scene("one", "NSK-7008C", speed_rpm=10_000.0, arrangement=arrangement)
+    scene = with_fidelity(read_scene_text(text), model="full").replace({"sound.radiation_model": radiation})
+    runs = []
+    for change in (lambda block: block, lambda block: silenced(block, "cage")):
+        run = Arrays.of(scene, *map(change, sound_blocks(scene)))
+        run.init()
+        run.run(0.03, 1e-3)
+        runs.append(run)
+    (whole, rest), table = runs, {one.name: one.index for one in variables(scene, 0.0)}
+    cage = table["mic[1].spl_cage"]
+    assert rest.z[cage] < -106.0 < whole.z[cage] - 50.0  # -106 dB is silence
+    for part in ("inner_ring", "outer_ring", "balls"):
+        place = table[f"mic[1].spl_{part}"]
+        assert rest.z[place] == whole.z[place]

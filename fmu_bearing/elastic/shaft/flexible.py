@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 from fmu_bearing.elastic.shaft.beam import Beam, beam, eigen
 from fmu_bearing.elastic.shaft.model import FREEDOMS, ShaftModel
 from fmu_bearing.elastic.shaft.sections import Section
+from fmu_bearing.threads import one_thread
 
 
+@one_thread
 def flexible_model(
     sections: Sequence[Section],
     bearings: Sequence[float],

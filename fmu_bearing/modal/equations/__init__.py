@@ -8,6 +8,7 @@
 ``linearised``   the whole: bearings, tied by shaft and housing where there are some
 ``quick``        the linear operator of fidelities rings and response, from the engine
 ``beside_full``  a short run of rings or response beside full, and how far balls swing in their pockets
+``cage_sound``   by how much levels of full fall without their cage's own sound
 ``remarks``      remarks on the steady state: that none was found, a soft pedestal
 ===============  ===========================================================================
 """

@@ -11,7 +11,8 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene
-from tests.spindle.one import MIDDLE, PRELOAD, set_of_one
+from tests.conftest import GATES
+from tests.spindle.one import MIDDLE, PRELOAD, gate_as_set, set_of_one
 
 RPM = 20e3
 BALLS = 11.4  # m/s: speed of the balls
@@ -81,13 +82,17 @@ def test_every_figure_at_rest(radial, close, cage):
 
     What differs is the place of the bearing, and that its load is no preload of a mounting.
     """
-    several, single = set_of_one(RPM, radial, cage=cage)
+    at_rest(*set_of_one(RPM, radial, cage=cage), close)
+
+
+def at_rest(several, single, close, place=4e-9, share=1e-6):
+    """Compare all figures at rest; ``place``: m and rad; ``share``: of the largest stiffness."""
     ours, theirs = statics(several), statics(single)
     # the shaft's nose is 90 mm ahead of the bearing
     there = placed(1.0, 1e-3 * MIDDLE)
     at_nose = there.T @ theirs.stiffness @ there
-    np.testing.assert_allclose(ours.stiffness, at_nose, rtol=0.0, atol=1e-6 * np.abs(at_nose).max())
-    np.testing.assert_allclose(there @ ours.displacement, theirs.displacement, rtol=0.0, atol=4e-9)
+    np.testing.assert_allclose(ours.stiffness, at_nose, rtol=0.0, atol=share * np.abs(at_nose).max())
+    np.testing.assert_allclose(there @ ours.displacement, theirs.displacement, rtol=0.0, atol=place)
     np.testing.assert_allclose(ours.load, there.T @ theirs.load, rtol=0.0, atol=1e-9)
     first = {key: part for key, part in ours.summary().items() if key == "bearings"}
     second = {key: part for key, part in theirs.summary().items() if key == "bearings"}
@@ -101,7 +106,8 @@ def test_every_figure_at_rest(radial, close, cage):
     for one in verdicts(theirs):
         if one.key != "preload_class":
             assert judged[one.key] == (one.text, one.judgement), one.key
-    speeds = [10e3, RPM]
+    rpm = single.operation.speed_rpm
+    speeds = [0.5 * rpm, rpm]
     first, second = (stiffness(one, speeds).summary() for one in (several, single))
     assert compare(first, second, close) >= 6
 
@@ -109,13 +115,17 @@ def test_every_figure_at_rest(radial, close, cage):
 @pytest.mark.parametrize("radial", [0.0, -50.0])
 def test_every_mode(radial):
     """Frequencies, damping, names and directions; what moves is the shaft there, the inner ring here."""
-    several, single = set_of_one(RPM, radial)
+    same_modes(*set_of_one(RPM, radial))
+
+
+def same_modes(several, single, close=1e-6):
+    """Compare the modes in which rings move."""
     ours, theirs = modes(several).modes, modes(single).modes
     rings = [one for one in theirs if not one.name.startswith("ball")]
     assert len(rings) > 8
     for one in rings:
         other = min(ours, key=lambda mode, value=one.value: abs(mode.value - value))
-        assert abs(other.value - one.value) < 1e-6 * abs(one.value)
+        assert abs(other.value - one.value) < close * abs(one.value), one.label
         assert other.direction == one.direction and other.order == one.order
         name = one.name.replace("inner", "shaft")
         assert other.name in (name, f"{name} of bearing 1"), (one.label, other.label)
@@ -150,9 +160,14 @@ def test_every_output_of_a_run_without_cage(fidelity, radial):
 
     Where loads and unequal balls put the cage is searched in pieces, of which a set may need more or fewer.
     """
-    several, single = set_of_one(RPM, radial, cage=False, changes=TIGHT)
+    same_outputs(*set_of_one(RPM, radial, cage=False, changes=TIGHT), fidelity, 1.0)
+
+
+def same_outputs(several, single, fidelity, looser):
+    """Compare all outputs of a run; ``looser``: factor on what they may differ by."""
     ours, theirs = run_of(several, fidelity), run_of(single, fidelity)
     names = outputs_of(single)
+    rate = single.operation.speed_rpm * math.pi / 30.0
     assert len(names) > 80
     for steps in (0, 15, 15):
         for _ in range(steps):
@@ -163,10 +178,10 @@ def test_every_output_of_a_run_without_cage(fidelity, radial):
             if steps and fidelity != "full" and name.startswith(LOST):
                 continue
             slips = name.endswith(("slip", "spin_to_roll"))
-            close = (SLIP if slips else CLOSE)[fidelity] * abs(wanted) + NOTHING.get(unit, 0.0)
+            close = looser * ((SLIP if slips else CLOSE)[fidelity] * abs(wanted) + NOTHING.get(unit, 0.0))
             assert value(ours, name) == pytest.approx(wanted, abs=close, nan_ok=True), (name, steps)
-        ours.set("shaft_speed", 0.98 * RPM * math.pi / 30.0)
-        theirs.set("shaft_speed", 0.98 * RPM * math.pi / 30.0)
+        ours.set("shaft_speed", 0.98 * rate)
+        theirs.set("shaft_speed", 0.98 * rate)
     if fidelity == "full":
         return
     for _ in range(60):
@@ -174,7 +189,7 @@ def test_every_output_of_a_run_without_cage(fidelity, radial):
         theirs.step(1e-3)
     for name, _ in names:
         if name.startswith(LOST):
-            assert value(ours, name) == pytest.approx(theirs.get(name), rel=3e-4, abs=1e-9), name
+            assert value(ours, name) == pytest.approx(theirs.get(name), rel=looser * 3e-4, abs=1e-9), name
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
@@ -194,3 +209,46 @@ def test_torque_and_levels_with_a_cage(fidelity):
             torque.append(run.get("friction_torque"))
     assert sum(torques[0]) == pytest.approx(sum(torques[1]), rel=0.01)
     assert value(ours, "mic[1].leq") == pytest.approx(theirs.get("mic[1].leq"), abs=0.3)
+
+
+#: Times `CLOSE` by which outputs of gate scenes differ today, of a perfect bearing (True) and with its surfaces:
+#: the start of `full` is settled to the solver's tolerance, and with unequal balls a set and a single bearing
+#: take their losses at different places of the rings. With them the 7009C, which tilt loosely, whirl.
+GATE_BOUNDS = [
+    ("7003C-bare", "full", True, 1.0),
+    ("7003C-bare", "rings", True, 1.0),
+    ("7003C-bare", "response", True, 1.0),
+    ("7003C-bare", "full", False, 1e3),
+    ("7003C-bare", "rings", False, 30.0),
+    ("7003C-bare", "response", False, 30.0),
+    ("7003C-spindle", "full", True, 10.0),
+    ("7003C-spindle", "rings", True, 1.0),
+    ("7003C-spindle", "response", True, 1.0),
+    ("7003C-spindle", "full", False, 1e3),
+    ("7003C-spindle", "rings", False, 30.0),
+    ("7003C-spindle", "response", False, 30.0),
+    ("7009C-full-ceramic", "full", True, 10.0),
+    ("7009C-steel", "full", True, 10.0),
+]
+
+
+@pytest.mark.heavy  # 10 s of CPU
+@pytest.mark.parametrize("radial", [0.0, -50.0])
+@pytest.mark.parametrize(("name", "fidelity", "perfect", "looser"), GATE_BOUNDS)
+def test_every_output_of_a_gate_scene_without_cage(name, fidelity, perfect, looser, radial):
+    changes = TIGHT | ({"imperfections": None} if perfect else {})
+    same_outputs(*gate_as_set(name, radial, cage=False, changes=changes), fidelity, looser)
+
+
+@pytest.mark.heavy  # 10 s of CPU
+@pytest.mark.parametrize("radial", [0.0, -50.0])
+@pytest.mark.parametrize("cage", [True, False])
+@pytest.mark.parametrize("name", [path.stem for path in sorted(GATES.glob("*.toml"))])
+def test_every_mode_of_a_gate_scene(name, cage, radial):
+    same_modes(*gate_as_set(name, radial, cage=cage), close=1e-5)
+
+
+@pytest.mark.parametrize("radial", [0.0, -50.0])
+def test_every_figure_of_a_gate_scene_at_rest(radial):
+    """The one whose pedestal holds its tilt; others differ by what a loose tilt leaves open."""
+    at_rest(*gate_as_set("7003C-bare", radial, cage=False), AT_REST)

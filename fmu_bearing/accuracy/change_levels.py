@@ -40,7 +40,8 @@ class ChangeLevels:
         """
         assert scene.imperfections is not None
         self.fidelity, levels = self._choose(scene)
-        self.doubt = doubt(with_fidelity(scene, model=self.fidelity))
+        by = self.estimator.radiation_model
+        self.doubt = doubt(with_fidelity(scene, model=self.fidelity), radiation_model=by)
         if self.fidelity == "full":
             seeds = min(seeds, _SEEDS_FULL)
         self.seeds = tuple((scene.imperfections.seed + k * scene.seeds_apart) % 2**31 for k in range(seeds))
@@ -69,7 +70,7 @@ class ChangeLevels:
         if own in ("rings", "response"):
             return own, self._all(scene, own, seed)
         full = self._all(scene, "full", seed)
-        if weakness(scene):
+        if weakness(scene, radiation_model=self.estimator.radiation_model):
             return "full", full
         at = int(np.argmax(full))
         for fidelity in ("response", "rings"):

@@ -219,10 +219,8 @@ def _doubt(scene: Scene, drives: Mapping[str, Signal], radiation_model: str) -> 
     """Return why figures are in doubt, at inputs that do not change; "" where the speed does."""
     if callable(drives.get("shaft_speed")):
         return ""
-    if scene.sound is not None:
-        sound = scene.sound.model_copy(update={"radiation_model": radiation_model})
-        scene = scene.model_copy(update={"sound": sound})
-    return doubt(scene, {name: float(value) for name, value in drives.items() if not callable(value)})
+    fixed = {name: float(value) for name, value in drives.items() if not callable(value)}
+    return doubt(scene, fixed, radiation_model)
 
 
 def with_far_microphone(scene: Scene, radiation_model: str) -> Scene:

@@ -49,7 +49,9 @@ QUIETER = 0.9  # dB(A), chosen: levels are promised to be within 1 dB(A) of full
 _LEVELS = "levels"
 
 
-def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
+def doubt(
+    scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None
+) -> str:
     """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
 
     Where a ring whirls by itself, and where no steady state was found, all figures are in doubt; where rings
@@ -61,6 +63,8 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     scene : Scene
     inputs : mapping, optional
         Inputs by name, SI units, in place of the scene's; parameters among them are ignored.
+    radiation_model : str, optional
+        Of the levels, in the place of the scene's.
     """
     model = scene.fidelity.model
     if model in ("full", "auto"):
@@ -76,7 +80,7 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
         if moves_far_more(scene, model, inputs):
             what = "contact loads, levels and velocities"
         return f"{what} of fidelity {model} are in doubt here: {reason}; take fidelity full"
-    reason = struck(scene, model, inputs) or loud_cage(scene, inputs)
+    reason = struck(scene, model, inputs) or loud_cage(scene, inputs, radiation_model)
     if not reason and (reason := weakly_damped(scene, inputs)):
         reason += ", and a small error of damping or frequency is one of several dB"
     return reason and f"{_LEVELS} of fidelity {model} are in doubt here: {reason}; take fidelity full"
@@ -123,12 +127,14 @@ def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
     )
 
 
-def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
+def weakness(
+    scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None
+) -> str:
     """Return why fidelities rings and response cannot be trusted with a level, or "".
 
     A motion of rings and cage grows by itself, rings depart from full in a short run, balls strike the
     pockets of a cage, the cage is loud, or a mode is weakly damped. Where there is no equilibrium the result
-    is empty: runs report that themselves.
+    is empty: runs report that themselves. ``radiation_model``: of the levels, in the place of the scene's.
     """
     if (found := _at(scene, inputs)) is None:
         return ""
@@ -139,7 +145,7 @@ def weakness(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     return (
         departs(scene, model, inputs)
         or struck(scene, model, inputs)
-        or loud_cage(scene, inputs)
+        or loud_cage(scene, inputs, radiation_model)
         or weakly_damped(scene, inputs)
     )
 
@@ -172,10 +178,15 @@ def struck(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) 
     )
 
 
-def loud_cage(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
+def loud_cage(
+    scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None
+) -> str:
     """Return that the cage's own sound, which rings and response leave out, makes out a level, or ""."""
     if scene.sound is None:
         return ""
+    if radiation_model is not None:
+        sound = scene.sound.model_copy(update={"radiation_model": radiation_model})
+        scene = scene.model_copy(update={"sound": sound})
     text = with_fidelity(scene, model="full").to_toml()
     loss = _loss_without_cage(text, _known(scene, inputs))
     if loss <= QUIETER:

@@ -223,7 +223,7 @@ def spread(
     places = [place for _, place in chosen]
     estimator = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
-    weak = weakness(scene)
+    weak = weakness(scene, radiation_model=radiation_model or recording.radiation_model)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     others = list(_corners(flaws)) if surface is None else _found(surface, scene, bool(weak))
     draws = [flaws, *flaws.redrawn(seeds, scene.seeds_apart), *others]
@@ -276,7 +276,7 @@ def at_speed(recording: Recording) -> Scene:
 def doubt_of(recording: Recording) -> str:
     """Return why the levels of a recording are in doubt; empty: they are not, or nothing is known of it."""
     try:
-        found = doubt(at_speed(recording))
+        found = doubt(at_speed(recording), radiation_model=recording.radiation_model)
     except ValueError:
         found = ""
     return in_doubt(recording.doubts, found)

@@ -211,9 +211,9 @@ def test_torque_and_levels_with_a_cage(fidelity):
     assert value(ours, "mic[1].leq") == pytest.approx(theirs.get("mic[1].leq"), abs=0.3)
 
 
-#: Times `CLOSE` by which outputs of gate scenes differ today, of a perfect bearing (True) and with its surfaces:
-#: the start of `full` is settled to the solver's tolerance, and with unequal balls a set and a single bearing
-#: take their losses at different places of the rings. With them the 7009C, which tilt loosely, whirl.
+#: Times `CLOSE` by which outputs of gate scenes differ today, of a perfect bearing (True) and with its
+#: surfaces: the start of `full` is settled to the solver's tolerance, and with unequal balls both take their
+#: losses at different places of the rings. With them the 7009C, which tilt loosely, whirl.
 GATE_BOUNDS = [
     ("7003C-bare", "full", True, 1.0),
     ("7003C-bare", "rings", True, 1.0),

@@ -36,7 +36,7 @@ def test_what_is_not_judged_says_why():
 
 @pytest.fixture(scope="module")
 def pair(scene):
-    """Recordings of the bare 7003C, one of them with a lighter preload, in fidelity response, without cage."""
+    """Recordings of the bare 7003C without cage, one with a lighter preload, in fidelity response."""
     one = with_fidelity(scene("7003C-bare"), model="response").replace({"bearing.cage": None})
     return [
         record(each, 0.05, settle=0.03, radiation_model="compact")

@@ -49,9 +49,7 @@ QUIETER = 0.9  # dB(A), chosen: levels are promised to be within 1 dB(A) of full
 _LEVELS = "levels"
 
 
-def doubt(
-    scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None
-) -> str:
+def doubt(scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None) -> str:
     """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
 
     Where a ring whirls by itself, and where no steady state was found, all figures are in doubt; where rings

@@ -52,25 +52,15 @@ def alternatives(scene: Scene) -> list[Alternative]:
     return found
 
 
-def preload_key(scene: Scene) -> str:
-    """Return the dotted key of the preload in newtons, of a set of its spacers or springs; "" without one."""
-    if scene.spindle is None:
-        return "mounting.preload_N"
-    if scene.spindle.preload is None:
-        return ""
-    return f"spindle.preload.{'force_N' if scene.spindle.preload.kind == 'spring' else 'preload_N'}"
-
-
 def _preload(scene: Scene) -> Iterator[Alternative]:
-    key = preload_key(scene)
-    if not key:
+    key = scene.assembly.preload_key
+    if not scene.assembly.can_preload:
         return
     now = value_at(scene, key) or 0.0
     wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
     found = None if key.endswith("force_N") else preload_classes(scene)  # springs have no offset of faces
-    signs = [] if scene.spindle is None else [one.carries for one in scene.spindle.bearing]
     for name in found.loads if found else ():
-        made = preload({CLASS: name}, scene.bearing, scene.materials, signs)
+        made = preload({CLASS: name}, scene.bearing, scene.materials, scene.assembly.carries)
         if made is not None:
             wanted.append((made.force, f" {name}"))
     for force, name in wanted:
@@ -177,12 +167,13 @@ def _supports(scene: Scene) -> Iterator[Alternative]:
             yield Alternative(
                 "speed", f"speed {speed:g} -> {changed:g} r/min", {"operation.speed_rpm": changed}
             )
-    key = f"{'mounting' if scene.spindle is None else 'spindle.housing'}.pedestal_stiffness_N_m"
+    key = scene.assembly.pedestal_key
     stiffness = value_at(scene, key)
     for factor in _PEDESTALS if stiffness else ():  # the housing of a set may be at rest
         words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
         yield Alternative("pedestal", words, {key: factor * stiffness})
-    spots = () if scene.spindle is None else scene.spindle.shaft.unbalance
+    shaft = scene.assembly.shaft
+    spots = () if shaft is None else shaft.unbalance
     if spots:
         lighter = [one.model_dump() | {"amount_g_mm": _BALANCE * one.amount_g_mm} for one in spots]
         yield Alternative(

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.accuracy.alternatives import Alternative, preload_key
+from fmu_bearing.accuracy.alternatives import Alternative
 from fmu_bearing.formulas import iso281
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import value_at
@@ -190,7 +190,7 @@ class Changes:
     @property
     def stiff(self) -> str:
         """What the stiffness is, in words."""
-        return "radial stiffness" if self.scene.spindle is None else "stiffness across at the nose"
+        return "radial stiffness" if self.scene.assembly.shaft is None else "stiffness across at the nose"
 
     @property
     def refused(self) -> list[Change]:
@@ -221,7 +221,10 @@ class Changes:
     def resonances(self) -> list[str]:
         """Return topics of which less and more are both quieter: a strong line is near a resonance."""
         found = []
-        for topic, key in (("speed", "operation.speed_rpm"), ("preload", preload_key(self.scene))):
+        topics = {"speed": "operation.speed_rpm"}
+        if self.scene.assembly.can_preload:
+            topics["preload"] = self.scene.assembly.preload_key
+        for topic, key in topics.items():
             now = value_at(self.scene, key)
             rows = [e for e in self.changes if e.choice.topic == topic and e.levels.size]
             sides = [
@@ -258,7 +261,8 @@ class Changes:
         names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
         there = [text for name, text in names.items() if name in self.figures]
         words = ", ".join([*there, self.stiff])
-        perfect = "the perfect bearing" if self.scene.spindle is None else "perfect bearings, of all together"
+        several = self.scene.assembly.shaft is not None
+        perfect = "perfect bearings, of all together" if several else "the perfect bearing"
         words = f"{words[0].upper()}{words[1:]}: operating point of {perfect}."
         for name, reason in (("life", self.no_life), ("torque", self.no_torque)):
             words += f" No {name}: {reason}." if reason else ""

@@ -109,10 +109,10 @@ def point(scene: Scene) -> Point:
     found = operating_point(scene, cautions.append)
     cautions += found.remarks
     if found.whirl is not None:
-        cautions.append(whirl_words(*found.whirl, scene.spindle is not None))
+        cautions.append(whirl_words(*found.whirl, scene))
     torque = 1e3 * sum(one.friction_torque for one in found.bearings)
     torque *= math.copysign(1.0, scene.operation.speed_rpm)
-    if scene.spindle is None:
+    if scene.assembly.shaft is None:
         (one,) = found.bearings
         life, stiffness = one.life, 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
     else:

@@ -75,7 +75,7 @@ def info(
         steady = {} if warm is None else {"temperatures": warm.summary()}
         print_json(point.summary() | judged | seats | steady)
         return
-    if point.scene.spindle is None:
+    if point.scene.assembly.shaft is None:
         _show_bearing(point.bearings[0])
     else:
         _show_set(point.statics)

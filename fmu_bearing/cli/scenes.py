@@ -388,9 +388,8 @@ def _remark(one: Origin) -> str:
 
 def _subject(found: Scene) -> str:
     """Return the bearing's designation; of a set their number and arrangement, too."""
-    if found.spindle is None:
-        return found.bearing.designation
-    return f"{len(found.spindle.bearing)} x {found.bearing.designation}, {found.spindle.arrangement}"
+    members, designation = found.assembly.members, found.bearing.designation
+    return f"{len(members)} x {designation}, {found.assembly.arrangement}" if members else designation
 
 
 def _sizes(found: Scene) -> dict[str, Any]:

@@ -231,12 +231,14 @@ def _as_keys(scene: "Scene", inputs: dict[str, float]) -> dict[str, float]:
 
 
 def _key_of(scene: "Scene", name: str) -> str | None:
-    if scene.spindle is None:
+    from fmu_bearing.scene.member import set_of
+
+    if not scene.assembly.members:
         return (_KEYS_OF_BOTH | _KEYS).get(name)
     place, _, own = name.partition("].")
     if own in ("inner_ring_temperature", "outer_ring_temperature"):
         return f"spindle.{place}].{own}_degC"
-    if name.startswith("nose.force.") and scene.spindle.load.position_mm == 0.0:
+    if name.startswith("nose.force.") and set_of(scene).load.position_mm == 0.0:
         return f"spindle.load.force_{name[-1]}_N"
     return (_KEYS_OF_BOTH | _KEYS_OF_SETS).get(name)
 
@@ -254,15 +256,18 @@ def _check_key(
     keys = [one for one in fields_of(scene) if getattr(scene, _table(one)) is not None]
     if scene.fit is None:  # whose keys have names of other tables, as preload
         keys = [one for one in keys if ".fit." not in one]
-    preload = "mounting" if scene.spindle is None else "spindle.preload"
-    if scene.spindle is None or scene.spindle.preload is not None:  # in place of the force that the scene has
-        keys += [f"{preload}.{CLASS}", f"{preload}.{OFFSET}"]
+    if scene.assembly.can_preload:  # in place of the force that the scene has
+        keys += [f"{scene.assembly.preload_table}.{key}" for key in (CLASS, OFFSET)]
     named = [one for one in inputs if units.get(one) != "rad/s"]
     key = {"speed": "speed_rpm", "n": "speed_rpm", "rpm": "speed_rpm"}.get(key, key)
     known = {one.rpartition(".")[2]: one for one in reversed(keys)} | {one: one for one in named}
     near = known[key] if key in known else known.get(nearest(key, known), "")
     unit = f" ({units[near]})" if units.get(near) else ""
-    hint = f"; did you mean {near}{unit}?" if near else f": keys have their table, as {preload}.preload_N"
+    hint = (
+        f"; did you mean {near}{unit}?"
+        if near
+        else f": keys have their table, as {scene.assembly.preload_table}.preload_N"
+    )
     raise Refusal(f"--set {setting}: there is no such key or input{hint}")
 
 

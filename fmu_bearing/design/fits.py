@@ -23,7 +23,7 @@ from fmu_bearing.scene.fit import (
     interferences,
     shaft_partner,
 )
-from fmu_bearing.scene.member import still_of
+from fmu_bearing.scene.member import set_of, still_of
 from fmu_bearing.threads import one_thread
 
 #: States of a mounted bearing: speed (share of the scene's) and warmth (share of its temperatures).
@@ -278,7 +278,7 @@ def fitted(scene: SceneSource) -> Scene:
     """
     found = still_of(scene_of(scene))
     if found.fit is None:
-        table = "mounting.fit" if found.spindle is None else "spindle.fit"
+        table = f"{found.assembly.table}.fit"
         raise SceneError(
             f"{found.name}: has no fit, its rings are as drawn: add [{table}] with [{table}.shaft] or "
             f'[{table}.housing], as shaft_class = "js4" with bearing_class = "P4", or interference_um = 2.0'
@@ -344,11 +344,12 @@ def _probable(scene: Scene) -> dict[Take, tuple[float, float]]:
 
 def _without_own(scene: Scene) -> Scene:
     """Return a set whose bearings have no interference of their own; a single bearing as it is."""
-    if scene.spindle is None:
+    if not scene.assembly.members:
         return scene
+    spindle = set_of(scene)
     none = dict.fromkeys(f"{side.seat}_interference_um" for side in SIDES)
-    bearings = tuple(one.model_copy(update=none) for one in scene.spindle.bearing)
-    return scene.model_copy(update={"spindle": scene.spindle.model_copy(update={"bearing": bearings})})
+    bearings = tuple(one.model_copy(update=none) for one in spindle.bearing)
+    return scene.model_copy(update={"spindle": spindle.model_copy(update={"bearing": bearings})})
 
 
 def _um(scene: Scene, side: Side, take: Take) -> float:

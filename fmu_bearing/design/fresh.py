@@ -94,7 +94,7 @@ def new_scene(
         speed, speed_rule = _speed(draft, bearing)
     if preloaded:
         return text(speed, preload_N or 0.0, speed_rule=speed_rule)
-    if draft.spindle is not None:
+    if draft.assembly.shaft is not None:
         tell("looking for a preload with good verdicts, up to a minute; a given one takes none ...")
     force, preload_rule, good = _preload(_at(draft, speed))
     slower = speed
@@ -127,9 +127,7 @@ def _speed(scene: Scene, bearing: str | Dimensions) -> tuple[float, str]:
 def _preload(scene: Scene) -> tuple[float, str, bool]:
     """Return the assumed preload (N) at the scene's speed, its rule, and whether it cures all it can."""
     try:
-        several = () if scene.spindle is None else scene.spindle.bearing
-        signs = [one.carries for one in several]
-        light = preload({CLASS: "light"}, scene.bearing, scene.materials, signs)
+        light = preload({CLASS: "light"}, scene.bearing, scene.materials, scene.assembly.carries)
     except PreloadError:  # no classes at this angle
         light = None
     force, rule = (0.0, "") if light is None else light
@@ -165,12 +163,10 @@ def _wrong(scene: Scene) -> set[str]:
 
 def _at(scene: Scene, speed: float | None = None, force: float | None = None) -> Scene:
     """Return a scene at another speed (r/min), and under another preload (N) of each bearing."""
-    given = {"operation.speed_rpm": speed, "mounting.preload_N": force}
-    if force is not None and scene.spindle is not None:
-        del given["mounting.preload_N"]
-        one_way = scene.spindle.preload is None
-        key = "spindle.load.force_x_N" if one_way else "spindle.preload.preload_N"
-        given[key] = force * len(scene.spindle.bearing) if one_way else force
+    assembly = scene.assembly
+    given = {"operation.speed_rpm": speed, assembly.preload_key: force}
+    if force is not None and not assembly.can_preload:
+        given = {"operation.speed_rpm": speed, "spindle.load.force_x_N": force * len(assembly.members)}
     return scene.replace({key: value for key, value in given.items() if value is not None})
 
 

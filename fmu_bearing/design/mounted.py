@@ -12,7 +12,6 @@ from fmu_bearing.formulas.fits import REFERENCE, Kind, State
 from fmu_bearing.prepare.fits import Seat, loose, seats
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.fit import Fit, Take, held_loose, partner_temperatures
-from fmu_bearing.scene.member import set_of, usual_load
 
 #: Largest hoop stress at the bore of a grooved ring over that of the closed form: the groove bends the ring,
 #: and pressure is higher at its ends (elements: 1 to 7 % more; a sharp corner adds 3 %).
@@ -105,7 +104,7 @@ def mounted(scene: Scene) -> Mounted:
 
 def with_fit(scene: Scene, fit: Fit) -> Scene:
     """Return a scene, of a single bearing or a set, with another fit."""
-    table = "mounting" if scene.spindle is None else "spindle"
+    table = scene.assembly.table
     whole = getattr(scene, table)
     return scene.model_copy(update={table: whole.model_copy(update={"fit": fit})})
 
@@ -127,8 +126,7 @@ def preloads(point: OperatingPoint, number: int) -> dict[str, float]:
         return {}
     found = {}
     if held_loose(scene):
-        single = scene.spindle is None
-        found["drawing"] = scene.mounted.preload_N if single else usual_load(set_of(scene), number)
+        found["drawing"] = scene.assembly.usual_N[number]
     return found | {key: carried[own][number] for key, own in _PRELOADS.items()}
 
 

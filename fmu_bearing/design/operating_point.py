@@ -30,7 +30,7 @@ from fmu_bearing.run import rates
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 from fmu_bearing.scene.fit import held_loose
-from fmu_bearing.scene.member import SceneBearing, set_of, still_of, usual_load
+from fmu_bearing.scene.member import SceneBearing, still_of
 from fmu_bearing.steady.rest import parts, started
 from fmu_bearing.steady.statics import BearingLoad, Point, Statics, point
 from fmu_bearing.threads import one_thread
@@ -280,22 +280,22 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
 
 def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
     """Frequency (Hz) and growth (1/s) of what grows fastest by itself; None where none is known."""
-    if not system.steady or (scene.spindle is not None and not may_grow(system.matrix)):
+    if not system.steady or (scene.assembly.shaft is not None and not may_grow(system.matrix)):
         return None
     return self_excitation(scene, solved(scene, system))
 
 
 def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
     """Return the scene of one bearing with the preload and temperatures that it has in its set."""
-    if scene.spindle is None:
+    assembly, cold = scene.assembly, found.preloads.get("cold")
+    if not assembly.members:
         return scene
-    spindle, cold = set_of(scene), found.preloads.get("cold")
     carried = 0.0 if cold is None else max(cold[one.number - 1], 0.0)
-    spacer = spindle.preload is not None and spindle.preload.kind == "spacer"
+    spacer = assembly.preload is not None and assembly.preload.kind == "spacer"
     if spacer and scene.fit is not None and held_loose(scene):  # its class is that of the loose bearing
-        carried = usual_load(spindle, one.number - 1)
+        carried = assembly.usual_N[one.number - 1]
     mounting = {"preload_N": float(f"{carried:.4g}"), "preload_mode": "rigid" if spacer else "force"}
-    place = spindle.bearing[one.number - 1]
+    place = assembly.members[one.number - 1]
     rings = ("inner_ring_temperature_degC", "outer_ring_temperature_degC")
     warm = {key: getattr(place, key) for key in rings if getattr(place, key) is not None}
     return one.scene.model_copy(

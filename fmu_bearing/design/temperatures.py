@@ -140,7 +140,7 @@ def temperatures(scene: Scene, ambient: float = AMBIENT, cooling: float | None =
 
 def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductance, ...]:
     """Return the conductances of the network, scaled to the bearings of a scene."""
-    b, materials, alone = scene.bearing, scene.materials, scene.spindle is None
+    b, materials, alone = scene.bearing, scene.materials, scene.assembly.shaft is None
     spot = b.ball_count * b.ball_diameter_mm / (_BALLS * _BALL)
     inside, outside = (
         spot * _conduction(ring.conductivity_W_mK, materials.balls.conductivity_W_mK) / _CONDUCTION * 0.12
@@ -184,10 +184,10 @@ def at(scene: Scene, places: dict[tuple[int, str], float]) -> Scene:
     numbers = sorted({number for number, _ in places if number})
     values = {"operation.oil_temperature_degC": float(np.mean([places[k, "oil"] for k in numbers]))}
     for number in numbers:
-        table = "operation" if scene.spindle is None else f"spindle.bearing[{number}]"
+        table = scene.assembly.temperature_table(number)
         for ring in ("inner_ring", "outer_ring"):
             values[f"{table}.{ring}_temperature_degC"] = places[number, ring]
-    if scene.spindle is not None:
+    if scene.assembly.shaft is not None:
         values["spindle.shaft.temperature_degC"] = places[0, "shaft"]
         values["spindle.housing.temperature_degC"] = places[0, "housing"]
     return scene.replace(values)

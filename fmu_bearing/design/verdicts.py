@@ -391,7 +391,7 @@ def _shoulder(point: BearingPoint) -> Verdict:
 
 def _set_life(point: OperatingPoint) -> Iterator[Verdict]:
     hours = point.life
-    if hours is not None and math.isfinite(hours) and point.scene.spindle is not None:
+    if hours is not None and math.isfinite(hours) and point.scene.assembly.shaft is not None:
         yield judged_life(
             "set_life", "L10r of all bearings together", hours, point.scene.operation.required_life_h,
             "Lundberg and Palmgren 1947, exponent 10/9",
@@ -426,6 +426,6 @@ def _whirl(point: OperatingPoint) -> Verdict:
     if point.whirl is None:
         return Verdict("whirl", label, None, "none", "none", source, "good")
     frequency, growth = point.whirl
-    advice = whirl_words(frequency, growth, point.scene.spindle is not None)
+    advice = whirl_words(frequency, growth, point.scene)
     text = f"{growth:.0f} at {frequency:.0f} Hz"
     return Verdict("whirl", label, growth, text, "none", source, "change", advice)

@@ -111,7 +111,7 @@ def identifier(scene: "Scene") -> str:
 
     That of a set begins with ``Spindle``.
     """
-    what = "Bearing" if scene.spindle is None else "Spindle"
+    what = "Bearing" if scene.assembly.shaft is None else "Spindle"
     return what + ascii_word(scene.bearing.designation)
 
 
@@ -206,15 +206,17 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
 
 
 def _about(scene: "Scene") -> str:
-    designation, spindle = scene.bearing.designation, scene.spindle
-    if spindle is None:
+    designation, assembly = scene.bearing.designation, scene.assembly
+    if assembly.shaft is None:
         return (
             f"Angular contact ball bearing {designation} on its mounting: "
             "vibration, friction torque, heat and sound"
         )
-    count = len(spindle.bearing)
-    bearings = f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {spindle.arrangement}"
-    if spindle.shaft.external:
+    count = len(assembly.members)
+    bearings = (
+        f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {assembly.arrangement}"
+    )
+    if assembly.shaft.external:
         return f"{bearings}, for a shaft of another model: vibration, friction torque and heat"
     more = "friction torque, heat and sound" if scene.sound is not None else "friction torque and heat"
     return f"Shaft on {bearings}: vibration, {more}"

@@ -108,14 +108,15 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
 def _subject(scene: "Scene") -> dict[str, str]:
     """Return what is modelled: heading, a paragraph about it, and its axes."""
     designation, balls = escape(scene.bearing.designation), str(scene.bearing.ball_count)
-    if scene.spindle is None:
+    assembly = scene.assembly
+    if assembly.shaft is None:
         about = _BEARING.format(balls=balls)
         return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
-    count, spindle = len(scene.spindle.bearing), scene.spindle
-    places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in spindle.bearing)
-    arrangement = escape(spindle.arrangement)
+    count = len(assembly.members)
+    places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in assembly.members)
+    arrangement = escape(assembly.arrangement)
     words = {"count": str(count), "balls": balls, "arrangement": arrangement, "places": places}
-    if spindle.shaft.external:
+    if assembly.shaft.external:
         heading = f"{count} x {designation} at a mechanical port"
         return {"heading": heading, "about": _AT_PORT.format(**words), "axes": _OF_SET}
     about = _SET.format(**words, sound="" if scene.sound is None else "the sound at the microphones ")

@@ -16,7 +16,6 @@ from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.results.column_units import suffixed
 from fmu_bearing.results.rows import read_rows
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.member import preload_key
 from fmu_bearing.scene.values import fields_of, limits
 
 #: Short names of frequent conditions, with the unit that a table carries; a set has its preload elsewhere.
@@ -246,7 +245,7 @@ class _Reader:
         self.scene, self.background = scene, background
         self.places: dict[str, Position] = {place.name: place.position_m for place in scene.microphones}
         self.fields = fields_of(scene)
-        self.keys = CONDITIONS | {"preload_N": preload_key(scene)}
+        self.keys = CONDITIONS | {"preload_N": scene.assembly.preload_key}
 
     def check_columns(self, name: str, columns: list[str]) -> None:
         """Refuse columns that are neither of ours nor keys of the scene, and tables without values."""

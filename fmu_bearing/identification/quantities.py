@@ -99,7 +99,7 @@ def parse_quantity(text: str, scene: Scene | None = None) -> Quantity:
 def _channel(text: str, body: str, scene: Scene | None) -> tuple[int, int]:
     """Bearing, from 0, and place among its channels."""
     bearing = 0
-    if scene is not None and scene.spindle is not None:
+    if scene is not None and scene.assembly.members:
         bearing, body = _of_set(text, body, scene)
     name, _, axis = body.partition(".")
     if name not in _BODIES or axis not in _AXES:

@@ -1,6 +1,6 @@
 """Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, get_args
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
@@ -13,7 +13,7 @@ from fmu_bearing.scene.fit import interferences
 from fmu_bearing.scene.preload import classes
 from fmu_bearing.scene.seats import SMALLEST_RATIO
 from fmu_bearing.scene.sound import Radiator
-from fmu_bearing.scene.spindle import Spindle
+from fmu_bearing.scene.spindle import SetBearing
 
 #: Numbers of the radiators.
 RADIATORS = {name: number for number, name in enumerate(("none", *get_args(Radiator)))}
@@ -61,7 +61,7 @@ def _interferences(scene: Scene) -> list[Variable]:
     for race, ((name, seat_mm), found) in enumerate(zip(places, interferences(scene), strict=True)):
         if found is not None:
             words = f"Interference with the {name} on diameter at 20 degC and standstill, + tight"
-            if scene.spindle is not None:
+            if len(scene.assembly.members) > 1:
                 words += "; of the first bearing, the others keep their difference from it"
             place, most = P.INTERFERENCE + race, 1e-3 * seat_mm / SMALLEST_RATIO
             value = 1e-6 * found.um
@@ -94,8 +94,7 @@ def constants(scene: Scene, rotor_inertia: float, rings: tuple[float, float, flo
         seed = scene.imperfections.seed
         table.append(_whole("imperfection.seed", "Seed of the imperfections", seed))
     table += _ratings(scene)
-    if scene.spindle is not None:
-        table += _arrangement(scene.spindle)
+    table += _arrangement(scene.assembly.members)
     for k, (name, place) in enumerate(scene.microphones):
         for axis, metres in zip("xyz", place, strict=True):
             words = f"Place of microphone {name}, {axis}"
@@ -114,14 +113,14 @@ def _turning(scene: Scene, polar: float, rings: tuple[float, float, float]) -> l
             _constant("port.inertia.transverse", f"Inertia {words}, about Y or Z at X = 0", transverse, unit),
             _constant("port.inertia.polar", f"Inertia {words}, about the axis", polar, unit),
         ]
-    what = "inner ring and rotor" if scene.spindle is None else "shaft and inner rings"
+    what = "inner ring and rotor" if scene.assembly.shaft is None else "shaft and inner rings"
     return [_constant("rotor.inertia", f"Polar inertia of {what}, which the drive owns", polar, "kg.m2")]
 
 
-def _arrangement(spindle: Spindle) -> list[Variable]:
+def _arrangement(members: Sequence[SetBearing]) -> list[Variable]:
     """Return where each bearing of a set is, and which way it carries."""
     table = []
-    for b, one in enumerate(spindle.bearing, start=1):
+    for b, one in enumerate(members, start=1):
         words = f"Bearing {b}: ball plane from the shaft's nose, towards +X"
         place = si(one).position
         table.append(_constant(f"bearing[{b}].position", words, place, "m", nominal=0.1))

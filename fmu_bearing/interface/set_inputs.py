@@ -11,7 +11,8 @@ from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.interface.inputs import FORCE, KELVIN, SPRING, speed
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.member import HELD, preload_asked, set_of
+from fmu_bearing.scene.assembly import preload_asked
+from fmu_bearing.scene.member import HELD, set_of
 
 _MOMENT = {"unit": "N.m", "quantity": "Torque", "nominal": 10.0}  # with a range of the set's own
 #: Of a moment, in static ratings of all bearings at the distance of the farthest one. With four 7003C

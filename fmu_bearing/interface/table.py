@@ -25,7 +25,7 @@ def variables(
     table = [
         *inputs_of(scene),
         *outputs_of(scene),
-        *(internals(scene) if scene.spindle is None else internals_of_set(scene)),
+        *(internals(scene) if scene.assembly.shaft is None else internals_of_set(scene)),
         *parameters(scene),
         *constants(scene, rotor_inertia, rings),
     ]
@@ -36,12 +36,12 @@ def variables(
 
 def inputs_of(scene: Scene) -> list[Variable]:
     """Return the inputs of a scene, of its single bearing or of its set."""
-    return inputs(scene) if scene.spindle is None else inputs_of_set(scene)
+    return inputs(scene) if scene.assembly.shaft is None else inputs_of_set(scene)
 
 
 def outputs_of(scene: Scene) -> list[Variable]:
     """Return the outputs of a scene, of its single bearing or of its set."""
-    return outputs(scene) if scene.spindle is None else outputs_of_set(scene)
+    return outputs(scene) if scene.assembly.shaft is None else outputs_of_set(scene)
 
 
 def input_values(scene: Scene) -> NDArray[np.float64]:
@@ -49,7 +49,7 @@ def input_values(scene: Scene) -> NDArray[np.float64]:
 
     Inputs of a set that are no variables are included.
     """
-    if scene.spindle is not None:
+    if scene.assembly.shaft is not None:
         return set_inputs(scene)
     values = {variable.index: variable.start for variable in inputs(scene)}
     # a partner without a temperature of its own has its ring's

@@ -257,7 +257,7 @@ def error_motion(
         raise ValueError("shaft_speed is an axis of the table: give speeds, in r/min")
     given(found, fixed)
     resolved = resolve(found)[0]
-    from_ring = found.spindle is None and against != "ground"
+    from_ring = found.assembly.shaft is None and against != "ground"
     scenes = {speed: resolved.replace({"operation.speed_rpm": speed}) for speed in rpm}
     done: list[AtSpeed] = []
 
@@ -299,8 +299,7 @@ def _place(scene: Scene, at: float) -> float:
     place = number("at", at)
     longest = 1e-3 * LONG
     low, high, whence = -longest, longest, "the middle of the bearing"
-    if scene.spindle is not None:
-        shaft = scene.spindle.shaft
+    if (shaft := scene.assembly.shaft) is not None:
         # the nose of a shaft that bends says nothing about places behind it
         high = 0.0 if shaft.flexible else 1e-3 * shaft.length_mm
         whence = "the nose of the shaft" + (", which bends behind it" if shaft.flexible else "")

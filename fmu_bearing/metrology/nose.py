@@ -154,8 +154,7 @@ def _cage_ratios(scene: Scene, rates: NDArray[np.float64]) -> list[float]:
 
 def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Callable[[], NDArray[np.float64]]:
     """Return what reads displacement (m) and tilt (rad) of the axis at a point."""
-    single = scene.spindle is None
-    body = "inner_ring" if single else "shaft.nose"
+    body, single = scene.assembly.moving, scene.assembly.shaft is None
     names = [f"{body}.displacement.{axis}" for axis in _AXES] + [f"{body}.tilt.{axis}" for axis in _AXES[1:]]
     outer = [f"outer_ring.displacement.{axis}" for axis in _AXES] if single and outer_ring else []
 

@@ -115,9 +115,9 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
     """
     if lines is None:
         lines = from_lines(scene)
-    if scene.spindle is None or scene.sound is None:
+    if not scene.assembly.members or scene.sound is None:
         return [sound_block(scene, Block(lines=lines))]
-    count = len(scene.spindle.bearing)
+    count = len(scene.assembly.members)
     alone = [sound_scene(scene, b) for b in range(count)]
     own = [Block(None, lines, count if lines and b == 0 else 0, metered=b == 0) for b in range(count)]
     if scene.sound.radiation_model == "table":
@@ -188,8 +188,7 @@ def _source_key(scene: Scene) -> str:
     from fmu_bearing.acoustics.filters.bearings import front_of_set
     from fmu_bearing.acoustics.filters.design import radiators_of
 
-    if scene.spindle is not None:
-        count = len(scene.spindle.bearing)
+    if count := len(scene.assembly.members):
         if scene.sound is None or scene.sound.radiator == "bare":
             return repr([_source_key(sound_scene(scene, b)) for b in range(count)])
         # bearings behind make no sound, they are only counted

@@ -12,8 +12,9 @@ from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.assembly import shares
 from fmu_bearing.scene.housing import middle_mm
-from fmu_bearing.scene.member import one_of, set_of, shares
+from fmu_bearing.scene.member import one_of, set_of
 from fmu_bearing.scene.spindle import SetBearing, Spindle
 
 __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]

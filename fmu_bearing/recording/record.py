@@ -206,8 +206,6 @@ def variables_of(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
 
     Names that a set has as a whole (``friction_torque``), or that name a bearing, stay.
     """
-    if scene.spindle is None:
-        return tuple(names)
     own = set(Z.BEARING_OUTPUTS) - set(SP.OUTPUTS)
     prefixes = [one.prefix for one in scene.bearings()]
     return tuple(

@@ -305,7 +305,7 @@ def _set_of(source: Source) -> Scene | None:
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
         return None
     scene = scene_of(source)
-    return scene if scene.spindle is not None else None
+    return scene if scene.assembly.members else None
 
 
 def _of_set(

@@ -30,6 +30,7 @@
 ``fidelity``      physics, integrator, accuracy, terms left out
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables
+``assembly``      what holds them together: shaft, preload, where the file has them
 ``member``        the bearings of a scene, each as the scene of a single one
 ``seats``         fits of the rings: the tables of the seats
 ``fit``           interferences by classes, partners of the rings

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
+from fmu_bearing.scene.assembly import assembly_of, usual_loads
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.fit import fit_of_member
 from fmu_bearing.scene.mounting import Mounting, Rotor
@@ -71,42 +72,6 @@ def set_of(scene: Tables) -> Spindle:
     return scene.spindle
 
 
-def shares(spindle: Spindle) -> list[float]:
-    """Load of each bearing over the preload asked; both directions carry the same in all.
-
-    Springs give the load of each bearing that slides, spacers that of each on the side with more bearings.
-    """
-    signs = [one.sign for one in spindle.bearing]
-    sliding = {one.sign for one in spindle.bearing if one.seat == "sliding"}
-    count = {sign: signs.count(sign) for sign in signs}
-    reference = sliding.pop() if sliding else max(count, key=lambda sign: count[sign])
-    return [count[reference] / count[sign] for sign in signs]
-
-
-def preload_asked(spindle: Spindle) -> float:
-    """Preload (N) of the scene: of spacers, or the force of springs; 0 without one."""
-    preload = spindle.preload
-    if preload is None:
-        return 0.0
-    return float((preload.force_N if preload.kind == "spring" else preload.preload_N) or 0.0)
-
-
-def preload_key(scene: Tables) -> str:
-    """Return the dotted key of the preload: of one bearing, of a set's spacers, or of its springs' force."""
-    if scene.spindle is None:
-        return "mounting.preload_N"
-    preload = scene.spindle.preload
-    kind = "spacer" if preload is None else preload.kind
-    return f"spindle.preload.{'force_N' if kind == 'spring' else 'preload_N'}"
-
-
-def usual_load(spindle: Spindle, number: int) -> float:
-    """Axial load (N) of a bearing, from 0, by its preload; without one an equal share of the axial force."""
-    if spindle.preload is None:
-        return abs(spindle.load.force_x_N) / len(spindle.bearing)
-    return shares(spindle)[number] * preload_asked(spindle)
-
-
 def one_of(scene: Given, number: int = 0) -> Given:
     """Return the scene of one bearing of a set, without its place: no load, no sound.
 
@@ -123,7 +88,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
         flexure=spindle.flexure,
     )
-    own = {"preload_N": usual_load(spindle, number), "fit": fit_of_member(scene, number)}
+    own = {"preload_N": usual_loads(spindle)[number], "fit": fit_of_member(scene, number)}
     mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
@@ -139,18 +104,13 @@ def still_of(scene: Given) -> Given:
     return scene.model_copy(update=changes)
 
 
-def own_mm(spindle: Spindle, number: int, along: float) -> float:
-    """Return a place along the shaft (m from the nose) in the axes of one bearing, from 0, in mm."""
-    one = spindle.bearing[number]
-    # rounded below a nanometre: places that are mirror images share their filters
-    return round(1e3 * one.sign * (along - 1e-3 * one.position_mm), 7) + 0.0
-
-
 def radiating(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, as its body radiates, bare and without microphones.
 
-    A rotor without mass replaces the shaft, and fills its bore.
+    A rotor without mass replaces the shaft, and fills its bore. A single bearing is returned as it is.
     """
+    if scene.spindle is None:
+        return scene
     alone = one_of(scene, number)
     shaft = Rotor(mass_kg=0.0, length_mm=set_of(scene).shaft.length_mm, diameter_mm=scene.bearing.bore_mm)
     return alone.model_copy(update={"mounting": alone.mounted.model_copy(update={"rotor": shaft})})
@@ -160,13 +120,15 @@ def sound_scene(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, with microphones at their places in its own axes.
 
     For its sound alone, see `radiating`. It is bare: a housing of the set that radiates is
-    `acoustics.filters.bearings.housing_of_set`.
+    `acoustics.filters.bearings.housing_of_set`. A single bearing is returned as it is.
     """
-    spindle, sound = set_of(scene), scene.sound
+    if scene.spindle is None:
+        return scene
+    sound, assembly = scene.sound, assembly_of(scene)
     assert sound is not None, "a set without sound"
 
     def own(along: float) -> float:
-        return own_mm(spindle, number, along)
+        return assembly.own_mm(number, along)
 
     microphones = tuple(
         Microphone(name=place.name, x_mm=own(x), y_mm=1e3 * y, z_mm=1e3 * z)

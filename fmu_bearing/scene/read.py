@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from fmu_bearing.file_words import SCENE, absent, instead, why
 from fmu_bearing.files import read_text, real_path
 from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
+from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import (
@@ -76,6 +77,11 @@ class Scene(Tables):
         yield from super().conflicts()
         yield from fit_conflicts.conflicts(self)
         yield from conflicts_of(self)
+
+    @property
+    def assembly(self) -> Assembly:
+        """What holds the bearings together: shaft, preload, and where the file has them."""
+        return assembly_of(self)
 
     def bearings(self) -> "tuple[SceneBearing[Scene], ...]":
         """Return the bearings of the scene, in a set from the nose to the rear.

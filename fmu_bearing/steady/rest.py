@@ -103,7 +103,7 @@ def nose(run: Instance) -> NDArray[np.float64]:
     The shaft's zero is where the preloaded set is at 20 degC and standstill; of a set that carries one way
     where its balls are in line with the grooves, as of a single bearing.
     """
-    prefix = "inner_ring." if run.model.scene.spindle is None else "shaft.nose."
+    prefix = f"{run.model.scene.assembly.moving}."
     found = np.array([run.get(prefix + name) for name in _MOTIONS])
     if SP.has_shaft(run.p) and run.p[int(run.p[P.SET]) + SP.ONE_WAY] != 0.0:
         # the engine counts from where the load at the start puts such a set
@@ -123,7 +123,7 @@ def per_bearing(run: Instance, place: int) -> NDArray[np.float64]:
 def forces(run: Instance) -> NDArray[np.float64]:
     """Force x y z (N) and moment about y, z (N m) of the shaft on each bearing, shape (bearings, 5)."""
     scene = run.model.scene
-    if scene.spindle is not None:
+    if scene.assembly.shaft is not None:
         names = [[one.prefix + name for name in SP.BEARING_OUTPUTS] for one in scene.bearings()]
         return np.array([[run.get(name) for name in of_one] for of_one in names])
     p, u, c, y = run.p, run.u, run.s[S.C :], run.s[S.Y :]

@@ -153,7 +153,7 @@ class Statics:
     @property
     def arrangement(self) -> str:
         """What makers call the set, or that the bearing is a single one."""
-        return "single" if self.scene.spindle is None else set_of(self.scene).arrangement
+        return self.scene.assembly.arrangement
 
     @property
     def axial_stiffness(self) -> float:
@@ -232,7 +232,7 @@ class Statics:
             elif max(map(abs, loads)) < TOUCHING:
                 found.append(f"{_STATES[key]} the preload of the set is lost: its bearings are loose")
         for one in self.bearings:
-            name = "the bearing" if self.scene.spindle is None else f"bearing {one.number}"
+            name = self.scene.assembly.name(one.number)
             if one.axial < _UNLOADED:
                 found.append(f"{name} is unloaded: its balls skid at speed; raise the preload")
             elif one.unloaded:
@@ -305,7 +305,7 @@ def statics(
     ('DB (O)', [167, 67])
     """
     scene = scene_of(scene)
-    if scene.spindle is None:
+    if scene.assembly.shaft is None:
         if force is not None or at is not None or any(moment):
             raise SceneError(
                 f"{scene.name}: force, at and moment are of the shaft of a set; give the loads of a single "
@@ -348,18 +348,18 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
     own = bent = _stiffness(scene, system, matrices)
     spacer = None
     free: dict[str, LiftOff] = {}
-    if scene.spindle is None:
+    if (shaft := scene.assembly.shaft) is None:
         load = np.array([*forces(run)[0, : Q.INNER_BY], 0.0, 0.0])
     else:
         members = [Member(run, k) for k in range(len(matrices))]
         load = run.u[SP.U_NOSE : SP.U_NOSE + FREEDOMS] + _weight(scene)
-        if not scene.spindle.shaft.flexible:
+        if not shaft.flexible:
             bent = _stiffness(scene, system, matrices, flexible=True)
         free, spacer = lift_off(members), neutral_spacing(scene, members)
     carried = preloads(run)
     # a solution that hardly carries is as good as none: balls are loose
     lost = [key for key, loads in carried.items() if max(map(abs, loads)) < TOUCHING]
-    gaps = {key: gap(run, key) for key in lost if scene.spindle is None}
+    gaps = {key: gap(run, key) for key in lost if scene.assembly.shaft is None}
     found = Statics(
         scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, carried, gaps,
         spacing(scene.bearings()), spacer, tuple(remarks(system)),

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from fmu_bearing import renamed
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.member import preload_key
 from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import fields_of, value_at
 
@@ -25,7 +24,6 @@ ALIASES = {
     "seed": "imperfections.seed",
     "fidelity": "fidelity.model",
 }
-_PEDESTAL_OF_SETS = "spindle.housing.pedestal_stiffness_N_m"
 #: Dimensions whose name is not the last part of the key.
 _NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")
@@ -108,9 +106,9 @@ def _round(values: NDArray[np.float64]) -> list[float]:
 def key_of(scene: Scene, name: str) -> str:
     """Return the dotted key that a short name has in a scene; any other name as it is."""
     if name == "preload":
-        return preload_key(scene)
-    if name == "pedestal" and scene.spindle is not None:
-        return _PEDESTAL_OF_SETS
+        return scene.assembly.preload_key
+    if name == "pedestal":
+        return scene.assembly.pedestal_key
     return ALIASES.get(name, name)
 
 

@@ -63,7 +63,7 @@ def test_a_very_stiff_shaft_is_the_rigid_one():
     def stiffer(times):
         sections = [
             replace(one, youngs_modulus=times * one.youngs_modulus)
-            for one in shaft_sections(rigid.scene, rigid.scene.spindle)
+            for one in shaft_sections(rigid.scene, rigid.scene.spindle.shaft)
         ]
         model = flexible_model(sections, [one.position for one in rigid.members])
         found = rest(replace(rigid, shaft=model), model.at(-0.02).T @ given)

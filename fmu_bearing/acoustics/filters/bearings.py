@@ -13,7 +13,7 @@ from fmu_bearing.scene.member import radiating, set_of, sound_scene
 def tables_of(scene: Scene) -> list[Table]:
     """Return the table of every bearing, of a set each in its own axes; raises as `check_table`."""
     whole, bearings = table_of(scene), scene.bearings()
-    if scene.spindle is None:
+    if not scene.assembly.members:
         return [whole]
     return [of_bearing(whole, one.number, one.sign, len(bearings)) for one in bearings]
 
@@ -29,8 +29,7 @@ def check_table(scene: Scene) -> None:
     if scene.sound is not None and scene.sound.radiation_model == "table":
         positions = [position for _, position in scene.microphones]
         for one, table in zip(scene.bearings(), tables_of(scene), strict=True):
-            alone = scene if scene.spindle is None else sound_scene(scene, one.number - 1)
-            radiation = radiation_of(alone, table=table)
+            radiation = radiation_of(sound_scene(scene, one.number - 1), table=table)
             for members in radiation.circles(positions):
                 radiation.paths(positions, members)
 

@@ -17,7 +17,7 @@ def shaft_model(scene: Scene, spindle: Spindle) -> ShaftModel:
     """
     bearings = [si(one).position for one in spindle.bearing]
     spots = [si(one).position for one in spindle.shaft.unbalance]
-    sections = shaft_sections(scene, spindle)
+    sections = shaft_sections(scene, spindle.shaft)
     if spindle.shaft.flexible:
         given = spindle.shaft
         return flexible_model(sections, bearings, spots, given.fixed_modes, given.damping_ratio)

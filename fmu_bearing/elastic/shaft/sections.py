@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from fmu_bearing.scene import Scene, si
-from fmu_bearing.scene.spindle import Spindle
+from fmu_bearing.scene.shaft import Shaft
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,12 @@ class Section:
         return 0.5 * self.polar + self.mass * self.length**2 / 12.0
 
 
-def shaft_sections(scene: Scene, spindle: Spindle) -> list[Section]:
+def shaft_sections(scene: Scene, shaft: Shaft) -> list[Section]:
     """Return the sections of a scene's shaft from the nose on."""
-    material = si(spindle.shaft.material or scene.materials.inner_ring)
+    material = si(shaft.material or scene.materials.inner_ring)
     elastic = (material.density, material.youngs_modulus, material.poisson_ratio)
     found, start = [], 0.0
-    for length, diameter, bore in spindle.shaft.sections_mm:
+    for length, diameter, bore in shaft.sections_mm:
         found.append(Section(start, 1e-3 * length, 5e-4 * diameter, 5e-4 * bore, *elastic))
         start += 1e-3 * length
     return found

@@ -76,11 +76,11 @@ def rates(
 
 def unbalance(scene: Scene) -> float:
     """Eccentricity (m) of what turns; of a set all heavy spots, wherever they lie, over shaft and rings."""
-    if scene.spindle is None:
+    if (turning := scene.assembly.shaft) is None:
         return 0.0 if scene.imperfections is None else si(scene.imperfections).unbalance
-    amount = sum(1e-6 * spot.amount_g_mm for spot in scene.spindle.shaft.unbalance)  # kg m
-    shaft = sum(section.mass for section in shaft_sections(scene, scene.spindle))
-    return amount / (shaft + len(scene.spindle.bearing) * inner_ring(scene).mass)
+    amount: float = sum(1e-6 * spot.amount_g_mm for spot in turning.unbalance)  # kg m
+    shaft = sum(section.mass for section in shaft_sections(scene, turning))
+    return amount / (shaft + len(scene.assembly.members) * inner_ring(scene).mass)
 
 
 def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: float = 0.0) -> list[Line]:

@@ -107,16 +107,16 @@ def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     report that themselves. Rings are rigid.
     """
     found = _whirls(scene, inputs)
-    return "" if found is None else whirl_words(*found, scene.spindle is not None)
+    return "" if found is None else whirl_words(*found, scene)
 
 
-def whirl_words(frequency: float, growth: float, of_set: bool) -> str:
+def whirl_words(frequency: float, growth: float, scene: Scene) -> str:
     """Return the words about a motion that grows (1/s) by itself at a frequency (Hz)."""
     body, way = (
         "the ring whirls by itself",
         "more preload or a support against tilting (mounting.tilt_support) stops it",
     )
-    if of_set:
+    if scene.assembly.shaft is not None:
         body, way = "the set whirls by itself", "more preload or a stiffer shaft stops it"
     # no number among the first words, by which repeated warnings are recognised
     return (
@@ -168,9 +168,9 @@ def struck(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) 
     if run is None or max(run.play) <= PLAY:
         return ""
     worst = int(np.argmax(run.play))
-    cage = "the cage" if scene.spindle is None else f"the cage of bearing {worst + 1}"
     return (
-        f"balls strike the pockets of {cage}, which a load across their orbits makes them leave and strike "
+        f"balls strike the pockets of the cage of {scene.assembly.name(worst + 1)}, which a load across "
+        "their orbits makes them leave and strike "
         f"(they use {100.0 * min(run.play[worst], 1.0):.0f} % of the room there), and the sound and the "
         "motion by that are left out"
     )

@@ -77,7 +77,7 @@ def beside_full(scene: Scene, model: str, inputs: Mapping[int, float] | None = N
     play, moved = _followed(full, count)
     ratio, what = 1.0, ""
     if scene.imperfections is not None:
-        ratio, what = _farthest(quick.rings(count * _SAMPLE, _SAMPLE), moved, scene.spindle is not None)
+        ratio, what = _farthest(quick.rings(count * _SAMPLE, _SAMPLE), moved, scene)
     return BesideFull(count * _SAMPLE, ratio, what, play)
 
 
@@ -102,7 +102,7 @@ def _followed(run: Arrays, count: int) -> tuple[tuple[float, ...], NDArray[np.fl
     return play, np.concatenate(velocities)
 
 
-def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], of_set: bool) -> tuple[float, str]:
+def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], scene: Scene) -> tuple[float, str]:
     """Return the ratio farthest from 1 of rms velocities and accelerations that count, and which it is."""
     first = round(_START / _SAMPLE)
     ratio, what = 1.0, ""
@@ -113,7 +113,9 @@ def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], of_set: boo
             found = float(ours[k] / theirs[k])
             if abs(math.log(max(found, 1e-12))) > abs(math.log(max(ratio, 1e-12))):
                 ring = "inner" if k % RINGS.size < RINGS.size // 2 else "outer"
-                bearing = f" of bearing {k // RINGS.size + 1}" if of_set else ""
+                bearing = (
+                    f" of {scene.assembly.name(int(k) // RINGS.size + 1)}" if scene.assembly.members else ""
+                )
                 ratio, what = found, f"{kind} of the {ring} ring{bearing} along {'xyz'[k % 3]}"
     return ratio, what
 

@@ -10,7 +10,7 @@ from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.exclusions import TABLE_CHANNELS
-from fmu_bearing.scene.member import own_mm, radiating
+from fmu_bearing.scene.member import radiating
 
 Source = tuple[Radiation, list[Position]]
 
@@ -40,11 +40,9 @@ def bodies_of(scene: Scene) -> list[tuple[int, Radiators]]:
 
     Where a housing or a rigid plane covers all but the front of a set, its first bearing alone.
     """
-    if scene.spindle is None:
-        return [(0, radiators_of(scene))]
     radiator = "bare" if scene.sound is None else scene.sound.radiator
-    if radiator == "bare":
-        return [(k, radiators_of(radiating(scene, k))) for k in range(len(scene.spindle.bearing))]
+    if radiator == "bare" or not scene.assembly.members:
+        return [(k, radiators_of(radiating(scene, k))) for k in range(len(scene.bearings()))]
     return [(0, front_of_set(scene))]
 
 
@@ -73,10 +71,9 @@ def sources_of(scene: Scene, model: str, places: Sequence[Position], harmonics: 
     )  # fmt: skip
     found: list[Source] = []
     for number, body in bodies_of(scene):
-        own, moved, behind = scene, list(places), plane
-        if scene.spindle is not None:
-            own, spindle = radiating(scene, number), scene.spindle
-            moved = [(1e-3 * own_mm(spindle, number, x), y, z) for x, y, z in places]
-            behind = None if plane is None else 1e-3 * own_mm(spindle, number, plane)
+        own, moved, behind = radiating(scene, number), list(places), plane
+        if scene.assembly.members:
+            moved = [(1e-3 * scene.assembly.own_mm(number, x), y, z) for x, y, z in places]
+            behind = None if plane is None else 1e-3 * scene.assembly.own_mm(number, plane)
         found.append((Radiation(model, body, air_of(scene), harmonics, ring_modes(own), plane=behind), moved))
     return found

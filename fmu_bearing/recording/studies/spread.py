@@ -314,7 +314,8 @@ def _shares(
     scene: Scene, flaws: Imperfections, estimator: LevelEstimator, fidelity: str
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
-    heavy = scene.spindle is not None and bool(scene.spindle.shaft.unbalance)
+    shaft = scene.assembly.shaft
+    heavy = shaft is not None and bool(shaft.unbalance)
     energies = {}
     for name in (*flaws.sources, *(["unbalance"] if heavy else [])):
         own = scene.replace({"spindle.shaft.unbalance": []}) if heavy and name != "unbalance" else scene

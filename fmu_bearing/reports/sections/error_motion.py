@@ -44,7 +44,7 @@ def error_motion(subject: Subject) -> Section:
     columns, rows = found.table()
     fitted = bool(one.nose.rates)
     chosen = [k for k, name in enumerate(columns) if k >= _OF_RUN and (fitted or "by line" not in name)]
-    tilts = subject.scene.spindle is not None or subject.has(*OUTER_TILTS)
+    tilts = bool(subject.scene.assembly.members) or subject.has(*OUTER_TILTS)
     table = Table(
         f"Error motion {what} over {one.revolutions} revolutions",
         [columns[k] for k in chosen],
@@ -82,7 +82,7 @@ def _sources(found: ErrorMotion) -> list[Block]:
         )
     ]
     parts = [("source", found.per_source())]
-    if found.scene.spindle is not None:
+    if found.scene.assembly.members:
         parts.insert(0, ("bearing", found.per_bearing()))
     for name, (heads, cells) in parts:
         caption = f"Asynchronous error motion that the lines of each {name} make alone"
@@ -93,10 +93,11 @@ def _sources(found: ErrorMotion) -> list[Block]:
 def _read(subject: Subject) -> ErrorMotion:
     """Return the error motion of the run; `Absent` where it does not allow that."""
     scene = subject.scene
-    several = scene.spindle is not None
+    several = scene.assembly.shaft is not None
     if several:
-        motion = _columns(subject, "shaft.nose")
-        motion = np.hstack([motion, _tilts(subject, ("shaft.nose.tilt.y", "shaft.nose.tilt.z"))])
+        moving = scene.assembly.moving
+        motion = _columns(subject, moving)
+        motion = np.hstack([motion, _tilts(subject, (f"{moving}.tilt.y", f"{moving}.tilt.z"))])
     else:
         motion = np.hstack(
             [_columns(subject, "inner_ring") - _columns(subject, "outer_ring"), _between(subject)]

@@ -17,7 +17,7 @@ def seats(scene: Scene) -> list[Block]:
     take = found.scene.fit.take
     blocks: list[Block] = []
     for one in found.column(take).bearings:
-        name = f"bearing {one.number}: " if found.scene.spindle is not None else ""
+        name = f"bearing {one.number}: " if found.scene.assembly.members else ""
         words = f"{name}{found.words(one.number)}"
         blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(one), stacked=True))
         note = " ".join(f"{line[0].upper()}{line[1:]}." for line in found.remarks)

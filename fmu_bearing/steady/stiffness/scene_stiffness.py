@@ -17,7 +17,7 @@ from fmu_bearing.modal.modes.points import given
 from fmu_bearing.progress import keeping
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
-from fmu_bearing.scene.member import preload_asked, preload_key, still_of
+from fmu_bearing.scene.member import still_of
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.steady.impedance import FREEDOMS, at_rest, impedance, spaced
 from fmu_bearing.steady.statics import Statics, point
@@ -203,8 +203,8 @@ def stiffness(
         if name in fixed:
             raise ValueError(f"{name} is an axis of the table: give {instead}")
     rpm = _axis("speeds", "r/min", speeds, [scene.operation.speed_rpm])
-    loads = _axis("preloads", "N", preloads, [_own_preload(scene)])
-    if preloads is not None and scene.spindle is not None and scene.spindle.preload is None:
+    loads = _axis("preloads", "N", preloads, [scene.assembly.preload_N])
+    if preloads is not None and not scene.assembly.can_preload:
         raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
     most = scene.bearing.most_speed
     if rpm[0] < -most or rpm[-1] > most:
@@ -232,7 +232,7 @@ def _table(
 ) -> Stiffness:  # fmt: skip
     """Return the tables of the first speeds, of which there are as many as ``rows``."""
     n = len(rpm)
-    on_shaft = scene.spindle is not None
+    on_shaft = scene.assembly.shaft is not None
     tables = tuple(
         BearingStiffness(
             bearing.scene.with_rigid_rings() if on_shaft else scene, rpm, loads, hertz, one.z.real[:n],
@@ -268,20 +268,16 @@ class _Filling:
             self.spread[i, k] = max(self.spread[i, k], _apart(other, self.z[i, k][ends]))
 
 
-def _own_preload(scene: Scene) -> float:
-    return scene.mounted.preload_N if scene.spindle is None else preload_asked(scene.spindle)
-
-
 def _point(
     scene: Scene, fixed: Mapping[str, float], speed: float, preload: float
 ) -> tuple[Scene, dict[int, float]]:  # fmt: skip
     """Return scene and inputs of a point, checked; a set has its preload in the scene."""
-    if scene.spindle is None:
+    if scene.assembly.shaft is None:
         values = {**fixed, "shaft_speed": speed * RPM, "preload": preload}
         return with_fidelity(scene, model="full"), given(scene, values)
     changed: dict[str, Any] = {"operation.speed_rpm": float(speed)}
-    if scene.spindle.preload is not None:
-        changed[preload_key(scene)] = float(preload)
+    if scene.assembly.can_preload:
+        changed[scene.assembly.preload_key] = float(preload)
     there = still_of(scene).replace(changed)
     return there, given(there, fixed)
 
@@ -289,7 +285,7 @@ def _point(
 def _at(scene_and_inputs: tuple[Scene, dict[int, float]], row: list[Statics]) -> Linearised:
     """Return the bearings linearised at a point; the statics of a set go to ``row``."""
     scene, inputs = scene_and_inputs
-    if scene.spindle is None:
+    if scene.assembly.shaft is None:
         return under_force(scene, inputs)
     found = point(scene, inputs)
     row.append(found.statics)

@@ -75,6 +75,21 @@ def test_a_pole_sharper_than_any_resonance_of_air_is_named():
     assert group.sharp(LOW, 12_000.0) == []
 
 
+def test_a_sharp_pole_that_does_no_harm_is_solved_once(monkeypatch):
+    """It moves on with each fit, as one below the end of a band did until 80 frequencies were used up."""
+    bound = [0.0]
+
+    def sharp(group, low, high):
+        bound[0] += 0.01
+        return [HIGH - 1.0 + bound[0]]
+
+    usual = rational.search(Counted(response), LOW, HIGH, 60)
+    monkeypatch.setattr(rational.Group, "sharp", sharp)
+    found = rational.search(Counted(response), LOW, HIGH, 60)
+    assert len(found) == len(usual) + 1
+    assert HIGH - 1.0 < found[-2] < HIGH - 0.9
+
+
 def test_noise_does_not_end_the_search():
     """What no rational function of few poles follows is given back, for intervals to be halved."""
 

@@ -266,3 +266,19 @@ def test_beyond_the_mesh():
     scatterer = Scatterer(RINGS[:1], wavenumber(5000.0), 2)
     with pytest.raises(ValueError, match="beyond this mesh, which reaches 92.3998 1/m"):
         scatterer.at(wavenumber(5100.0))
+
+
+@pytest.mark.parametrize("frequency", [3000.0, 20_000.0])
+def test_a_body_is_taken_away_for_what_comes_in_alone(frequency):
+    """Its drives among all bodies; what comes in as on a mesh without it: 1e-10 of the largest pressure."""
+    k = wavenumber(frequency)
+    both, one = (Scatterer(bodies, k, 3, size=0.002) for bodies in (RINGS[:2], RINGS[:1]))
+    kept = np.arange(both.mesh.size) < one.mesh.size
+    assert both.mesh.points[kept] == pytest.approx(one.mesh.points)
+    driven, none = DENSITY * both.mesh.node_normals(), np.zeros((one.mesh.size, 0))
+    incoming = orbit_dipoles(both.mesh.points, k, 0.013, 3)[:2, 1].T
+    found = both.at(k).pressure(1, driven, incoming, keep=kept)
+    alone = one.at(k).pressure(1, none, incoming[kept])
+    assert found[:, :2] == pytest.approx(both.at(k).pressure(1, driven), rel=0, abs=1e-10)
+    assert found[kept, 2:] == pytest.approx(alone, rel=0, abs=1e-10 * np.abs(alone).max())
+    assert not found[~kept, 2:].any()

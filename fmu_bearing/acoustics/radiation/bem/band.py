@@ -105,16 +105,18 @@ class Band:
         cage_away = mesh.node_component() != BODIES - 1
         everything = np.concatenate([mesh.points, self._scatterer.inside])
         incoming = self._incoming(everything, k)
-        none = np.zeros((mesh.size, 0))
         for order in range(self.task.orders):
             of_order = [i for i, (m, _) in enumerate(self._drives) if m == order]
-            if of_order:
-                driven = np.stack([self._drives[i][1] for i in of_order], axis=1)
-                found[of_order] = system.pressure(order, driven).T
+            driven = np.zeros((mesh.size, len(of_order)))
+            for column, i in enumerate(of_order):
+                driven[:, column] = self._drives[i][1]
+            coming = None
             if order < self._balls:
                 # the balls sit in the cage's pockets: their sound does not pass through its solid parts
-                places = [self.ball_drive(order, axis) for axis in range(3)]
-                found[places] = system.pressure(order, none, incoming[:, order].T, keep=cage_away).T
+                coming = incoming[:, order].T
+                of_order += [self.ball_drive(order, axis) for axis in range(3)]
+            if of_order:
+                found[of_order] = system.pressure(order, driven, coming, keep=cage_away).T
         return found
 
     def field(self, points: Real) -> Complex:

@@ -108,6 +108,8 @@ class Potentials:
         for on, ends, normals in self._sources:
             of_element = (on, ends, normals, rule, _basis(rule[0]))
             call("remainder", self._points, *of_element, less, weights, work, out.view(float), k)
-        out += self._closed[:2]
-        out -= 0.5 * k**2 * self._closed[2:]
+        for kind, layer in enumerate(out):
+            for order, matrix in enumerate(layer):  # one by one: whole arrays are large
+                matrix += self._closed[kind, order]
+                matrix -= 0.5 * k**2 * self._closed[2 + kind, order]
         return out[0], out[1]

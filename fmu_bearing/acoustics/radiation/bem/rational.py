@@ -178,9 +178,13 @@ def search(
     values = measure(solved)
     groups = [Group() for _ in values]
     right, checked = 0, False
+    # Sharp poles at which the prediction was right: their residue is of the size of rounding, and each fit
+    # has one again, a little beside (d 300 x 60 mm: 47 times between 5,999 and 6,000 Hz).
+    harmless: list[float] = []
     while len(solved) < most and not checked:
         renew(groups, solved, values, family)
         sharp = [f for group in groups for f in group.sharp(low, high)] if right >= _IN_A_ROW else []
+        sharp = [f for f in sharp if all(abs(f - other) > f / _SHARPEST for other in harmless)]
         last = right >= _IN_A_ROW and not sharp
         if last:
             due = draw.uniform(low, high, _CHECKS)
@@ -193,6 +197,7 @@ def search(
         wrong = float(max(one.missed(due, known).max() for one, known in zip(groups, found, strict=True)))
         checked = last and wrong < TYPICAL
         right = right + len(due) if wrong < TOLERANCE else 0
+        harmless += sharp[:1] if right else []
         left(0.0 if checked else _left(wrong, right), checked or right >= _IN_A_ROW)
         order = np.argsort(np.concatenate([solved, due]))
         solved = np.concatenate([solved, due])[order]

@@ -80,21 +80,20 @@ class Scatterer:
         orbit = None if source is None else np.array([0.0, source])
         self.mesh = mesh_of(bodies, size or 2.0 * np.pi / highest / 8.0, finest, orbit)
         self.inside = inner_points(bodies, highest)
-        self._potentials: list[Potentials] = []
+        self._potentials: Potentials | None = None
 
-    def prepare(self) -> list[Potentials]:
+    def prepare(self) -> Potentials:
         """Return the potentials on the skins and inside bodies; they are large, and kept until `release`."""
-        if not self._potentials:
+        if self._potentials is None:
             owner = np.repeat(np.arange(len(self.mesh.ends)), NODES)
-            found = [Potentials(self.mesh.points, owner, self.mesh, self.orders, self.plane)]
-            if len(self.inside):
-                found.append(self.field_potentials(self.inside))
-            self._potentials = found
+            owner = np.concatenate([owner, np.full(len(self.inside), -1)])
+            points = np.concatenate([self.mesh.points, self.inside])
+            self._potentials = Potentials(points, owner, self.mesh, self.orders, self.plane)
         return self._potentials
 
     def release(self) -> None:
         """Give up what `prepare` keeps."""
-        self._potentials = []
+        self._potentials = None
 
     def field_potentials(self, points: NDArray[np.float64]) -> Potentials:
         """Potentials at points (x, r) in the air, shape (n, 2), m."""
@@ -113,9 +112,10 @@ class Scatterer:
                 f"a wavenumber of {k:g} 1/m is beyond this mesh, which reaches {self.highest:g} 1/m; "
                 "make it for a higher one"
             )
-        parts = [potentials(k) for potentials in self.prepare()]
-        single, double = (np.concatenate(of_all, axis=1) for of_all in zip(*parts, strict=True))
-        return System(single, double - 1j * k * admittance * single, self.mesh.size)
+        single, double = self.prepare()(k)
+        for one, other in zip(single, double, strict=True):  # order by order: whole arrays are large
+            other -= 1j * k * admittance * one
+        return System(single, double, self.mesh.size)
 
 
 class System:
@@ -140,24 +140,36 @@ class System:
         incident : ndarray, shape (nodes + inner points, more), optional
             Pressures that come in on resting bodies: further drives, after the others.
         keep : ndarray of bool, shape (nodes,), optional
-            Nodes of the bodies that are there; the others are taken away.
+            Nodes of the bodies that are there for what comes in; the others are taken away for it.
         """
-        size = self._size
-        there = np.ones(size, dtype=bool) if keep is None else keep
-        matrix = -self._double[order][:, there]
-        matrix[:size][there, np.arange(there.sum())] += 0.5
-        right = self._single[order][:, there] @ driven[there]
+        size, count = self._size, driven.shape[1]
+        matrix = -self._double[order]
+        matrix[np.arange(size), np.arange(size)] += 0.5
+        right = self._single[order] @ driven
         if incident is not None:
             right = np.concatenate([right, incident], axis=1)
-        square, given = matrix[:size][there], right[:size][there]
+        square, given = matrix[:size], right[:size]
         if len(matrix) > size:
             # Equations of inner points, multiplied from the left by their conjugate transpose, are added: the
             # solution fulfils both, and waves of the inside, which the skin's equations let pass, none.
-            inside = matrix[size:]
-            square, given = square + inside.conj().T @ inside, given + inside.conj().T @ right[size:]
-        found = np.linalg.solve(square, given)
+            adjoint = matrix[size:].conj().T
+            square += adjoint @ matrix[size:]
+            given += adjoint @ right[size:]
+        if keep is None or keep.all():
+            return np.linalg.solve(square, given)
+        # The nodes that stay are solved for once: for what comes in, and for what the others' pressures and
+        # the drives do to them. The others follow from what is left of their own equations.
+        kept, away = np.flatnonzero(keep), np.flatnonzero(~keep)
         result = np.zeros((size, right.shape[1]), dtype=complex)
-        result[there] = found
+        across = square[np.ix_(kept, away if count else away[:0])]
+        found = np.linalg.solve(square[np.ix_(kept, kept)], np.concatenate([across, given[kept]], axis=1))
+        across, found = found[:, : across.shape[1]], found[:, across.shape[1] :]
+        if count:
+            back = square[np.ix_(away, kept)]
+            own = square[np.ix_(away, away)] - back @ across
+            result[away, :count] = np.linalg.solve(own, given[away, :count] - back @ found[:, :count])
+            found[:, :count] -= across @ result[away, :count]
+        result[kept] = found
         return result
 
 

@@ -1,9 +1,10 @@
-"""Linear algebra on one thread.
+"""Processors that there are, and linear algebra on one thread.
 
 Matrices of bearings have some hundred rows. The threads of a linear algebra library then wait for each other
 longer than they compute: on a machine with other work an operating point took 14 times the processor time.
 """
 
+import os
 from collections.abc import Callable
 from functools import lru_cache, wraps
 from typing import ParamSpec, TypeVar
@@ -12,6 +13,12 @@ from threadpoolctl import ThreadpoolController
 
 _Given = ParamSpec("_Given")
 _Found = TypeVar("_Found")
+
+
+def cores() -> int:
+    """Return how many processors this process may use."""
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 @lru_cache(maxsize=1)

@@ -95,6 +95,11 @@ def choosing():
     yield f"without contact damping this spindle is {rounded(damping['dB(A)'])} dB(A) louder"
     for microphones in ("1", "4"):
         yield f"| {microphones} | {_sound_costs(microphones)} |"
+    first = sorted(table("first_sound"), key=lambda one: float(one["CPU s"]))
+    yield (
+        f"`bem` also takes {rounded(first[0]['CPU s'])} s ({first[0]['housing, mm']} mm) to "
+        f"{rounded(first[-1]['CPU s'])} s ({first[-1]['housing, mm']} mm) of one core per geometry"
+    )
     below = [
         float(one["bare bearing"]) - float(one["bare bearing, paper_contacts"])
         for one in table("papers/sound-field-values")

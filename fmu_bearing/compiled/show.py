@@ -16,13 +16,12 @@ class Display:
     Parameters
     ----------
     what : str
-    steady : bool
-        Whether the part that is done grows evenly, so that the time of the rest can be shown.
     """
 
-    def __init__(self, what: str, steady: bool = False) -> None:
-        self.what, self.steady = what, steady
+    def __init__(self, what: str) -> None:
+        self.what = what
         self._begin = self._told = time.monotonic()
+        self._estimated = False
         self._bar: Any = None
         self._shown = 0.0
 
@@ -43,17 +42,23 @@ class Display:
         elif kind is None:
             self.tell(f"{self.what}: done after {time.monotonic() - self._begin:.0f} s")
 
-    def at(self, done: float) -> None:
-        """Show the part (0 to 1) that is done; what is shown never goes back, the time of the rest may."""
+    def at(self, done: float, rest: float | None = None) -> None:
+        """Show the part (0 to 1) that is done, and the time (s) of the rest where it is known.
+
+        The part that is shown never goes back; the time follows what is known. A log gets a line as soon as a
+        time is known that is worth one.
+        """
         self._shown = max(self._shown, done)
         now = time.monotonic()
         past = now - self._begin
-        rest = f", about {past * (1.0 / done - 1.0):.0f} s more" if self.steady and done > 0.0 else ""
+        more = "" if rest is None else f", about {rest:.0f} s more"
+        first = rest is not None and rest >= _PAUSE and not self._estimated
         if self._bar is not None:
-            self._bar.update(self._task, completed=self._shown, description=self.what + rest)
-        elif now - self._told >= _PAUSE:
+            self._bar.update(self._task, completed=self._shown, description=self.what + more)
+        elif now - self._told >= _PAUSE or first:
             self._told = now
-            self.tell(f"{self.what}: {self._shown:.0%} after {past:.0f} s{rest}")
+            self.tell(f"{self.what}: {self._shown:.0%} after {past:.0f} s{more}")
+        self._estimated |= rest is not None
 
     def tell(self, text: str) -> None:
         """Show a line."""

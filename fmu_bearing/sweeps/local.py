@@ -30,12 +30,6 @@ _CANNOT_START = (
 Run = Callable[[Task], Outcome]
 
 
-def cores() -> int:
-    """Return how many processors this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
-
-
 def here(tasks: Iterable[Task], run: Run = run_point) -> Iterator[tuple[Task, Outcome]]:
     """Run points in this process, one after another."""
     with threadpool_limits(1):  # as in worker processes

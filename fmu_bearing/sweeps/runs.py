@@ -5,10 +5,11 @@ from collections.abc import Callable, Generator, Iterator
 from contextlib import closing, contextmanager
 
 from fmu_bearing.progress import work
-from fmu_bearing.sweeps.local import cores, here, processes
+from fmu_bearing.sweeps.local import here, processes
 from fmu_bearing.sweeps.plan import Plan
 from fmu_bearing.sweeps.point import Outcome, Task
 from fmu_bearing.sweeps.store import Store
+from fmu_bearing.threads import cores
 
 Outcomes = dict[str, Outcome]
 

@@ -49,15 +49,28 @@ def test_a_log_gets_lines(monkeypatch):
     ]
 
 
-def test_the_time_of_the_rest_is_shown_where_work_is_even(monkeypatch):
+def test_the_time_of_the_rest_is_shown_where_it_is_known(monkeypatch):
+    """At once where it is worth a line, then with each line."""
     log, now = io.StringIO(), [100.0]
     monkeypatch.setattr(show.sys, "stderr", log)
     monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
-    with show.Display("solving", steady=True) as display:
-        display.at(0.0)
-        now[0] = 112.0
-        display.at(0.4)
-    assert log.getvalue().splitlines()[1] == "solving: 40% after 12 s, about 18 s more"
+    with show.Display("solving") as display:
+        for now[0], done, rest in ((101.0, 0.0, None), (102.0, 0.1, 28.0), (112.0, 0.4, 18.0)):
+            display.at(done, rest)
+    assert log.getvalue().splitlines()[1:-1] == [
+        "solving: 10% after 2 s, about 28 s more",
+        "solving: 40% after 12 s, about 18 s more",
+    ]
+
+
+def test_a_short_rest_gets_no_line_of_its_own(monkeypatch):
+    log, now = io.StringIO(), [100.0]
+    monkeypatch.setattr(show.sys, "stderr", log)
+    monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
+    with show.Display("solving") as display:
+        now[0] = 101.0
+        display.at(0.5, 1.0)
+    assert log.getvalue().splitlines() == ["solving ...", "solving: done after 1 s"]
 
 
 def test_what_is_shown_as_done_never_goes_back(monkeypatch):
@@ -65,10 +78,10 @@ def test_what_is_shown_as_done_never_goes_back(monkeypatch):
     log, now = io.StringIO(), [100.0]
     monkeypatch.setattr(show.sys, "stderr", log)
     monkeypatch.setattr(show.time, "monotonic", lambda: now[0])
-    with show.Display("solving", steady=True) as display:
-        for done in (0.8, 0.5, 0.9):
+    with show.Display("solving") as display:
+        for done, rest in ((0.8, 5.0), (0.5, 40.0), (0.9, 7.0)):
             now[0] += 20.0
-            display.at(done)
+            display.at(done, rest)
     assert log.getvalue().splitlines()[1:4] == [
         "solving: 80% after 20 s, about 5 s more",
         "solving: 80% after 40 s, about 40 s more",

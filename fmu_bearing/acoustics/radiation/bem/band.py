@@ -1,6 +1,7 @@
 """Surface pressures over one band of frequencies, on one mesh, and the fields around the bodies."""
 
 import itertools
+import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 
@@ -28,10 +29,11 @@ _ANGLES = (0.3, 0.9, 1.6, 2.2, 2.8)
 #: the band's begin to its end. Measured: 14 and 18 (bare 7003C), 14 and 26 (7009C), 20 and 43 (in a housing).
 _FEWEST, _PER_WAVE = 12.0, 3.5
 _HALVED = 3.0  # times as many where intervals are halved: 226 for 68, 177 for 67
-#: Weights, in a geometric mean, of the least number of frequencies left against the number that the bodies'
-#: size lets expect: at an error above 100 %, where that least number is `_SOON`, and below. One right
-#: prediction may be luck: no fewer than `_LUCK` then.
-_SHARES, _SOON, _LUCK = (1.0 / 3.0, 0.5), 9.0, 5.0
+#: Frequencies left, at least: a share of those done, as a search that lasts goes on lasting. Where the last
+#: predictions were right, which may be luck, `_LUCK` at least, and the geometric mean of that and of what the
+#: bodies' size lets expect. Chosen on d 60 x 60, 100 x 160, 300 x 60, 80 x 400 mm, and 150 x 300 mm without
+#: a cage.
+_LASTING, _LUCK = 0.2, 5.0
 #: The time of one frequency grows by this power of the number of nodes, and by so many nodes for each inner
 #: point: within 15 % from 258 to 628 nodes, within 30 % to 770.
 _GROWTH, _INNER = 2.6, 1.5
@@ -51,10 +53,12 @@ class Band:
         Pressures (Pa per unit of each drive, in air of 1 kg/m3) at `points`.
     probed : ndarray, shape (n, drives, spheres, points)
         Pressures around the bodies, which rational functions of frequency are fitted to; empty: cubics.
-    done, left : float
-        Frequencies solved, and how many more are probably needed.
+    done, left, expected : float
+        Frequencies solved, how many more are probably needed, and how many in all before any was solved.
     cost : float
         Time of one frequency, in proportion to that of other bands of the task.
+    seconds : list of float
+        Time of each frequency solved in a search, s.
     """
 
     def __init__(self, task: Task, base: Sequence[float]) -> None:
@@ -66,10 +70,15 @@ class Band:
         self.frequencies = np.array(base)
         self.surface = np.zeros((len(self.frequencies), self.count, self._scatterer.mesh.size), dtype=complex)
         self.probed = self._unprobed()
-        self._expected = _FEWEST + _PER_WAVE * task.waves(base[0], base[-1])
-        self.done, self.left = 0, self._expected
+        self.done = 0
+        self.expect(_FEWEST + _PER_WAVE * task.waves(base[0], base[-1]))
+        self.seconds: list[float] = []
         nodes, inner = self._scatterer.mesh.size, len(self._scatterer.inside)
         self.cost = float(nodes) ** _GROWTH * (1.0 + _INNER * inner / nodes)
+
+    def expect(self, frequencies: float) -> None:
+        """Take a number of frequencies that a search will probably need."""
+        self.expected = self.left = frequencies
 
     @property
     def count(self) -> int:
@@ -117,6 +126,13 @@ class Band:
                 of_order += [self.ball_drive(order, axis) for axis in range(3)]
             if of_order:
                 found[of_order] = system.pressure(order, driven, coming, keep=cage_away).T
+        return found
+
+    def _timed(self, frequency: float) -> Complex:
+        """Solve, and keep how long it took."""
+        begun = time.perf_counter()
+        found = self.solve(frequency)
+        self.seconds.append(time.perf_counter() - begun)
         return found
 
     def field(self, points: Real) -> Complex:
@@ -202,7 +218,7 @@ class Band:
 
         def measure(frequencies: Real) -> list[Complex]:
             received = []
-            for frequency, surface in zip(frequencies, pool.map(self.solve, frequencies), strict=True):
+            for frequency, surface in zip(frequencies, pool.map(self._timed, frequencies), strict=True):
                 known[frequency] = surface
                 still = sounding(frequency, surface) * np.exp(2j * np.pi * frequency * flights)[:, None]
                 received.append(still.T)
@@ -212,9 +228,9 @@ class Band:
             return [parts[:, group] for group in self.groups]
 
         def expect(least: float, certain: bool) -> None:
-            usual = max(least, self._expected - self.done)
-            share = _SHARES[int(least < _SOON)]
-            self.left = least if certain else max(least, _LUCK) ** share * usual ** (1.0 - share)
+            usual = max(least, self.expected - self.done, _LASTING * self.done)
+            lucky = least < _LUCK
+            self.left = least if certain else (_LUCK * usual) ** 0.5 if lucky else usual
 
         found = rational.search(measure, base[0], base[-1], MOST, self._family(), expect)
         if found is None:
@@ -248,10 +264,10 @@ class Band:
 
         ``known``: surface pressures solved before, by frequency (Hz).
         """
-        expected = _HALVED * self._expected
+        expected = _HALVED * self.expected
         there = {f: known[f] for f in self.frequencies if f in known}
         missing = [f for f in self.frequencies if f not in known]
-        for f, found in zip(missing, pool.map(self.solve, missing), strict=True):
+        for f, found in zip(missing, pool.map(self._timed, missing), strict=True):
             there[f] = found
             self._count(solved, expected - len(known))
         for f, found in known.items():  # close neighbours would spoil the cubic
@@ -264,7 +280,7 @@ class Band:
             middles = [0.5 * (low + high) for low, high in open_]
             halved = []
             surfaces = []
-            for k, found in enumerate(pool.map(self.solve, middles)):
+            for k, found in enumerate(pool.map(self._timed, middles)):
                 low, high = open_[k]
                 if high - low > 2.0 * _NARROWEST and self._missed(middles[k], found) > _INTERPOLATION:
                     halved += [(low, middles[k]), (middles[k], high)]

@@ -28,6 +28,7 @@ _RESIDUAL = 0.05  # of the tolerance: fits that are closer to frequencies not th
 _HELD = 2  # frequencies at least that determine weights
 _CANDIDATES = 400  # frequencies at which fits are compared
 FIRST = 8  # frequencies solved before the first fit
+AT_ONCE = 2  # frequencies solved at a time afterwards
 _BETTER = 6.0  # times, as measured, that predictions become by two more frequencies
 _IN_A_ROW = 3  # predictions within the tolerance that end the search
 _CHECKS = 2  # frequencies, drawn at random, that are predicted in the end
@@ -177,7 +178,7 @@ def search(
     solved[[0, -1]] = low, high
     values = measure(solved)
     groups = [Group() for _ in values]
-    right, checked = 0, False
+    right, wrong, checked = 0, np.inf, False
     # Sharp poles at which the prediction was right: their residue is of the size of rounding, and each fit
     # has one again, a little beside (d 300 x 60 mm: 47 times between 5,999 and 6,000 Hz).
     harmless: list[float] = []
@@ -186,6 +187,8 @@ def search(
         sharp = [f for group in groups for f in group.sharp(low, high)] if right >= _IN_A_ROW else []
         sharp = [f for f in sharp if all(abs(f - other) > f / _SHARPEST for other in harmless)]
         last = right >= _IN_A_ROW and not sharp
+        if wrong < np.inf:
+            left(_left(wrong, right) + len(sharp), last)
         if last:
             due = draw.uniform(low, high, _CHECKS)
         else:
@@ -198,11 +201,13 @@ def search(
         checked = last and wrong < TYPICAL
         right = right + len(due) if wrong < TOLERANCE else 0
         harmless += sharp[:1] if right else []
-        left(0.0 if checked else _left(wrong, right), checked or right >= _IN_A_ROW)
         order = np.argsort(np.concatenate([solved, due]))
         solved = np.concatenate([solved, due])[order]
         values = [np.concatenate([one, two])[order] for one, two in zip(values, found, strict=True)]
-    return solved if checked else None
+    if not checked:
+        return None
+    left(0.0, True)
+    return solved
 
 
 def renew(

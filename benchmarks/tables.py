@@ -19,7 +19,7 @@ RESULTS = ROOT / "docs" / "results"
 #: Tables that no command here can remake, and why; they carry a date.
 APART = {
     "ross": "ROSS 3 needs Python 3.13 and an environment of its own",
-    "quick_fidelities": "put together from parts of `benchmarks.quick_fidelities`, hours of a processor",
+    "quick_fidelities": "parts of `benchmarks.quick_fidelities`, `quick_gates`, `quick_limits`: hours",
 }
 _SPINDLE = "examples/scenes/7003C-spindle.toml"
 _HERE = "docs/results"

@@ -15,6 +15,8 @@ from benchmarks import (
     ours,
     peers,
     quick_fidelities,
+    quick_gates,
+    quick_limits,
     realtime,
     scenes,
     sets,
@@ -199,6 +201,17 @@ def test_bad_scenes_are_those_that_restart_or_move_far_more():
     assert quick_fidelities.faults(row | {"rings/response y": "3.1"}) == ["rings/response 3.1"]
     assert quick_fidelities.faults(row | {"rings/full z": "nan"}) == ["rings/full nan"]
     assert quick_fidelities.faults(row | {"restarts of rings": "4"}) == ["rings restarts 4"]
+
+
+def test_rings_beside_full_are_written_in_their_columns(tmp_path):
+    quick_gates.main(["--what", "drawn", "--count", "1", "--output", str(tmp_path)])
+    quick_limits.main(["--what", "stiff_preload", "--output", str(tmp_path)])
+    for name, columns in (("drawn", quick_gates.columns("drawn")), ("quick_limits", quick_limits.COLUMNS)):
+        with (tmp_path / f"{name}.csv").open(encoding="utf-8") as file:
+            (row,) = csv.reader(file.read().splitlines()[1:])
+        assert len(row) == len(columns)
+    for what in ("terms", "grew"):
+        assert len(set(quick_gates.columns(what))) == len(quick_gates.columns(what))
 
 
 def test_tables_of_another_engine_are_named(tmp_path):

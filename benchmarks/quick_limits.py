@@ -34,6 +34,7 @@ from fmu_bearing.scene.nsk import sizes
 
 MODELS = ("full", *QUICK)
 RPM = np.pi / 30.0  # rad/s
+SOURCES = ("inner_race_amplitude_um", "outer_race_amplitude_um", "ball_form_nm")
 DRIFTING = ("NSK-7003C", "NSK-7010C", "NSK-7008AC", "NSK-7912C")
 COLUMNS = ("what", "quantity", *MODELS)
 INNER = [f"inner_ring.velocity.{axis}" for axis in "xyz"]
@@ -311,23 +312,32 @@ def small_waves() -> Iterator[Row]:
 
 def damped_waves() -> Iterator[Row]:
     """A tenth of the surfaces at half the lightest class without a cage: least and largest ratio."""
+    cases = []
     for name, rpm in (("NSK-7907C", 11e3), ("NSK-7906C", 19.1e3)):
+        scene = cageless(Drawn(name, rpm, HALF).scene())
         for damping in (0.5, 2.5, 10.0):
-            scene = cageless(Drawn(name, rpm, HALF).scene())
-            at = scene.replace({"bearing.contact_damping_us": damping})
-            full = motion(at, "full", scale=0.1)
-            found = [[float(x) for x in ends(at, full, motion(at, model, scale=0.1))] for model in QUICK]
             what = f"{name} without its cage, {rpm:,.0f} r/min, half of the lightest class, {damping:g} us"
-            yield what, "least ratio", [1.0, *(one[0] for one in found)]
-            yield what, "largest ratio", [1.0, *(one[1] for one in found)]
+            cases.append((what, scene.replace({"bearing.contact_damping_us": damping})))
+    what, damped = cases[2]
+    flaws = damped.imperfections
+    assert flaws is not None
+    for source in SOURCES:
+        alone = {f"imperfections.{key}": getattr(flaws, key) if key == source else 0.0 for key in SOURCES}
+        cases.append((f"{what}, {source} alone", damped.replace(alone)))
+    for what, scene in cases:
+        full = motion(scene, "full", scale=0.1)
+        found = [[float(x) for x in ends(scene, full, motion(scene, model, scale=0.1))] for model in QUICK]
+        yield what, "least ratio", [1.0, *(one[0] for one in found)]
+        yield what, "largest ratio", [1.0, *(one[1] for one in found)]
 
 
 def without_traction() -> Iterator[Row]:
-    """The example 7003C-impact, whose `traction_max` is 0, and with another; growth of `rings`' operator."""
+    """The example 7003C-impact, whose balls have no traction and no weight; growth of `rings`' operator."""
     given = silent(read_scene(ROOT / "examples" / "scenes" / "7003C-impact.toml"))
-    for traction in (0.0, 0.02):
-        scene = given.replace({"lubricant.traction_max": traction, "operation.speed_rpm": 8e3})
-        what = f"7003C-impact, 8,000 r/min, traction_max {traction:g}"
+    for traction, weight in ((0.0, False), (0.02, False), (0.0, True)):
+        changed = {"lubricant.traction_max": traction, "fidelity.terms.gravity": weight}
+        scene = given.replace(changed | {"operation.speed_rpm": 8e3})
+        what = f"7003C-impact, 8,000 r/min, traction_max {traction:g}, {'' if weight else 'no '}weight"
         yield list(quick_over_full(what, scene, seconds=0.5))[1]
         restarts = [kept(scene, model, ["solver.restarts"], 0.5, step=1e-3)[0, -1] for model in MODELS]
         yield what, "restarts in 0.5 s", restarts

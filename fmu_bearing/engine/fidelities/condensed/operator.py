@@ -20,6 +20,9 @@ Modes of A that grow while the rings are held are left out: the cage whirls in i
 falls with sliding drives a ball. That motion is bounded by what is not linear.
 """
 
+import math
+
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.eigen import eigen
 from fmu_bearing.engine.fidelities.condensed.families import (
@@ -94,8 +97,32 @@ def hold_loosely(re, at):
 
 
 @kernel
-def gather_states(p, jac, orbit, family, n, w):
-    """Put A to ``T.STATES``, scaled, and the states' rates by the rings to ``T.BY_RINGS``, not scaled."""
+def add_springs(p, radius, re, im, n):
+    """Add to A of family 1 the springs between neighbouring balls, which are slack where these lie evenly.
+
+    One stretches by sin(D/2) (r + r') + R cos(D/2) (a' - a) between radii r, r' and angles a, a' of balls D
+    apart, and pulls on both by that (`mechanics.springs`); r' = r exp(i D) in the pattern. Balls that move
+    as one, family 0, stretch none. ``radius``: R (m).
+    """
+    apart = 2.0 * PI / p[P.BALLS]
+    sin, cos = math.sin(0.5 * apart), math.cos(0.5 * apart)
+    r, a = 1, 2  # places of a ball: x, r, angle
+    for rate in range(2):
+        strength = (p[P.SPRINGS] if rate == 0 else p[P.SPRING_DAMPING]) / p[P.BALL_MASS]
+        across, along = (J.PLACED + r) * n + rate * J.PLACED, (J.PLACED + a) * n + rate * J.PLACED
+        both = 2.0 * strength * sin * cos * math.sin(apart)
+        re[across + r] -= 2.0 * strength * sin * sin * (1.0 + math.cos(apart))
+        im[across + a] -= both * radius
+        im[along + r] += both / radius
+        re[along + a] -= 2.0 * strength * cos * cos * (1.0 - math.cos(apart))
+
+
+@kernel
+def gather_states(p, jac, orbit, radius, family, n, w):
+    """Put A to ``T.STATES``, scaled, and the states' rates by the rings to ``T.BY_RINGS``, not scaled.
+
+    ``orbit``: of the balls (rad/s), on a circle of ``radius`` (m).
+    """
     re = w[T.STATES : T.STATES + 2 * n * n]
     im = w[T.STATES + 2 * L.INTERNAL * L.INTERNAL : T.STATES + 2 * L.INTERNAL * L.INTERNAL + 2 * n * n]
     for i in range(2 * n * n):
@@ -130,6 +157,8 @@ def gather_states(p, jac, orbit, family, n, w):
             re[row + _BALL_ROWS + 2 + k] = vr
             im[row + _BALL_ROWS + 2 + k] = vi
         hold_loosely(re, row + _BALL_ROWS + 2 + a)
+    if family == 1:
+        add_springs(p, radius, re, im, n)
     hold_loosely(re, (J.BALL - 1) * n + J.BALL - 1)
     for i in range(n):
         for k in range(n):
@@ -368,8 +397,9 @@ def find_operator(p, lv, jac, orbit, w):
         lv[L.HELD_PLACE + i] = lv[L.JX + i]
         lv[L.HELD_RATE + i] = lv[L.JV + i]
     n = internal(p)
+    radius = p[P.PITCH_RADIUS] + lv[L.Y0 + Y.R]
     for family in range(2):
-        gather_states(p, jac, orbit, family, n, w)
+        gather_states(p, jac, orbit, radius, family, n, w)
         if not find_modes(p, n, w):
             clear_operator(lv)
             return

@@ -122,6 +122,7 @@ LINE_SIDE = _L.N * _L.COLUMN  # right side of the rings' equations: behind the c
 LINE_RE = _at(LINE_SIDE + _L.COLUMN)
 LINE_IM = _at(LINE_SIDE + _L.COLUMN)
 ANSWER = _at(2 * _L.BOTH)  # modes of balls and cage at a frequency, per drive: forward, then backward
+DRIVEN = _at(2 * _L.FAMILY_RINGS * _L.COMPLEX)  # and driven by each coordinate of a family
 BESIDE_RE = _at(_L.MATRIX)  # 1/s2: accelerations of the rings by them, and by what goes beside balls at rest
 BESIDE_IM = _at(_L.MATRIX)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
@@ -154,6 +155,7 @@ LEDGER: tuple[Area, ...] = (
     Area("T.LINE_RE", LINE_RE, LINE_SIDE + _L.COLUMN, _LINES),
     Area("T.LINE_IM", LINE_IM, LINE_SIDE + _L.COLUMN, _LINES),
     Area("T.ANSWER", ANSWER, 2 * _L.BOTH, _LINES),
+    Area("T.DRIVEN", DRIVEN, 2 * _L.FAMILY_RINGS * _L.COMPLEX, _LINES),
     Area("T.BESIDE", BESIDE_RE, 2 * _L.MATRIX, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
     Area("T.BY_HEIGHT", BY_HEIGHT, _LN.COMPLEX, _LINES),

@@ -34,19 +34,27 @@ def answer_at(lv, growth, omega, w):
 
 
 @kernel
-def through(lv, family, whirl, out, by_place, by_rate, growth, omega, w):
-    """Return what the modes of a family do, by the row ``lv[out:]``, driven at a whirl of ``omega`` (rad/s).
+def drive_modes(lv, family, whirl, by_place, by_rate, growth, omega, w, to):
+    """Put the modes of a family, driven at a whirl of ``omega`` (rad/s), to the complex row ``w[to:]``.
 
-    By a place through the row ``lv[by_place:]`` and its rate through ``lv[by_rate:]``; complex.
+    By a place through the row ``lv[by_place:]`` and its rate through ``lv[by_rate:]``.
     """
-    re, im = splat(0.0), splat(0.0)
     at = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
     for m in range(0, groups(lv, family), FOUR):
         vr, vi = load(lv, by_rate + m), load(lv, by_rate + L.MODES + m)
         xr = load(lv, by_place + m) - omega * vi + growth * vr
         xi = load(lv, by_place + L.MODES + m) + omega * vr + growth * vi
         gr, gi = load(w, at + m), load(w, at + L.MODES + m)
-        ar, ai = xr * gr - xi * gi, xr * gi + xi * gr
+        store(w, to + m, xr * gr - xi * gi)
+        store(w, to + L.MODES + m, xr * gi + xi * gr)
+
+
+@kernel
+def by_modes(lv, family, out, driven, w):
+    """Return what modes of a family at ``w[driven:]`` do, by the row ``lv[out:]``; complex."""
+    re, im = splat(0.0), splat(0.0)
+    for m in range(0, groups(lv, family), FOUR):
+        ar, ai = load(w, driven + m), load(w, driven + L.MODES + m)
         ur, ui = load(lv, out + m), load(lv, out + L.MODES + m)
         re += ur * ar - ui * ai
         im += ur * ai + ui * ar
@@ -76,12 +84,16 @@ def beside_rings(lv, growth, omega, w):
         return
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
+        for b in range(family_size(family)):
+            by_place, by_rate = f + L.IN_PLACE + b * L.COMPLEX, f + L.IN_RATE + b * L.COMPLEX
+            forward, backward = T.DRIVEN + b * L.COMPLEX, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX
+            drive_modes(lv, family, 0, by_place, by_rate, growth, omega, w, forward)
+            drive_modes(lv, family, 1, by_place, by_rate, growth, -omega, w, backward)
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
-                by_place, by_rate = f + L.IN_PLACE + b * L.COMPLEX, f + L.IN_RATE + b * L.COMPLEX
-                fr, fi = through(lv, family, 0, out, by_place, by_rate, growth, omega, w)
-                br, bi = through(lv, family, 1, out, by_place, by_rate, growth, -omega, w)
+                fr, fi = by_modes(lv, family, out, T.DRIVEN + b * L.COMPLEX, w)
+                br, bi = by_modes(lv, family, out, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX, w)
                 re, im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
                 for plane in range(planes(family)):
                     i, k = member(family, plane, a), member(family, plane, b)
@@ -106,12 +118,16 @@ def beside_places(p, lv, w, re, im):
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
         per = planes(family) / p[P.BALLS]
+        for k in range(2):
+            row = f + L.IN_AWAY + k * L.COMPLEX
+            for whirl in range(2):
+                driven = T.DRIVEN + (2 * whirl + k) * L.COMPLEX
+                drive_modes(lv, family, whirl, row, row, 0.0, 0.0, w, driven)
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
             for k in range(2):
-                row = f + L.IN_AWAY + k * L.COMPLEX
-                fr, fi = through(lv, family, 0, out, row, row, 0.0, 0.0, w)
-                br, bi = through(lv, family, 1, out, row, row, 0.0, 0.0, w)
+                fr, fi = by_modes(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
+                br, bi = by_modes(lv, family, out, T.DRIVEN + (2 + k) * L.COMPLEX, w)
                 push = f + L.PUSH + 2 * (2 * a + k)
                 # contacts with balls at rest have pushed already
                 fr, fi, br, bi = fr - lv[push], fi - lv[push + 1], br - lv[push], bi - lv[push + 1]

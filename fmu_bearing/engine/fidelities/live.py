@@ -28,6 +28,7 @@ def copy_live(p, s, kept):
     copy(s, kept, size, begin)
     if back_in_use(p, s):
         copy(s, kept, begin, begin + size)
+    copy(s, kept, begin + size, s.size)
 
 
 @kernel

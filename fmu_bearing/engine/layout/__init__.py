@@ -24,6 +24,7 @@ module            as    array
 ``history``       H     what a march of fidelity rings keeps of its coordinates
 ``condensed``     L     what fidelities rings and response keep in ``s``
 ``lines``         LN    scratch of fidelity response in ``s`` while it renews its lines
+``drift``         DR    what fidelity response keeps of a drift of its inputs in ``s``
 ``s``             S     state: all that a later step needs, and nothing else
 ``equilibrium``   EQ    result of the quasi-static kernel
 ``statics``       ST    work space of the quasi-static kernels
@@ -45,6 +46,7 @@ from fmu_bearing.engine.layout import (
     c as C,
     condensed as L,
     contact as K,
+    drift as DR,
     equilibrium as EQ,
     f as F,
     factors as A,
@@ -73,6 +75,6 @@ from fmu_bearing.engine.layout import (
 from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SL", "SP",
-    "ST", "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "DR", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SL",
+    "SP", "ST", "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
 ]  # fmt: skip

@@ -4,6 +4,7 @@ from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.layout import (
     c as _C,
     condensed as _L,
+    drift as _DR,
     f as _F,
     factors as _A,
     flexure as _FL,
@@ -72,7 +73,8 @@ SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response
 def front(p):
     """Length of the part of ``s`` that steps go on from, which all of ``s`` is but in fidelity `response`.
 
-    There inputs and a second such part follow, in which what is held is renewed: see ``response/renewal``.
+    There inputs and a second such part follow, in which what is held is renewed (``response/renewal``), then
+    what is kept of a drift (``DR``).
     """
     if _SP.has_shaft(p):
         return int(p[int(p[_P.SET]) + _SP.FRONT])
@@ -82,4 +84,10 @@ def front(p):
 
 def size(p):
     """Length of ``s`` for the parameters ``p``."""
-    return front(p) + (_SP.inputs(p) + front(p) if p[_P.FIDELITY] == RESPONSE else 0)
+    if p[_P.FIDELITY] != RESPONSE:
+        return front(p)
+    bearings, padded_size = 1, _L.COLUMN
+    if _SP.has_shaft(p):
+        block = int(p[_P.SET])
+        bearings, padded_size = int(p[block + _SP.BEARINGS]), int(p[block + _SP.PADDED_SIZE])
+    return 2 * front(p) + _SP.inputs(p) + _DR.size(bearings, _SP.inputs(p), padded_size)

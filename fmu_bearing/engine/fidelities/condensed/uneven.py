@@ -26,7 +26,10 @@ from fmu_bearing.engine.steady.point import (
     state_at,
 )
 
-_MOVED = 0.05  # of speed, loads, viscosity
+_MOVED = 0.05  # of speed, loads, and of viscosity at least
+_MOVED_MOST = 0.15  # of viscosity: what uneven balls add goes with the losses of even ones but for some
+_ADDED = 5e-4  # of these losses: a share that they add changes by 1.6 times itself with all of the viscosity
+_ADDED_BY = 1.6
 _ACROSS = 0.01  # of the preload: of a load across the axis, so that rounding in a set's rest counts as none
 _GROWN = 2e-8  # m: of a contact's geometry, some hundredths of its approach
 _GONE = 4.0  # times these: a search for what was there then serves nothing
@@ -118,12 +121,23 @@ def grown(c, lv, at):
 
 
 @kernel
+def by_viscosity(lv):
+    """How much farther than other conditions viscosity may move, see `_ADDED`."""
+    added = abs(lv[L.MORE]) + abs(lv[L.MORE + 1]) + abs(lv[L.MORE + 2])
+    if not (added > 0.0):
+        return _MOVED_MOST / _MOVED
+    return min(max(_ADDED * lv[L.MORE_TOTAL] / (_ADDED_BY * added * _MOVED), 1.0), _MOVED_MOST / _MOVED)
+
+
+@kernel
 def away(lv, c, speed, found_speed, conditions, times):
     """Whether speed, loads or sizes are ``times`` as far as they may be from those in ``lv``."""
     far = moved(speed, lv[found_speed], times)
-    for i in (C.PRELOAD, C.VISCOSITY, C.PEDESTAL):
+    for i in (C.PRELOAD, C.PEDESTAL):
         if moved(c[i], lv[conditions + i], times):
             far = True
+    if moved(c[C.VISCOSITY], lv[conditions + C.VISCOSITY], times * by_viscosity(lv)):
+        far = True
     for i in (C.LOAD_Y, C.LOAD_Z):
         then = lv[conditions + i]
         if abs(c[i] - then) > times * (_MOVED * abs(then) + _ACROSS * abs(c[C.PRELOAD]) + 1e-12):

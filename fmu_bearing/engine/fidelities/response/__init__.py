@@ -12,6 +12,7 @@
 ``equilibrium``    where rings and balls rest, and all lines about it at once
 ``exchange``       how renewed lines take the place of those in use
 ``pieces``         the same in pieces, beside the lines in use
+``drift``          what goes along with inputs that drift, between renewals
 ``renewal``        when pieces are made, and what is taken over of them
 ``march``          start, and the state at any time
 =================  =============================================================

@@ -1,10 +1,11 @@
 """What fidelity `response` keeps twice, and how the lines in use are exchanged for renewed ones.
 
 Behind the part of the state that steps go on from (`front`) stand the inputs of a renewal and a second such
-part, in which it goes on. When it is complete, both parts exchange their lines. Amplitudes at a resonance
-differ by a third where the speed has moved by half a per cent: exchanged at once they would click, and the
-click would be louder than the lines for an average of 125 ms. So the motion is that of the old lines,
-then that of both, and after `BLEND` that of the new ones. Phases of both are those of now.
+part, in which it goes on; then what is kept of a drift (``drift``). When it is complete, both parts exchange
+their lines. Amplitudes at a resonance differ by a third where the speed has moved by half a per cent:
+exchanged at once they would click, and the click would be louder than the lines for an average of 125 ms. So
+the motion is that of the old lines, then that of both, and after `BLEND` that of the new ones. Phases of both
+are those of now.
 
 Arguments: see `spindle.members`.
 """

@@ -11,6 +11,7 @@ A search for what uneven balls add (``condensed.uneven``) goes on in the state i
 Arguments: see `spindle.members`; ``stage``: of `pieces`; ``back``: the second state.
 """
 
+from fmu_bearing.engine.fidelities.response import drift
 from fmu_bearing.engine.fidelities.response.exchange import (
     BLEND,
     back_of,
@@ -62,13 +63,14 @@ _SEARCHES = 4.0  # every so many pieces one is of a search that waits
 
 
 @kernel
-def mirror(p, s):
+def mirror(p, u, s):
     """Begin without a renewal: the second state is the first one, just found."""
     copy(s, back_of(p, s), 0, front(p))
     own = members.set_state(p, s)
     at = members.march(p)
     own[at + SP.MADE_LAST] = _GUESS
     end_blend(p, s)
+    drift.begin_drift(p, u, s)
 
 
 @kernel
@@ -100,8 +102,7 @@ def begin(p, u, s, w, h):
     own[at + SP.MADE] = 0.0
     enter(p, s, SETTLE if members.has_shaft(p) else HOLD)
     given = inputs_of(p, s)
-    for i in range(inputs(p)):
-        given[i] = u[i]
+    drift.aim_inputs(p, u, s, given)
     given[SP.U_SPEED] = aim
     for b in range(members.count(p)):
         sb, of = members.state(p, s, b), members.state(p, back, b)
@@ -122,9 +123,11 @@ def take_over(p, s):
     at = members.march(p)
     own[at + SP.MADE_LAST] = own[at + SP.MADE]
     own[at + SP.NEW] = 1.0
+    level = drift.level_change(p, s)
     if from_lines(p):
         take_sound(p, s)
     exchange_lines(p, s)
+    drift.take_along(p, s, level)
     for b in range(members.count(p)):
         take_bearing(p, s, b)
     if members.has_shaft(p):
@@ -210,13 +213,13 @@ def strayed(p, u, s):
 
 
 @kernel
-def go_on(p, u, s, w, h, off):
+def go_on(p, u, s, w, h, off, drifted):
     """Make the pieces due in a step of ``h`` (s); status code, and whether something new is in use.
 
-    ``off``: how far what is held is off the inputs ``u``, see `held.off`. Where the speed jumps far, all
-    pieces are made at once. Where inputs come back to those in use, the renewal for others is given up: one
-    bad sample changes nothing. A renewal that finds no equilibrium for other inputs gives way to one for
-    these.
+    ``off``: how far what is held is off the inputs ``u``, see `held.off`; ``drifted``: see `drift.follow`.
+    Where the speed jumps far, all pieces are made at once. Where inputs come back to those in use, the
+    renewal for others is given up: one bad sample changes nothing. A renewal that finds no equilibrium for
+    other inputs gives way to one for these.
     """
     own = members.set_state(p, s)
     at = members.march(p)
@@ -226,7 +229,8 @@ def go_on(p, u, s, w, h, off):
     own[at + SP.RAMP + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RAMP + 1])
     # until lines are written the second state keeps those before the ones in use
     first_lines = ANSWER if members.has_shaft(p) else LINES
-    renewed = held.due(p, s, max(off, moved(p, s, u[SP.U_SPEED])), _HURRY, h)
+    far = max(drifted, moved(p, s, u[SP.U_SPEED]))
+    renewed = held.due(p, s, far, _HURRY, drift.goes_on(p, s), h)
     if is_late(p, s, u[SP.U_SPEED], off):
         due *= _CATCH_UP
     at_once = runs_away(p, s, u[SP.U_SPEED])
@@ -252,7 +256,7 @@ def go_on(p, u, s, w, h, off):
         turn = own[at + SP.TURN] + 1.0
         own[at + SP.TURN] = turn if turn < _SEARCHES else 0.0
         if waits and (own[at + SP.STAGE] == IDLE or own[at + SP.TURN] == 0.0):
-            renewed = held.searched(p, s, w) or renewed
+            renewed = (held.searched(p, s, w) and not drift.goes_on(p, s)) or renewed
             continue
         if own[at + SP.STAGE] == first_lines and share_in_use(p, s, 0.0) < 1.0:
             return OK, fresh

@@ -389,16 +389,17 @@ def set_inputs_of(p, u, s, w, h):
 
 
 @kernel
-def due(p, s, off, hurry, h):
+def due(p, s, off, hurry, patient, h):
     """Whether a renewal may begin in a step of ``h`` (s), what is held being ``off`` (see `condensed.held`).
 
-    What a search has found is taken as soon as it has come to its end.
+    What a search has found is taken as soon as it has come to its end, or if ``patient`` with the next
+    renewal.
     """
     own = members.set_state(p, s)
     at = members.march(p) + SP.PAUSE
     own[at] = max(own[at] - h / PIECE, 0.0)
     for b in range(members.count(p)):
-        if members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.ENDED:
+        if not patient and members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.ENDED:
             return True
     return off > hurry or (off > 1.0 and own[at] <= 0.0)
 

@@ -185,7 +185,7 @@ def take_inputs(p, u, s, w, h):
         # the steady forces were found at a speed before that of the points
         aim = own[at + SP.AIM]
         off = max(off, abs(u[SP.U_SPEED] - aim) / (0.01 * abs(aim) + 1e-3))
-    renewed = held.due(p, s, off, _HURRY, h)
+    renewed = held.due(p, s, off, _HURRY, False, h)
     due = held.pieces_due(p, s, h)
     if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
         due = held.MOST

@@ -81,7 +81,9 @@ SPEEDS = (3_000, 10_000, 20_000, 28_000)  # r/min
 
 
 @pytest.mark.parametrize("damping", [0.5, 10.0, 12.0, 20.0])
-@pytest.mark.parametrize("name", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic", "7009C-steel"])
+@pytest.mark.parametrize(
+    "name", ["7003C-bare", "7003C-impact", "7003C-spindle", "7009C-full-ceramic", "7009C-steel"]
+)
 def test_the_operator_has_the_modes_of_full(scene, example, name, damping):
     for folder in (scene, example):
         assert_equal_poles(folder(name).replace({"bearing.contact_damping_us": damping}), 2e-6)

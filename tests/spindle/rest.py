@@ -22,7 +22,8 @@ from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.spindle import expansions, housing_of, in_housing
 from fmu_bearing.scene import si
-from fmu_bearing.scene.member import HELD, one_of, set_of, shares
+from fmu_bearing.scene.assembly import shares
+from fmu_bearing.scene.member import HELD, one_of, set_of
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.units import convert
 

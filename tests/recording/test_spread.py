@@ -155,8 +155,10 @@ def test_a_weakly_damped_bearing_is_drawn_with_full(bare, example, monkeypatch):
     recording = record(dry.replace({"imperfections": flaws}), 0.06, progress=False, radiation_model="compact")
     found = spread(recording, [(0.105, 0.0, 0.0)])
     assert set(drawn) == {"full"} and found.drawn == 3
-    assert "inner tilt" in found.weak and f"Drawn with fidelity full, because {found.weak}" in found.remark()
-    assert found.doubt == found.summary()["doubt"] and found.doubt.startswith("levels of fidelity response")
+    assert found.weak and f"Drawn with fidelity full, because {found.weak}" in found.remark()
+    # the mode is weakly damped, and a run of 56 ms departs from full by it
+    assert found.doubt == found.summary()["doubt"] and "inner tilt" in found.doubt
+    assert found.doubt.startswith("levels and velocities of fidelity response")
     drawn.clear()
     assert spread(recorded(bare), ["P1"], seeds=1).doubt == ""
     assert set(drawn) == {"response"}

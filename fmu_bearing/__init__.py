@@ -5,7 +5,6 @@ Data flow in one direction::
     scene.toml -> Scene -> Model (flat numbers + names) -> engine: init / step / outputs -> outputs by name
 
 ==================  =========================================================================
-``renamed``         old names, which are refused with their new names
 ``progress``        progress of long work, printed line by line
 ``files``           reading files that users name, writing those that other processes may read, the cache
 ``file_words``      why a file cannot be read, and what it holds where another kind is due
@@ -183,10 +182,6 @@ __all__ = [
 
 def __getattr__(name: str) -> Any:
     if name not in _PLACES:
-        renamed = import_module("fmu_bearing.renamed").PUBLIC
-        if name in renamed:
-            # an AttributeError would lose its words in `from fmu_bearing import`
-            raise ImportError(f"fmu_bearing has no '{name}': it is now '{renamed[name]}'")
         raise AttributeError(f"fmu_bearing has no '{name}'; public names are {', '.join(__all__)}")
     place = import_module(f"fmu_bearing.{_PLACES[name]}")
     if not hasattr(place, name):  # a module that nothing has imported yet

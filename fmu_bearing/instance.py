@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.cautions import cautions
 from fmu_bearing.compiled import Calls, call
 from fmu_bearing.engine.choices import FULL
@@ -163,7 +162,7 @@ class Instance:
         return self._state
 
     def variable(self, name: str) -> Variable:
-        """Variable of that name; ``KeyError`` for an unknown name, with the new name of an old one."""
+        """Variable of that name; ``KeyError`` for an unknown name."""
         try:
             return self.by_name[name]
         except KeyError:
@@ -172,8 +171,7 @@ class Instance:
                     f"this FMU has no '{name}': fmu.outputs of its scene does not name it; add it there "
                     "and build the FMU again"
                 ) from None
-            now = f"; it is now '{renamed.VARIABLES[name]}'" if name in renamed.VARIABLES else ""
-            raise KeyError(f"this bearing has no variable '{name}'{now}") from None
+            raise KeyError(f"this bearing has no variable '{name}'") from None
 
     def set(self, name: str, value: float) -> None:
         """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""

@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from fmu_bearing import renamed
 from fmu_bearing.accuracy.alternatives import Alternative, alternatives
 from fmu_bearing.accuracy.change_levels import ChangeLevels, change_levels
 from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point
@@ -25,7 +24,6 @@ from fmu_bearing.scene.exclusions import require
 SEEDS = 5
 
 
-@renamed.arguments
 def changes(
     source: SceneSource,
     *,

@@ -22,7 +22,6 @@ import typer
 from rich.console import Console
 from typer.core import TyperGroup
 
-from fmu_bearing import renamed
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.progress import Stopped, lines, work
 
@@ -38,20 +37,12 @@ _Usage: Any = typer.BadParameter.__base__
 
 
 class Commands(TyperGroup):
-    """The commands. An option under its old name is refused with the new name."""
+    """The commands."""
 
     def make_context(self, *arguments: Any, **more: Any) -> Any:
         """Read the words before the command; what cannot be read is refused in one line."""
         with _one_line():
             return super().make_context(*arguments, **more)
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Refuse old options before any command parses them."""
-        for name in (word.partition("=")[0] for word in args):
-            if name in renamed.OPTIONS:
-                typer.echo(f"error: {name} is now {renamed.OPTIONS[name]}", err=True)
-                raise typer.Exit(REFUSED)
-        return super().parse_args(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
         """Run a command, its warnings one line each. Ctrl-C ends it; what it keeps by itself is kept."""

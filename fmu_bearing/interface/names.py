@@ -4,7 +4,6 @@ import fnmatch
 import re
 from collections.abc import Iterable, Sequence
 
-from fmu_bearing import renamed
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.problems import described
 
@@ -25,15 +24,11 @@ class UnknownName(ValueError):
 
 
 def known(name: str, names: Sequence[str], what: str) -> str:
-    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the new or nearest name."""
+    """Return ``name`` if it is one of ``names``; else raise `UnknownName` with the nearest name."""
     if name in names:
         return name
-    now = renamed.VARIABLES.get(name)
     near = _by_quantity(name, names) or nearest(name, names)
-    if now in names:
-        hint = f"it is now '{now}'"
-    else:
-        hint = f"did you mean '{near}'?" if near else f"there are {_some(names)}"
+    hint = f"did you mean '{near}'?" if near else f"there are {_some(names)}"
     raise UnknownName(f"there is no {what} '{name}'; {hint}")
 
 

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
-from fmu_bearing import renamed
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
@@ -101,7 +100,6 @@ class Model:
         return int(self.parameters[P.MODES])
 
 
-@renamed.arguments
 def prepare(
     scene: Scene, *, fidelity: str | None = None, method: str | None = None, max_step: float | None = None,
     note: str = "", samples: bool = False,

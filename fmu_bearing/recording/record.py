@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cautions import DOUBTS
@@ -50,7 +49,6 @@ DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
 _FAR = 2000.0  # mm: place of the one microphone of a recording; its flight lengthens the channel history
 
 
-@renamed.arguments
 def record(
     source: SceneSource | Model,
     duration: float,
@@ -144,7 +142,7 @@ def record(
         drives["shaft_speed"] = speed
     doubted = _doubt(scene, drives, wanted) if warn else ""
     if doubted:
-        warnings.warn(doubted, stacklevel=3)  # of renamed.arguments, which wraps this
+        warnings.warn(doubted, stacklevel=2)
     model = source if isinstance(source, Model) and microphones and not from_lines(scene) else prepare(
         scene if microphones
         else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted),

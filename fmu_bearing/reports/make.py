@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
@@ -81,7 +80,6 @@ class Report:
     verdict: str
 
 
-@renamed.arguments
 def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pathlib.Path:
     """Write the report of a run as one HTML page that needs no network, and return its path.
 
@@ -99,7 +97,6 @@ def report(source: Source, output: str | os.PathLike[str], **options: Any) -> pa
     return make(source, output, **options).path
 
 
-@renamed.arguments
 def make(
     source: Source,
     output: str | os.PathLike[str],

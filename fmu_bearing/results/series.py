@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene import Scene
 
@@ -33,8 +32,7 @@ class Series:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in (self.table.dtype.names or ()):
-            now = f"it is now '{renamed.VARIABLES[name]}'; " if name in renamed.VARIABLES else ""
-            raise KeyError(f"'{name}' was not kept; {now}kept: {', '.join(self.names)}")
+            raise KeyError(f"'{name}' was not kept; kept: {', '.join(self.names)}")
         return np.asarray(self.table[name], dtype=float)
 
     def __iter__(self) -> Iterator[str]:

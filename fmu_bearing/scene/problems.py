@@ -9,7 +9,6 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from fmu_bearing import renamed
 from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene import base
@@ -95,7 +94,7 @@ def _lines(errors: Iterable[Any], data: dict[str, Any]) -> Iterator[str]:
         else:
             yield (
                 f"{dotted(path)} = {shown(error['input'])} is refused; allowed: {allowed(path)}"
-                f"{_quotes(error, path)}{_instead(path, error['input'])}"
+                f"{_quotes(error, path)}"
             )
 
 
@@ -118,11 +117,6 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _instead(path: Location, value: Any) -> str:
-    new = renamed.VALUES.get(dotted(path), {}).get(value) if isinstance(value, str) else None
-    return f"; '{value}' was removed, use '{new}'" if new else ""
 
 
 def dotted(path: Location) -> str:
@@ -256,8 +250,6 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     model = _model_at(table)
     known = list(model.model_fields) if model is not None else []
     known += ("catalogue",) if table[:1] == ("materials",) else _RESOLVED.get(table, ())
-    if dotted(path) in renamed.KEYS:
-        return f"{dotted(path)} is now {renamed.KEYS[dotted(path)]}; its values are the same"
     is_set = data.get("spindle") is not None or table[:1] == ("spindle",)
     other = "mounting" if is_set else "spindle"
     homes = [(where, one) for where, one in _tables(Tables) if where != table and where != _plain(table)]

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.units import symbol
@@ -126,9 +125,6 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
     problems: list[str] = []
     found: dict[str, list[Any]] = {}
     for given, values in wanted.items():
-        if given in renamed.AXES or given in renamed.KEYS:
-            problems.append(f"axis {given} is now {renamed.AXES.get(given) or renamed.KEYS[given]}")
-            continue
         key = key_of(scene, given)
         try:
             known(key, [*fields, *ALIASES], "key of a scene")

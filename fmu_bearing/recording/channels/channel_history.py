@@ -14,7 +14,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.field import Blocks, Channels, Circle, Position, form_of, joined, kind_of
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.radiators import Path
@@ -133,7 +132,6 @@ class ChannelHistory(Turning):
         """Frequency (Hz) up to which the scene's surfaces excite it at the mean speed; None: not known."""
         return None if self.scene is None else excitation_end(self.scene, float(np.mean(self.speed)))
 
-    @renamed.arguments
     def pressure(self, positions: Places = None, radiation_model: str | None = None) -> NDArray[np.float64]:
         """Sound pressure (Pa) at places of your choice, shape (mics, size): the coherent sum of all sources.
 
@@ -168,7 +166,6 @@ class ChannelHistory(Turning):
                 total[list(circle.members)] += part
         return total
 
-    @renamed.arguments
     def partial(
         self,
         positions: Places = None,
@@ -204,7 +201,6 @@ class ChannelHistory(Turning):
                 total[list(circle.members)] += part
         return found
 
-    @renamed.arguments
     def levels(
         self,
         positions: Places = None,
@@ -247,7 +243,6 @@ class ChannelHistory(Turning):
                     mean_square[rows] += self.mean_square(part, weighting)
         return level(mean_square)
 
-    @renamed.arguments
     def mean_squares(
         self,
         positions: Places = None,

@@ -20,7 +20,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.directivity import (
     PLANES,
     Attenuation,
@@ -136,7 +135,6 @@ class MotionPower:
     levels: dict[str, float]
 
 
-@renamed.arguments
 def component_spectra(
     recording: ChannelHistory,
     position: str | ArrayLike,
@@ -196,7 +194,6 @@ def strongest(
     return [Line(line.frequency, line.level, BEYOND) if line.frequency > end else line for line in found]
 
 
-@renamed.arguments
 def circle(
     recording: ChannelHistory,
     radius: float,
@@ -214,7 +211,6 @@ def circle(
     return Round(angles, levels, directivity(angles, levels), weighting)
 
 
-@renamed.arguments
 def planes(
     recording: ChannelHistory,
     radius: float,
@@ -238,7 +234,6 @@ def planes(
     }
 
 
-@renamed.arguments
 def sweep(
     recording: ChannelHistory,
     radii: Sequence[float],
@@ -264,7 +259,6 @@ def sweep(
     return Sweep(r, x, circles, over_r, over_l)
 
 
-@renamed.arguments
 def sound_power(
     recording: ChannelHistory,
     radius: float = 1.0,
@@ -357,7 +351,6 @@ def motion_power(
     return MotionPower(frequency, watts, levels)
 
 
-@renamed.arguments
 def run_up(
     recording: ChannelHistory,
     position: str | ArrayLike,

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing import renamed
 from fmu_bearing.acoustics.analysis.audio import write_wav
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.acoustics.analysis.lines import Line
@@ -117,7 +116,6 @@ class SoundAnalysis:
         )
 
 
-@renamed.arguments
 def analyse_sound(
     recording: ChannelHistory,
     microphones: Places = None,
@@ -175,7 +173,6 @@ def _spectra(
     return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
 
 
-@renamed.arguments
 def write_all(
     recording: ChannelHistory,
     found: SoundAnalysis,

@@ -111,15 +111,16 @@ class Slow:
         """An 11 x 11 matrix of the state block."""
         return self.lv[where : where + L.MATRIX].reshape(L.N, 12)[:, : L.N].T
 
-    def height(self, race, angle):
-        """Race height under an angle from the table's cubic."""
+    def height(self, race, angle, further=0.0):
+        """Race height under an angle from the table's cubic, on along its tangent by an angle ``further``."""
         count = int(self.p[P.WAVE_INTERVALS])
         table = self.p[int(self.p[P.AT_WAVES]) :][: 4 * count].reshape(2, -1, 2)[race]
         place = angle * count / (2 * np.pi)
         i, t = int(np.floor(place)), place - np.floor(place)
         (h0, g0), (h1, g1) = table[i % count], table[(i + 1) % count]
         a, b = g0 + g1 - 2 * (h1 - h0), 3 * (h1 - h0) - 2 * g0 - g1
-        return h0 + t * (g0 + t * (b + t * a))
+        slope = (g0 + t * (2 * b + t * 3 * a)) * count / (2 * np.pi)
+        return h0 + t * (g0 + t * (b + t * a)) + further * slope
 
     def seat(self, race, ball, u, tilt):
         """Ring seen from a ball: axis, ball from its centre, radial direction, ball from the groove."""
@@ -189,10 +190,12 @@ class Slow:
         led = [one.follow @ one.of(place) + one.lead @ one.of(v) for one in self.families]
         away = np.zeros((2, 2), dtype=complex)
         for j in range(self.balls):
-            theta = orbit * (t + self.tau) + 2 * np.pi * j / self.balls
-            across = theta - speed * (t + self.tau), theta - q[8]
+            now = orbit * t + 2 * np.pi * j / self.balls
+            across, rates = (now - speed * t, now - q[8]), (orbit - speed, orbit)
             size = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
-            heights = [size + self.height(race, across[race]) for race in range(2)]
+            # damping presses by tau times the rate; the ball goes on along its orbit
+            heights = [size + self.height(k, across[k], self.tau * rates[k]) for k in range(2)]
+            theta = now + self.tau * orbit
             state = (theta, heights, q, ahead)
             found = root(
                 lambda x, state=state: self.residual(1e-6 * x, *state), 1e6 * self.places[j], tol=1e-13

@@ -17,15 +17,17 @@ def test_race_heights_are_those_of_the_tables_cubics(scene, theta):
     slow, lv, w = Slow(run), block(run), run.w
     inner, outer, speed = 2.2, -1e-3, 1885.0
     set_angles(run.p, run.s[S.C : S.C + C.SIZE], lv, theta, 0.0, inner, outer, speed, w)
+    orbit = lv[L.RATIO] * speed
     for j in range(slow.balls):
-        angle = theta + 2 * np.pi * j / slow.balls
+        here = theta + 2 * np.pi * j / slow.balls
+        angle = here + slow.tau * orbit
         # angles are rounded at 1e-15 rad, the steepest slope is some 1e-5 m/rad
         assert w[T.COS + j] == pytest.approx(np.cos(angle), abs=1e-14)
         assert w[T.SIN + j] == pytest.approx(np.sin(angle), abs=1e-14)
         size = 0.5 * run.p[int(run.p[P.AT_OVERSIZE]) + j]
-        for race, turned in enumerate((inner, outer)):
+        for race, (turned, rate) in enumerate(((inner, orbit - speed), (outer, orbit))):
             row = race * STRIDE + j
-            height = size + slow.height(race, angle - turned)
+            height = size + slow.height(race, here - turned, slow.tau * rate)
             assert w[T.INNER + row] == pytest.approx(height, abs=1e-18)
 
 

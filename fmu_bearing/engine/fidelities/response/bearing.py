@@ -159,9 +159,7 @@ def settle(p, s, ahead, near, w):
     c = s[S.C : S.C + C.SIZE]
     theta, rolled, angle, speed = angles_at(s, ahead)
     tau = p[P.CONTACT_DAMPING]
-    set_angles(
-        p, c, lv, theta + tau * lv[L.RATIO] * speed, rolled, angle + tau * speed, lv[L.Q0 + L.TURN], speed, w,
-    )  # fmt: skip
+    set_angles(p, c, lv, theta, rolled, angle, lv[L.Q0 + L.TURN], speed, w)
     q = w[T.Q : T.Q + L.COLUMN]
     for i in range(L.N):
         q[i] = lv[L.Q0 + i]

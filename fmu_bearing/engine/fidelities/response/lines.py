@@ -153,13 +153,12 @@ def wave_of(p, race, n, factor):
 def add_wave(p, x, race, n, order, factor, rate, tau, w):
     """Add ``factor`` times wave ``n`` of a race through order ``order`` of the balls to ``T.LINE_FORCE``.
 
-    ``rate``: of the balls against the race (rad/s); contact damping advances the height by ``tau``.
+    ``rate``: of the balls against the race (rad/s); contact damping adds ``tau`` times the height's rate.
     """
-    co = math.cos(n * rate * tau)
-    si = math.sin(n * rate * tau)
+    ahead = n * rate * tau
     re, im = wave_of(p, race, n, factor)
-    hr = re * co - im * si
-    hi = re * si + im * co
+    hr = re - im * ahead
+    hi = im + re * ahead
     coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
     for i in range(LN.COMPONENTS):
         gr = w[T.BY_HEIGHT + i]

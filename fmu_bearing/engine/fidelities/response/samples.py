@@ -44,7 +44,7 @@ def sample_orbit(p, c, lv, speed, x, w):
     scale = c[C.OVERSIZE_SCALE]
     c[C.OVERSIZE_SCALE] = 0.0
     for part in range(parts):
-        set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, speed, w)
+        set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, 0.0, w)
         for kind in range(kinds):
             changed = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
             step = _LEAN

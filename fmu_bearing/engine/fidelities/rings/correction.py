@@ -24,11 +24,9 @@ def set_angles_ahead(p, s, h, w):
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     speed = s[S.SPEED] + h * s[S.SPEED_RATE]
     turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
-    tau = p[P.CONTACT_DAMPING]
     set_angles(
-        p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned + tau * lv[L.RATIO] * speed,
-        lv[L.ROLLED] + lv[L.ROLL] * turned, s[S.ANGLE] + turned + tau * speed,
-        w[W.STAGE + Y.Q0 + L.TURN], speed, w,
+        p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned,
+        lv[L.ROLLED] + lv[L.ROLL] * turned, s[S.ANGLE] + turned, w[W.STAGE + Y.Q0 + L.TURN], speed, w,
     )  # fmt: skip
 
 

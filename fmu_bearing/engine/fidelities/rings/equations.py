@@ -191,10 +191,7 @@ def differentiate(p, s, w):
         w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i]
         w[W.STAGE + Y.V0 + i] = lv[L.V0 + i]
     show_balls(lv, L.X, w)
-    tau = p[P.CONTACT_DAMPING]
-    speed = s[S.SPEED]
-    theta = lv[L.THETA] + tau * lv[L.RATIO] * speed
-    set_angles(p, c, lv, theta, lv[L.ROLLED], s[S.ANGLE] + tau * speed, lv[L.Q0 + L.TURN], speed, w)
+    set_angles(p, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], lv[L.Q0 + L.TURN], s[S.SPEED], w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     s[S.JACOBIANS] += 1.0

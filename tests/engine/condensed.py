@@ -65,10 +65,10 @@ class Family:
         n = len(self.planes[0])
         self.value = rows(L.VALUE, 1)[0]
         self.by_place, self.by_rate = rows(L.IN_PLACE, 4)[:n], rows(L.IN_RATE, 4)[:n]
-        self.by_away, self.out = rows(L.IN_AWAY, 2), rows(L.OUT, 4)[:n]
+        self.by_away, self.out = rows(L.IN_AWAY, L.AWAYS), rows(L.OUT, 4)[:n]
         follow = pairs(L.FOLLOW, (2, 2, 4))[..., :n]
         self.follow, self.lead = follow
-        self.push = pairs(L.PUSH, (4, 2))[:n]
+        self.push = pairs(L.PUSH, (4, L.AWAYS))[:n]
         at = family * L.COMPLEX
         self.now = slice(at, at + count), slice(at + L.MODES, at + L.MODES + count)
 
@@ -169,11 +169,29 @@ class Slow:
         return net
 
     def counted(self, e, pushes):
-        """What counts of a ball's place beside the linear one: less where it is far or lightly loaded."""
+        """What counts of a ball's rest beside the linear one: less where it is far or lightly loaded."""
         xx, xr, rr = self.lv[L.REACH : L.REACH + 3]
-        far = e @ np.array([[xx, xr], [xr, rr]]) @ e
+        far = e[:2] @ np.array([[xx, xr], [xr, rr]]) @ e[:2]
         loaded = np.prod([np.linalg.norm(force) for force, _ in pushes]) / self.lv[L.LOADED]
         return e * loaded**4 / (loaded**4 + 1e-4) / (1.0 + far**2)
+
+    def pressed(self, linear, theta, rings, pushes):
+        """By how much both contacts of a ball press beside its linear motion (m), as load over stiffness.
+
+        ``linear``: x, r of that; ``rings``: the rings' displacements, advanced by tau.
+        """
+        found = np.zeros(2)
+        for race, (first, tilt) in enumerate(((0, 3), (5, 9))):
+            ex, er, lever, soft, load = self.lv[L.PRESS + race * L.PRESS_SIZE :][:5]
+            pair = self.lv[L.PAIR_INNER + race] * self.speed**2
+            # friction across the track is at right angles to the load
+            now = np.sqrt(max(np.sum(pushes[race][0] ** 2) - pair**2, 0.0))
+            u, by, bz = rings[first : first + 3], rings[tilt], rings[tilt + 1]
+            aside = u[2] * np.cos(theta) - u[1] * np.sin(theta)
+            led = ex * (linear[0] - u[0]) + er * (linear[1] - aside)
+            led -= lever * (by * np.cos(theta) + bz * np.sin(theta))
+            found[race] = soft * (now - load) - led
+        return found
 
     def accelerations(self, t, q, v, modes=None):
         """Accelerations of the 11 coordinates at time ``t`` from the start, then rates of the modes.
@@ -188,7 +206,7 @@ class Slow:
         place = q - self.lv[L.AT_RINGS : L.AT_RINGS + L.N]
         # where the rings' linear motion takes the balls, by families
         led = [one.follow @ one.of(place) + one.lead @ one.of(v) for one in self.families]
-        away = np.zeros((2, 2), dtype=complex)
+        away = np.zeros((2, L.AWAYS), dtype=complex)
         for j in range(self.balls):
             now = orbit * t + 2 * np.pi * j / self.balls
             across, rates = (now - speed * t, now - q[8]), (orbit - speed, orbit)
@@ -203,7 +221,9 @@ class Slow:
             self.places[j] = 1e-6 * found.x
             pushes = self.both(self.places[j], *state)
             moved = self.places[j] - self.lv[L.AT_BALL : L.AT_BALL + 2]
-            moved = self.counted(moved - (led[0] + led[1] * np.exp(1j * theta)).real, pushes)
+            linear = (led[0] + led[1] * np.exp(1j * theta)).real
+            pressed = self.pressed(linear, theta, place + self.tau * v, pushes)
+            moved = self.counted(np.append(moved - linear, pressed), pushes)
             away[0] += moved / self.balls
             away[1] += 2.0 * np.exp(-1j * theta) * moved / self.balls
             for first, tilt, (force, moment) in zip((0, 5), (3, 9), pushes, strict=True):

@@ -26,16 +26,25 @@ DRIVES = 7
 # What they add in a step: by the first two at its end, at its begin, then by the last at the end and before.
 GAIN_PLACE, GAIN_SLOPE, GAIN_FROM_PLACE, GAIN_FROM_SLOPE, GAIN_AWAY = (k * BOTH for k in range(5))
 GAINS = 4 + HISTORY
+# How far balls at rest are from linear ones: places x, r; by how much their contacts with inner and outer race
+# press more (m, load over stiffness), which friction follows.
+AWAYS = 4
+_press = Places()
+_press(2)  # of a contact of ball 0 at angle 0: direction x, r into the race,
+PRESS_LEVER = _press()  # m: of its ring's tilt,
+PRESS_SOFT = _press()  # m/N: one over its stiffness,
+PRESS_LOAD = _press()  # N: load
+PRESS_SIZE = 2 * FOUR
 _family = Places()
 VALUE = _family(COMPLEX)  # 1/s: of the modes
 IN_PLACE = _family(FAMILY_RINGS * COMPLEX)  # how the rings' displacements drive them,
 IN_RATE = _family(FAMILY_RINGS * COMPLEX)  # velocities,
 IN_WHOLE = _family(FAMILY_RINGS * COMPLEX)  # the first plus the mode's rate times the second,
-IN_AWAY = _family(2 * COMPLEX)  # and how far balls' places of rest x, r are from those of linear balls
+IN_AWAY = _family(AWAYS * COMPLEX)  # and how far balls at rest are from linear ones: see AWAYS
 OUT = _family(FAMILY_RINGS * COMPLEX)  # accelerations of the rings by the modes
 SHAPE = _family(INTERNAL * COMPLEX)  # states of balls and cage by the modes
 FOLLOW = _family(4 * FAMILY_RINGS * 2)  # complex: x, r at rest by the rings' places, then by velocities
-PUSH = _family(2 * FAMILY_RINGS * 2)  # complex, 1/s2: accelerations of the rings by the balls' places x, r
+PUSH = _family(2 * FAMILY_RINGS * AWAYS)  # complex, 1/s2: accelerations of the rings by the same
 FAMILY_SIZE = _family.next
 
 MOST_LINES = 384  # of fidelity response: a 7003C has 138 at 10,000 r/min; the last 100 weigh 4e-4 below 3,000
@@ -109,6 +118,7 @@ SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them acr
 # beside the held point: see condensed/contact_forces
 REACH = _at(VECTOR)  # 1/m2: quadratic form xx, xr, rr of a ball's place that is one far from there
 LOADED = _at()  # N2: product of its loads on both races there
+PRESS = _at(2 * PRESS_SIZE)  # its contacts there
 OPERATOR_BEGIN = _at.next
 HELD_PLACE = _at(MATRIX)  # 1/s2: JX at the held point,
 HELD_RATE = _at(MATRIX)  # 1/s: and JV

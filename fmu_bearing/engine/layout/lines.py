@@ -5,11 +5,11 @@ then: forces of one ball on the rings, sampled round the orbit, and their circum
 vector is ``COMPONENTS`` real parts, then as many imaginary parts.
 """
 
-from fmu_bearing.engine.layout.condensed import FORCES, PATTERNS, N as RINGS
+from fmu_bearing.engine.layout.condensed import AWAYS, FORCES, PATTERNS, N as RINGS
 from fmu_bearing.engine.layout.sizes import BALL_ORDERS, FOUR, STRIDE, Places
 
-AWAY = FORCES  # components of the balls' forces, then m: x, r of their places of rest in each pattern
-PLACES = AWAY + 2 * PATTERNS
+AWAY = FORCES  # components of the balls' forces, then m: how they rest in each pattern, see L.AWAYS
+PLACES = AWAY + AWAYS * PATTERNS
 COMPONENTS = PLACES + 2  # and their places x, r between the races (m)
 REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most

@@ -44,8 +44,8 @@ OUTER = _at(STRIDE)
 STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
-# behind the forces, as the components of a line have it: m, places x, r away from the held ones, by patterns
-AWAY = _at(2 * _L.PATTERNS * STRIDE)
+# behind the forces, as the components of a line have it: m, see L.AWAYS, away from the held point, by patterns
+AWAY = _at(_L.AWAYS * _L.PATTERNS * STRIDE)
 ASIDE = _at(STRIDE)  # m: the balls' places of rest across their tracks
 HELD = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes
 LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
@@ -76,10 +76,8 @@ FAMILY_PLACES = 2 * _L.FAMILY_RINGS  # numbers of a family: complex coordinates
 PLACES = _at(2 * FAMILY_PLACES)  # the same by families: of family 0, then of family 1
 RATES = _at(2 * FAMILY_PLACES)  # m/s, rad/s: and their velocities
 ADDED = _at(_L.COLUMN)  # m/s2, rad/s2: accelerations beside those with balls at rest
-FAMILY_AWAY = 4  # numbers of a family: complex x, r
-AWAY_NOW = _at(
-    2 * FAMILY_AWAY
-)  # m: how far balls' places of rest x, r are from where these would take them: see patterns
+FAMILY_AWAY = 2 * _L.AWAYS  # numbers of a family, complex
+AWAY_NOW = _at(2 * FAMILY_AWAY)  # m: how far balls at rest are from where these would take them: see L.AWAYS
 TRIAL_END = _at.next
 
 # what differences by the height of a race need of a contact: see condensed/contact_forces
@@ -110,8 +108,8 @@ INVERSE_RE = _at(2 * _INNER)  # rows of the modes and of a unit matrix, which be
 INVERSE_IM = _at(2 * _INNER)
 PER_RING = 4  # numbers: complex, by place and by velocity
 BY_RINGS = _at(PER_RING * _L.INTERNAL * _L.FAMILY_RINGS)  # rates by the rings' places and velocities
-HOLDS = _at(2 * _J.BALL)  # 1/s2: a ball's accelerations towards its place of rest x, r, by contacts
-PUSHED = 8 * _L.FAMILY_RINGS  # numbers of
+HOLDS = _at(_L.AWAYS * _J.BALL)  # 1/s2: a ball's accelerations by its place of rest, by contacts: see L.AWAYS
+PUSHED = 2 * 2 * _L.AWAYS * _L.FAMILY_RINGS  # numbers of
 PUSHES = _at(PUSHED)  # 1/s2: accelerations of the rings by them
 PRESSED = _at(2 * PRESSED_SIZE)  # of each race
 HEIGHTENED = _at(_J.BALL)  # a ball's accelerations by the height of a race

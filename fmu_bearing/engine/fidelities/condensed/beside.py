@@ -118,27 +118,27 @@ def beside_places(p, lv, w, re, im):
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
         per = planes(family) / p[P.BALLS]
-        for k in range(2):
+        for k in range(L.AWAYS):
             row = f + L.IN_AWAY + k * L.COMPLEX
             for whirl in range(2):
-                driven = T.DRIVEN + (2 * whirl + k) * L.COMPLEX
+                driven = T.DRIVEN + (L.AWAYS * whirl + k) * L.COMPLEX
                 drive_modes(lv, family, whirl, row, row, 0.0, 0.0, w, driven)
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
-            for k in range(2):
+            for k in range(L.AWAYS):
                 fr, fi = by_modes(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
-                br, bi = by_modes(lv, family, out, T.DRIVEN + (2 + k) * L.COMPLEX, w)
-                push = f + L.PUSH + 2 * (2 * a + k)
+                br, bi = by_modes(lv, family, out, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX, w)
+                push = f + L.PUSH + 2 * (L.AWAYS * a + k)
                 # contacts with balls at rest have pushed already
                 fr, fi, br, bi = fr - lv[push], fi - lv[push + 1], br - lv[push], bi - lv[push + 1]
                 own_re, own_im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
-                first = T.LINE_FORCE + LN.AWAY + 2 * family + k
+                first = T.LINE_FORCE + LN.AWAY + L.AWAYS * family + k
                 xr, xi = per * w[first], per * w[first + LN.IMAGINARY]
                 i = T.LINE_SIDE + member(family, 0, a)
                 re[i] += own_re * xr - own_im * xi
                 im[i] += own_re * xi + own_im * xr
                 if family == 1:
-                    yr, yi = per * w[first + 2], per * w[first + 2 + LN.IMAGINARY]
+                    yr, yi = per * w[first + L.AWAYS], per * w[first + L.AWAYS + LN.IMAGINARY]
                     re[i] -= turned_re * yi + turned_im * yr
                     im[i] += turned_re * yr - turned_im * yi
                     i = T.LINE_SIDE + member(1, 1, a)

@@ -21,7 +21,7 @@ def find_holds(p, orbit, w):
     """Put what contacts do to ball 0 per place x, r to ``T.HOLDS`` (1/s2), with its orbit's pull."""
     mass = p[P.BALL_MASS]
     xx, xr, rr = 0.0, 0.0, -mass * orbit * orbit
-    for i in range(2 * J.BALL):
+    for i in range(L.AWAYS * J.BALL):
         w[T.HOLDS + i] = 0.0
     for at in (T.CONTACT, T.CONTACT_OUTER):
         along, across = w[at + T.STIFF], w[at + T.ACROSS]
@@ -31,8 +31,8 @@ def find_holds(p, orbit, w):
         rr += along * er * er + across * mr * mr
     w[T.HOLDS] = xx / mass
     w[T.HOLDS + 1] = xr / mass
-    w[T.HOLDS + 2] = xr / mass
-    w[T.HOLDS + 1 + 2] = rr / mass
+    w[T.HOLDS + L.AWAYS] = xr / mass
+    w[T.HOLDS + 1 + L.AWAYS] = rr / mass
 
 
 @kernel
@@ -68,13 +68,13 @@ def find_pushes(p, lv, speed, w):
         pair = lv[L.PAIR_INNER + ring] * speed * speed
         for k in range(2):
             fx, fy, fz, my, mz = pushed_by(w, at, pair, k)
-            to = T.PUSHES + 2 * (2 * ring + k)
+            to = T.PUSHES + 2 * (L.AWAYS * ring + k)
             w[to] = acting(p, 0) * fx / inertia(p, member(0, 0, ring))
-            to = T.PUSHES + T.PUSHED // 2 + 2 * (2 * 2 * ring + k)
+            to = T.PUSHES + T.PUSHED // 2 + 2 * (L.AWAYS * 2 * ring + k)
             per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring))
             w[to] = per * fz
             w[to + 1] = per * fy
-            to += 2 * 2
+            to += 2 * L.AWAYS
             per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring + 1))
             w[to] = per * my
             w[to + 1] = -per * mz
@@ -100,34 +100,39 @@ def note_contacts(p, lv, w):
         w[to + T.TOUCHED_R] = w[at + T.QR] + half * er
         w[to + T.TOUCHED_T] = w[at + T.QT]
         w[to + T.ORBIT] = p[P.PITCH_RADIUS] + w[T.R]
+        to = L.PRESS + race * L.PRESS_SIZE
+        lv[to], lv[to + 1] = ex, er
+        lv[to + L.PRESS_LEVER] = ex * w[at + T.QR] - er * w[at + T.QX]
+        lv[to + L.PRESS_SOFT] = 1.0 / w[at + T.STIFF] if w[at + T.STIFF] > 0.0 else 0.0
+        lv[to + L.PRESS_LOAD] = w[at + T.LOAD]
         reach += 1.5 * w[at + T.LOAD] / w[at + T.STIFF] if w[at + T.STIFF] > 0.0 else 0.0
         stiff += w[at + T.STIFF] / p[P.BALL_MASS]
     per = 1.0 / (_FAR * _FAR * stiff * reach * reach + 1e-300)
     wide = 1.0 / (_WIDE * _WIDE * reach * reach + 1e-300)
     lv[L.REACH] = per * abs(w[T.HOLDS]) + wide
     lv[L.REACH + 1] = per * w[T.HOLDS + 1]
-    lv[L.REACH + 2] = per * abs(w[T.HOLDS + 1 + 2]) + wide
+    lv[L.REACH + 2] = per * abs(w[T.HOLDS + 1 + L.AWAYS]) + wide
     lv[L.LOADED] = w[T.CONTACT + T.LOAD] * w[T.CONTACT_OUTER + T.LOAD]
 
 
 @kernel
-def press_rings(p, race, k, push, w):
+def press_rings(p, race, k, towards, push, w):
     """Add what friction that comes with load does to a ring as ball 0 moves along ``k`` (x, r) to `T.PUSHES`.
 
-    ``push``: forces x, r, theta (N/m) on the ball per height of the race.
+    ``towards``: by how much that presses the contact; ``push``: forces x, r, theta (N/m) on the ball per
+    height of the race.
     """
     at = T.PRESSED + race * T.PRESSED_SIZE
-    towards = w[at + T.TOWARDS + k]
     fx, fr, ft = -push[0] * towards, -push[1] * towards, -push[2] * towards
     qx, qr, qt = w[at + T.TOUCHED_X], w[at + T.TOUCHED_R], w[at + T.TOUCHED_T]
     gr, gt = qt * fx - qx * ft, qx * fr - qr * fx
-    to = T.PUSHES + 2 * (2 * race + k)
+    to = T.PUSHES + 2 * (L.AWAYS * race + k)
     w[to] += acting(p, 0) * fx / inertia(p, member(0, 0, race))
-    to = T.PUSHES + T.PUSHED // 2 + 2 * (2 * 2 * race + k)
+    to = T.PUSHES + T.PUSHED // 2 + 2 * (L.AWAYS * 2 * race + k)
     per = acting(p, 1) / inertia(p, member(1, 0, 2 * race))
     w[to] += per * fr
     w[to + 1] -= per * ft
-    to += 2 * 2
+    to += 2 * L.AWAYS
     per = acting(p, 1) / inertia(p, member(1, 0, 2 * race + 1))
     w[to] -= per * gt
     w[to + 1] -= per * gr
@@ -165,5 +170,9 @@ def find_presses(p, c, y, speed, w):
         )
         for k in range(2):
             for i in range(J.BALL):
-                w[T.HOLDS + 2 * i + k] -= w[at + T.TOWARDS + k] * w[T.HEIGHTENED + i]
-            press_rings(p, race, k, push, w)
+                w[T.HOLDS + L.AWAYS * i + k] -= w[at + T.TOWARDS + k] * w[T.HEIGHTENED + i]
+            press_rings(p, race, k, w[at + T.TOWARDS + k], push, w)
+        for i in range(J.BALL):
+            w[T.HOLDS + L.AWAYS * i + 2 + race] = w[T.HEIGHTENED + i]
+        # a contact that presses more pushes its ring more: what goes out of the rings is taken with other sign
+        press_rings(p, race, 2 + race, -1.0, push, w)

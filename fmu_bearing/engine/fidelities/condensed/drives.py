@@ -80,6 +80,26 @@ def linear_place(lv, family, k, w):
 
 
 @kernel
+def linear_press(lv, race, tau, x0, r0, xr, xi, rr, ri, w):
+    """Return by how much the rings' linear motion presses a contact (m): uniform, then complex of family 1.
+
+    ``x0`` .. ``ri``: the linear places x, r of a ball, of family 0, then of family 1; ``tau`` (s): of contact
+    damping.
+    """
+    at = L.PRESS + race * L.PRESS_SIZE
+    ex, er, lever = lv[at], lv[at + 1], lv[at + L.PRESS_LEVER]
+    still = ex * (w[T.PLACES + 2 * race] + tau * w[T.RATES + 2 * race])
+    one = T.FAMILY_PLACES + 2 * 2 * race
+    re, im = ex * xr + er * rr, ex * xi + er * ri
+    re -= er * (w[T.PLACES + one] + tau * w[T.RATES + one])
+    im -= er * (w[T.PLACES + one + 1] + tau * w[T.RATES + one + 1])
+    one += 2
+    re -= lever * (w[T.PLACES + one] + tau * w[T.RATES + one])
+    im -= lever * (w[T.PLACES + one + 1] + tau * w[T.RATES + one + 1])
+    return ex * x0 + er * r0 - still, re, im
+
+
+@kernel
 def moved_load(w, at, j):
     """Return loads (N) of four contacts, rows from ``at`` on, with the balls where the sweep put them.
 
@@ -94,7 +114,8 @@ def moved_load(w, at, j):
 def find_away(p, lv, w):
     """Put how far the balls' places of rest are from where the rings' motion would take them to `T.AWAY_NOW`.
 
-    Complex x, r of family 0, then of family 1. After a sweep, with the rings at the trial state. Balls that
+    Of family 0, then of family 1: complex x, r, then how far both contacts press, see ``L.AWAYS``. After a
+    sweep, with the rings at the trial state. Balls that
     are farther away than contacts approach fade out, as loose ones and light ones do: nothing there is
     linear, and what one ball does would change with forces that nobody feels.
     """
@@ -102,11 +123,18 @@ def find_away(p, lv, w):
     r0, _ = linear_place(lv, 0, 1, w)
     xr, xi = linear_place(lv, 1, 0, w)
     rr, ri = linear_place(lv, 1, 1, w)
+    tau = p[P.CONTACT_DAMPING]
+    i0, ir, ii = linear_press(lv, 0, tau, x0, r0, xr, xi, rr, ri, w)
+    o0, outr, outi = linear_press(lv, 1, tau, x0, r0, xr, xi, rr, ri, w)
     x0 += lv[L.AT_BALL]
     r0 += lv[L.AT_BALL + 1]
+    per_i, per_o = lv[L.PRESS + L.PRESS_SOFT], lv[L.PRESS + L.PRESS_SIZE + L.PRESS_SOFT]
+    i0 += per_i * lv[L.PRESS + L.PRESS_LOAD]
+    o0 += per_o * lv[L.PRESS + L.PRESS_SIZE + L.PRESS_LOAD]
     per = 1.0 / lv[L.LOADED]
     xx, xr2, rr2 = lv[L.REACH], 2.0 * lv[L.REACH + 1], lv[L.REACH + 2]
     ux, ur, cx, cr, sx, sr = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    ui, uo, ci, cout, si_, sout = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for j in range(0, int(p[P.LANES]), FOUR):
         co, si = load(w, T.COS + j), load(w, T.SIN + j)
         x = load(w, T.X + j) - x0 - (xr * co - xi * si)
@@ -121,12 +149,22 @@ def find_away(p, lv, w):
         ux, ur = ux + x, ur + r
         cx, cr = cx + co * x, cr + co * r
         sx, sr = sx - si * x, sr - si * r
+        x = held * (per_i * inner - i0 - (ir * co - ii * si))
+        r = held * (per_o * outer - o0 - (outr * co - outi * si))
+        ui, uo = ui + x, uo + r
+        ci, cout = ci + co * x, cout + co * r
+        si_, sout = si_ - si * x, sout - si * r
     per = 1.0 / p[P.BALLS]
     put_pair(w, T.AWAY_NOW, 0, per * sum_four(ux), 0.0)
     put_pair(w, T.AWAY_NOW, 1, per * sum_four(ur), 0.0)
+    put_pair(w, T.AWAY_NOW, 2, per * sum_four(ui), 0.0)
+    put_pair(w, T.AWAY_NOW, 3, per * sum_four(uo), 0.0)
     per *= 2.0
-    put_pair(w, T.AWAY_NOW, 2, per * sum_four(cx), per * sum_four(sx))
-    put_pair(w, T.AWAY_NOW, 3, per * sum_four(cr), per * sum_four(sr))
+    one = T.AWAY_NOW + T.FAMILY_AWAY
+    put_pair(w, one, 0, per * sum_four(cx), per * sum_four(sx))
+    put_pair(w, one, 1, per * sum_four(cr), per * sum_four(sr))
+    put_pair(w, one, 2, per * sum_four(ci), per * sum_four(si_))
+    put_pair(w, one, 3, per * sum_four(cout), per * sum_four(sout))
 
 
 @kernel
@@ -158,7 +196,7 @@ def find_drive(lv, w):
             keep_drive(w, into + L.BY_SLOPE * L.BOTH + m, sr, si)
             keep_drive(w, into + L.BY_RATE * L.BOTH + m, rr, ri)
             re, im = splat(0.0), splat(0.0)
-            for k in range(2):
+            for k in range(L.AWAYS):
                 at = T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k
                 re, im = add_input(lv, f + L.IN_AWAY + k * L.COMPLEX, w[at], w[at + 1], m, re, im)
             keep_drive(w, into + L.BY_AWAY * L.BOTH + m, re, im)

@@ -255,11 +255,11 @@ def keep_modes(p, lv, jac, family, n, w):
             put(lv, f + L.IN_RATE + b * L.COMPLEX, into, sums_vr, sums_vi)
             sums_pr, sums_pi = sums_pr + vr * sums_vr - vi * sums_vi, sums_pi + vr * sums_vi + vi * sums_vr
             put(lv, f + L.IN_WHOLE + b * L.COMPLEX, into, sums_pr, sums_pi)
-        for k in range(2):
+        for k in range(L.AWAYS):
             sums_pr, sums_pi = 0.0, 0.0
             for i in range(J.BALL):
                 # contacts push a ball towards its place of rest
-                stiff = w[T.HOLDS + 2 * i + k]
+                stiff = w[T.HOLDS + L.AWAYS * i + k]
                 scale = own_scale(p, J.PLACED + i)
                 sums_pr += w[T.INVERSE_RE + m * width + n + J.PLACED + i] / scale * stiff
                 sums_pi += w[T.INVERSE_IM + m * width + n + J.PLACED + i] / scale * stiff

@@ -151,8 +151,8 @@ def push_rings(lv, x, z, w):
                 re += ar * br - ai * bi
                 im += ar * bi + ai * br
             pr, pi = sum_four(re), sum_four(im)
-            for k in range(2):
-                at = f + L.PUSH + 2 * (2 * a + k)
+            for k in range(L.AWAYS):
+                at = f + L.PUSH + 2 * (L.AWAYS * a + k)
                 away = T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k
                 pr -= lv[at] * w[away] - lv[at + 1] * w[away + 1]
                 pi -= lv[at] * w[away + 1] + lv[at + 1] * w[away]

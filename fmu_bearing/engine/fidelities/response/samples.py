@@ -6,6 +6,7 @@ height under it and slope across its track. See `lines` for what they are for.
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
+from fmu_bearing.engine.fidelities.condensed.drives import moved_load
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, T, W, Y
@@ -74,15 +75,15 @@ def sample_orbit(p, c, lv, speed, x, w):
 
 @kernel
 def store_patterns(at, places, co, si, w):
-    """Write four balls' places, and times cosine and minus sine of their angles, into every second row."""
+    """Write four balls' numbers, and times cosine and minus sine of their angles, a pattern apart."""
     store(w, at, places)
-    store(w, at + 2 * STRIDE, co * places)
-    store(w, at + 2 * 2 * STRIDE, -1.0 * (si * places))
+    store(w, at + L.AWAYS * STRIDE, co * places)
+    store(w, at + 2 * L.AWAYS * STRIDE, -1.0 * (si * places))
 
 
 @kernel
 def show_away(lv, lanes, w):
-    """Put how far balls between races rest from the held place, by patterns, to ``T.AWAY``."""
+    """Put how far balls between races rest from the held point, by patterns, to ``T.AWAY``: see ``L.AWAYS``."""
     for j in range(0, lanes, FOUR):
         held = load(w, T.HELD + j)
         x = held * (load(w, T.X + j) - lv[L.AT_BALL])
@@ -90,6 +91,10 @@ def show_away(lv, lanes, w):
         co, si = load(w, T.COS + j), load(w, T.SIN + j)
         store_patterns(T.AWAY + j, x, co, si, w)
         store_patterns(T.AWAY + STRIDE + j, r, co, si, w)
+        for race in range(2):
+            at, row = L.PRESS + race * L.PRESS_SIZE, T.CONTACT if race == 0 else T.CONTACT_OUTER
+            pressed = lv[at + L.PRESS_SOFT] * (moved_load(w, row, j) - lv[at + L.PRESS_LOAD])
+            store_patterns(T.AWAY + (2 + race) * STRIDE + j, held * pressed, co, si, w)
 
 
 @kernel

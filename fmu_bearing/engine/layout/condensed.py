@@ -26,14 +26,15 @@ DRIVES = 7
 # What they add in a step: by the first two at its end, at its begin, then by the last at the end and before.
 GAIN_PLACE, GAIN_SLOPE, GAIN_FROM_PLACE, GAIN_FROM_SLOPE, GAIN_AWAY = (k * BOTH for k in range(5))
 GAINS = 4 + HISTORY
-# How far balls at rest are from linear ones: places x, r; by how much their contacts with inner and outer race
-# press more (m, load over stiffness), which friction follows.
+# How far balls at rest are from linear ones: places x, r; by how much their contacts with inner and outer
+# race press more (m, load over stiffness), which friction follows.
 AWAYS = 4
 _press = Places()
 _press(2)  # of a contact of ball 0 at angle 0: direction x, r into the race,
 PRESS_LEVER = _press()  # m: of its ring's tilt,
 PRESS_SOFT = _press()  # m/N: one over its stiffness,
 PRESS_LOAD = _press()  # N: load
+PRESS_WHOLE = _press()  # of the first: one over how far the ball counts as held between both races
 PRESS_SIZE = 2 * FOUR
 _family = Places()
 VALUE = _family(COMPLEX)  # 1/s: of the modes

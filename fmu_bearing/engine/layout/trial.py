@@ -44,7 +44,7 @@ OUTER = _at(STRIDE)
 STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
-# behind the forces, as the components of a line have it: m, see L.AWAYS, away from the held point, by patterns
+# behind the forces, as the components of a line have it: m, away from the held point, by patterns: L.AWAYS
 AWAY = _at(_L.AWAYS * _L.PATTERNS * STRIDE)
 ASIDE = _at(STRIDE)  # m: the balls' places of rest across their tracks
 HELD = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes

@@ -15,9 +15,9 @@ _LIGHT = 1e-4
 
 
 @kernel
-def share_held(p, w):
-    """Return the share of the balls that both races hold; loose ones rest where they are."""
-    return sum_lanes(w, T.HELD, int(p[P.LANES])) / p[P.BALLS]
+def share_held(p, lv, w):
+    """Return the share of the balls that both races hold as at the held point; others rest where they are."""
+    return min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * sum_lanes(w, T.HELD, int(p[P.LANES])) / p[P.BALLS])
 
 
 @kernel
@@ -115,9 +115,9 @@ def find_away(p, lv, w):
     """Put how far the balls' places of rest are from where the rings' motion would take them to `T.AWAY_NOW`.
 
     Of family 0, then of family 1: complex x, r, then how far both contacts press, see ``L.AWAYS``. After a
-    sweep, with the rings at the trial state. Balls that
-    are farther away than contacts approach fade out, as loose ones and light ones do: nothing there is
-    linear, and what one ball does would change with forces that nobody feels.
+    sweep, with the rings at the trial state. Balls that are farther away than contacts approach fade out, as
+    loose ones and light ones do: nothing there is linear, and what one ball does would change with forces
+    that nobody feels. Where all carry little, as much as they carry at the held point is no less than whole.
     """
     x0, _ = linear_place(lv, 0, 0, w)
     r0, _ = linear_place(lv, 0, 1, w)
@@ -132,6 +132,7 @@ def find_away(p, lv, w):
     i0 += per_i * lv[L.PRESS + L.PRESS_LOAD]
     o0 += per_o * lv[L.PRESS + L.PRESS_SIZE + L.PRESS_LOAD]
     per = 1.0 / lv[L.LOADED]
+    whole = lv[L.PRESS + L.PRESS_WHOLE]
     xx, xr2, rr2 = lv[L.REACH], 2.0 * lv[L.REACH + 1], lv[L.REACH + 2]
     ux, ur, cx, cr, sx, sr = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     ui, uo, ci, cout, si_, sout = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
@@ -143,7 +144,7 @@ def find_away(p, lv, w):
         inner, outer = moved_load(w, T.CONTACT, j), moved_load(w, T.CONTACT_OUTER, j)
         loaded = per * inner * outer
         loaded *= loaded
-        held = load(lv, L.MASK + j) * between(inner, outer) * loaded * loaded
+        held = load(lv, L.MASK + j) * min(1.0, whole * between(inner, outer)) * loaded * loaded
         held /= (loaded * loaded + _LIGHT) * (1.0 + far * far)
         x, r = held * x, held * r
         ux, ur = ux + x, ur + r

@@ -9,12 +9,12 @@ pattern of the balls (places x, r, angle; their rates; spins) and of the cage, f
 
 A, C and D are blocks of the Jacobian of `full`, in axes that do not turn: balls' rates are less n times their
 orbit's turning there. a_c are the accelerations with the balls at rest, with all their nonlinearity and
-waves; R are the derivatives of `full` less theirs. e is how far the balls' places of rest (x, r) are from
-those the rings' linear motion would give: what waves and nonlinear contacts do. K e accelerates the balls as
-their contacts would; D_e e takes out of a_c what x brings in again. Without waves and for small motions e is
-zero, and this is the linearised `full` itself, for any stiffness and at any frequency. K and D_e are of how
-contacts press, with the friction that follows their loads: a wave under a ball moves no surface along the
-track.
+waves; R are the derivatives of `full` less theirs. e is how far the balls' places of rest (x, r), and by how
+much both contacts press there, are from what the rings' linear motion would give: what waves and nonlinear
+contacts do. K e accelerates the balls as their contacts would, and as friction does that follows the loads of
+rest; D_e e takes out of a_c what x brings in again, and adds that friction. Without waves and for small
+motions e is zero, and this is the linearised `full` itself, for any stiffness and at any frequency. K and D_e
+are of how contacts press: a wave under a ball moves no surface along the track.
 
 Modes of A that grow while the rings are held are left out: the cage whirls in its lands, or friction that
 falls with sliding drives a ball. That motion is bounded by what is not linear.

@@ -235,7 +235,7 @@ def keep_patterns(p, lv, h, w):
         lv[L.ADDED + i] = w[T.ADDED + i]
     if not active(lv):
         return
-    lv[L.SHARE] += h / (h + _LATELY) * (share_held(p, w) - lv[L.SHARE])
+    lv[L.SHARE] += h / (h + _LATELY) * (share_held(p, lv, w) - lv[L.SHARE])
     away = L.MODES_DRIVEN + L.BY_AWAY * L.BOTH
     for family in range(2):
         first = family * L.COMPLEX
@@ -293,7 +293,7 @@ def carry_modes(p, lv, w):
                 row = k * L.BOTH + first + m
                 lv[L.MODES_DRIVEN + row] = w[T.MODES_DRIVEN + row]
                 lv[L.MODES_DRIVEN + row + L.MODES] = w[T.MODES_DRIVEN + row + L.MODES]
-    lv[L.SHARE] = share_held(p, w)
+    lv[L.SHARE] = share_held(p, lv, w)
     push_rings(lv, lv, L.MODES_NOW, w)
 
 

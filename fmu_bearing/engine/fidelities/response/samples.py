@@ -83,9 +83,9 @@ def store_patterns(at, places, co, si, w):
 
 @kernel
 def show_away(lv, lanes, w):
-    """Put how far balls between races rest from the held point, by patterns, to ``T.AWAY``: see ``L.AWAYS``."""
+    """Put how far balls between races rest from the held point, by patterns, to ``T.AWAY``: `L.AWAYS`."""
     for j in range(0, lanes, FOUR):
-        held = load(w, T.HELD + j)
+        held = min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * load(w, T.HELD + j))
         x = held * (load(w, T.X + j) - lv[L.AT_BALL])
         r = held * (load(w, T.R + j) - lv[L.AT_BALL + 1])
         co, si = load(w, T.COS + j), load(w, T.SIN + j)

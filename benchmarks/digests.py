@@ -3,8 +3,8 @@
 ``python -m benchmarks.digests > FILE`` before and after, on one machine, then ``diff``. Every gate scene and
 every scene of the examples runs for 5 ms in every fidelity and method that carries it, with a jump of speed
 and radial load on the way; a line holds the hashes of state, outputs, pressures, and outputs by their names,
-which stay equal where the places of the arrays change. Sound is compact: boundary elements take a minute. The last
-bits of a sound block depend on the threads of the linear algebra: `benchmarks` sets one.
+which stay equal where the places of the arrays change. Sound is compact: boundary elements take a minute. The
+last bits of a sound block depend on the threads of the linear algebra: `benchmarks` sets one.
 """
 
 import hashlib

@@ -170,17 +170,3 @@ def test_the_page_lists_the_commands(name):
     text = (DOCS / "cli.md").read_text("utf-8")
     (row,) = [line for line in text.splitlines() if line.startswith(f"| `{name} ")]
     assert set(re.findall(r"`([a-z -]+)`", row.split("|")[3])) == HAVE[name]
-
-
-@pytest.mark.parametrize(
-    ("command", "old", "new"),
-    [
-        ("stiffness", "--picture", "--plot"),
-        ("tradeoff", "--chart", "--plot"),
-        ("realtime", "--csv", "--output"),
-    ],
-)
-def test_an_old_spelling_names_the_new_one(run, rings_file, command, old, new):
-    refused = run(command, rings_file, old, "file.png")
-    assert refused.exit_code == 2 and refused.stderr == f"error: {old} is now {new}\n"
-    assert command in OPTIONS[new] and old not in OPTIONS

@@ -1,5 +1,6 @@
 """A bearing, or a set, as flat arrays, for loops that save and restore the state."""
 
+from collections.abc import Mapping
 from typing import Self
 
 import numpy as np
@@ -77,6 +78,18 @@ class Arrays:
             made.p[getattr(P, name)] = value
         made.u = input_values(scene)
         made._allocate()
+        return made
+
+    @classmethod
+    def started(cls, scene: Scene, inputs: Mapping[int, float], *sounds: NDArray[np.float64]) -> Self:
+        """Return the arrays of a scene, initialised at its inputs or at those given by their places in ``u``.
+
+        SI units; ``sounds`` as for `of`; ``Refused`` where there is no equilibrium.
+        """
+        made = cls.of(scene, *sounds)
+        for place, value in inputs.items():
+            made.u[place] = value
+        made.init()
         return made
 
     def init(self) -> None:

@@ -82,11 +82,7 @@ def beside_full(scene: Scene, model: str, inputs: Mapping[int, float] | None = N
 
 
 def _begun(scene: Scene, model: str, inputs: Mapping[int, float]) -> Arrays:
-    run = Arrays.of(with_fidelity(scene, model=model).model_copy(update={"sound": None}))
-    for place, value in inputs.items():
-        run.u[place] = value
-    run.init()
-    return run
+    return Arrays.started(with_fidelity(scene, model=model).model_copy(update={"sound": None}), inputs)
 
 
 def _followed(run: Arrays, count: int) -> tuple[tuple[float, ...], NDArray[np.float64]]:

@@ -36,11 +36,7 @@ def quick_operator(scene: Scene, inputs: dict[int, float] | None = None) -> NDAr
 def quick_run(scene: Scene, inputs: dict[int, float] | None = None) -> Arrays:
     """Return a quiet scene in fidelity `rings`, initialised at its inputs or those given as above."""
     quiet = with_fidelity(scene, model="rings").model_copy(update={"sound": None, "imperfections": None})
-    run = Arrays.of(quiet.with_rigid_rings())
-    for place, value in (inputs or {}).items():
-        run.u[place] = value
-    run.init()
-    return run
+    return Arrays.started(quiet.with_rigid_rings(), inputs or {})
 
 
 def found_growth(run: Arrays) -> tuple[float, float]:

@@ -293,7 +293,7 @@ def vibration(
     >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
     >>> found = vibration(scene, seeds=1, rigid=True)
     >>> [f"{band.name} {band.mean:.0f} um/s" for band in found.bands]
-    ['L 26 um/s', 'M 77 um/s', 'H 39 um/s']
+    ['L 26 um/s', 'M 77 um/s', 'H 40 um/s']
     """
     if isinstance(seeds, bool) or not isinstance(seeds, int) or not 1 <= seeds <= _MOST_SEEDS:
         raise ValueError(f"seeds = {seeds}: give a whole number from 1 to {_MOST_SEEDS}")

@@ -39,7 +39,6 @@ Data flow in one direction::
 ``validation``      checks of an FMU against FMI 2.0
 ``testing``         fixtures for pytest: FMUs against recorded references
 ``cli``             the command ``fmu-bearing``
-``papers``          what printed papers compute beside runs of a bearing, for the examples
 ==================  =========================================================================
 
 Axes: X bearing axis, Y horizontal, Z up. Positive speed is right-handed about +X; preload pushes the inner

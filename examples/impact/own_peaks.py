@@ -16,8 +16,8 @@ import typer
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
+from examples.papers.chance import chance
 from fmu_bearing import Scene, modes, read_scene, simulate
-from fmu_bearing.papers.chance import chance
 from fmu_bearing.results.table import machine, markdown, show, write_csv
 from fmu_bearing.scene import si
 

@@ -21,19 +21,19 @@ import numpy as np
 import typer
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.cli.base import refusals
-from fmu_bearing.extras import need
-from fmu_bearing.papers.impact.chain import (
+from examples.papers.impact.chain import (
     Collision,
     Sphere,
     collide,
     contact_time,
     hertz_stiffness,
 )
-from fmu_bearing.papers.impact.impact_sound import BAND, impact_pressure
-from fmu_bearing.papers.impact.scattering import SphereRow
-from fmu_bearing.papers.impact.sphere_field import sphere_pressure
+from examples.papers.impact.impact_sound import BAND, impact_pressure
+from examples.papers.impact.scattering import SphereRow
+from examples.papers.impact.sphere_field import sphere_pressure
+from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.cli.base import refusals
+from fmu_bearing.extras import need
 from fmu_bearing.results.picture_parts import empty
 from fmu_bearing.results.table import machine, markdown, show, write_csv
 

@@ -22,6 +22,9 @@
 ``circles``            circles of 24 points and the sound-field paper's statements on them
 ``sound_field``        the sound-field paper: full-ceramic 7009C and its steel twin, circles of 24 points
 ``impact_noise``       the impact-noise paper: dry 7003C held all round, springs for a cage
+``impact``             balls that hit each other on one line, and their sound
+``assembly``           modes of a whole bearing whose balls stick or slide: contact conditions C1 to C4
+``chance``             matches of peaks with natural frequencies, beside what chance gives
 =====================  ======================================================================================
 
 One dynamic run per operating point and seed serves all microphones and all radiation models but ``paper``.

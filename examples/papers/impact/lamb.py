@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from fmu_bearing.papers.impact import multipoles as waves
-from fmu_bearing.papers.impact.chain import Sphere
+from examples.papers.impact import multipoles as waves
+from examples.papers.impact.chain import Sphere
 
 Array = NDArray[np.float64]
 

@@ -10,18 +10,18 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import eval_legendre, spherical_jn, spherical_yn, zeta
 
-from fmu_bearing.acoustics.radiation import sources
-from fmu_bearing.papers.impact import lamb, multipoles
-from fmu_bearing.papers.impact.chain import (
+from examples.papers.impact import lamb, multipoles
+from examples.papers.impact.chain import (
     Collision,
     Sphere,
     collide,
     contact_time,
     hertz_stiffness,
 )
-from fmu_bearing.papers.impact.impact_sound import impact_pressure
-from fmu_bearing.papers.impact.scattering import SphereRow
-from fmu_bearing.papers.impact.sphere_field import sphere_pressure
+from examples.papers.impact.impact_sound import impact_pressure
+from examples.papers.impact.scattering import SphereRow
+from examples.papers.impact.sphere_field import sphere_pressure
+from fmu_bearing.acoustics.radiation import sources
 
 # What only the papers' pages use.
 pytestmark = pytest.mark.heavy

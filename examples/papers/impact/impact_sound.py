@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fmu_bearing.papers.impact.chain import Collision, Sphere
-from fmu_bearing.papers.impact.lamb import spheroidal_frequencies, surface_acceleration
-from fmu_bearing.papers.impact.scattering import SphereRow
+from examples.papers.impact.chain import Collision, Sphere
+from examples.papers.impact.lamb import spheroidal_frequencies, surface_acceleration
+from examples.papers.impact.scattering import SphereRow
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]

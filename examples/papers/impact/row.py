@@ -2,7 +2,7 @@
 
 The row is a solid of revolution about its line, so that motions part by their circumferential order: n = 0
 along the line and about it, n = 1 across it with turning, each of these twice. Balls of one material are
-tied by the springs of a patch of radius a as in `fmu_bearing.papers.assembly.patch`: 2 E* a along the line;
+tied by the springs of a patch of radius a as in `examples.papers.assembly.patch`: 2 E* a along the line;
 stuck ones also `TANGENTIAL` times as much across, on four points.
 """
 
@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from examples.papers.assembly.patch import SPREAD, TANGENTIAL, normal_stiffness
+from examples.papers.impact.chain import Sphere
+from examples.papers.impact.lamb import pole_modes
 from fmu_bearing.elastic.fourier import Elastic
-from fmu_bearing.papers.assembly.patch import SPREAD, TANGENTIAL, normal_stiffness
-from fmu_bearing.papers.impact.chain import Sphere
-from fmu_bearing.papers.impact.lamb import pole_modes
 
 Array = NDArray[np.float64]
 

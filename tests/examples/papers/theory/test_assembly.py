@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from examples.papers.assembly.basis import ring_basis, wall_limit
+from examples.papers.assembly.conditions import BONDED, bodies, contact_modes
+from examples.papers.assembly.patch import SPREAD, TANGENTIAL, normal_stiffness
 from fmu_bearing.elastic.modes import elastic
 from fmu_bearing.elastic.section import INNER, OUTER, ring_section
 from fmu_bearing.engine.layout import F, P, W, Y
 from fmu_bearing.engine.mechanics.springs import spring_forces
-from fmu_bearing.papers.assembly.basis import ring_basis, wall_limit
-from fmu_bearing.papers.assembly.conditions import BONDED, bodies, contact_modes
-from fmu_bearing.papers.assembly.patch import SPREAD, TANGENTIAL, normal_stiffness
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import read_scene, si
 from tests.conftest import GATES

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from fmu_bearing.papers.chance import at_least, best_of, chance
+from examples.papers.chance import at_least, best_of, chance
 
 LOW, HIGH = 5e3, 70e3
 MODES = [2.6e3, 4.95e3, 6.5e3, 6.6e3, 18.7e3, 23.4e3, 24.0e3, 30.5e3, 52.4e3, 71e3]

@@ -11,9 +11,9 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import spherical_jn
 
-from fmu_bearing.papers.impact.chain import Sphere, hertz_stiffness
-from fmu_bearing.papers.impact.lamb import pole_modes, surface_acceleration, wave_speeds
-from fmu_bearing.papers.impact.row import row_modes
+from examples.papers.impact.chain import Sphere, hertz_stiffness
+from examples.papers.impact.lamb import pole_modes, surface_acceleration, wave_speeds
+from examples.papers.impact.row import row_modes
 
 # What only the papers' pages use.
 pytestmark = pytest.mark.heavy

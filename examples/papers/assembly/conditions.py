@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from examples.papers.assembly.basis import RingBasis, ring_basis
+from examples.papers.assembly.patch import TANGENTIAL, normal_stiffness, points
 from fmu_bearing.elastic.modes import elastic
 from fmu_bearing.elastic.section import INNER, OUTER, RACES, ring_section
-from fmu_bearing.papers.assembly.basis import RingBasis, ring_basis
-from fmu_bearing.papers.assembly.patch import TANGENTIAL, normal_stiffness, points
 from fmu_bearing.scene import Scene, si
 
 Array = NDArray[np.float64]

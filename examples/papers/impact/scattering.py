@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import eval_legendre
 
+from examples.papers.impact import multipoles as waves
 from fmu_bearing.acoustics.radiation.radiators import Air
-from fmu_bearing.papers.impact import multipoles as waves
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]

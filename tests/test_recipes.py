@@ -23,7 +23,7 @@ import pytest
 from tests.pages import DOCS, ROOT
 
 PAGE = DOCS / "architecture.md"
-COPIED = ("fmu_bearing", "tests", "examples", "pyproject.toml")
+COPIED = ("fmu_bearing", "tests", "examples", "pyproject.toml", "docs/cli.md")
 #: Recipes that change kernels: a copy of the engine has to be compiled for them.
 COMPILED = ("Add a force", "Add an output", "Add an integrator")
 #: End of the copy's ``optimise.py``. Tests of recipes run milliseconds of a bearing.
@@ -133,6 +133,7 @@ def copy(tmp_path_factory):
             unfinished = shutil.ignore_patterns("*.pyc.*", "*.tmp.*")  # another worker may be writing them
             shutil.copytree(ROOT / name, made.folder / name, ignore=unfinished)
         else:
+            (made.folder / name).parent.mkdir(exist_ok=True)
             shutil.copy(ROOT / name, made.folder / name)
     for title, recipe in RECIPES.items():
         for step, block in recipe.steps:
@@ -144,7 +145,8 @@ def copy(tmp_path_factory):
 
 
 def test_every_recipe_has_steps_and_a_command():
-    assert {*COMPILED, "Add a bearing to the catalogue", "Add a radiation model"} == set(RECIPES)
+    others = {"bearing to the catalogue", "radiation model", "property of a material", "command"}
+    assert {*COMPILED, *(f"Add a {name}" for name in others)} == set(RECIPES)
     for recipe in RECIPES.values():
         assert recipe.steps
         assert [words[:3] for words in recipe.commands] == [[".venv/bin/python", "-m", "pytest"]]

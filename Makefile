@@ -7,7 +7,7 @@
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make tables  make the tables of docs/results again that another engine made, an hour of an idle machine
 # make papers  run the papers' cases and write docs/papers; a quarter of an hour, kept under out/papers
-# make measured  compare with what others measured; writes docs/measured.md, its figures and its table
+# make measured  compare with what others measured; writes docs/measured.md, its figures and its tables
 # make docs    build the documentation site into out/site; opens from the disk, works offline
 # make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
 # make wheel-check   look into these wheels, and use this machine's in a new environment without a compiler

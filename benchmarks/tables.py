@@ -51,6 +51,7 @@ COMMANDS: dict[tuple[str, ...], tuple[str, ...]] = {
     ("axial_mode",): ("examples/modes/axial_mode.py", "--output-dir", _HERE),
     ("contact_conditions",): ("examples/impact/contact_conditions.py", "--output-dir", _HERE),
     ("three_balls",): ("examples/impact/three_balls.py", "--output-dir", _HERE),
+    ("measured",): ("-m", "benchmarks.measured.run"),
     ("own_peaks",): ("examples/impact/own_peaks.py", "--output-dir", _HERE),
 }  # fmt: skip
 _ENGINE = re.compile(r"fmu-bearing (\S+), engine ([0-9a-f]{16})")

@@ -1,4 +1,4 @@
-"""The page `Measured by others` and its table of all values."""
+"""The page `Measured by others`, the page of its tables and the table of all values."""
 
 import math
 import textwrap
@@ -48,13 +48,27 @@ def all_rows(found: Mapping[str, list[Compared]]) -> Iterator[list[str]]:
 def page(found: Mapping[str, list[Compared]]) -> str:
     """Return the page."""
     said = findings(found)
-    order = list(dict.fromkeys(one.source for one in said))
+    sections = (_section(key, found[key]) for key in _order(said))
+    return _joined([_head(found, said), *sections, _folded(_TEXT["closing"])])
+
+
+def tables(found: Mapping[str, list[Compared]]) -> str:
+    """Return the page of the tables: provenance and values of each source, sensitivity, what moved."""
     parts = [
-        _head(found, said),
-        *(_section(key, found[key], [one for one in said if one.source == key]) for key in order),
+        f"# Measured by others: tables\n\n{machine()}\n\n{_folded(_TEXT['tables'])}",
+        *(_listed(key, found[key]) for key in _order(findings(found))),
         _sensitivity(),
         _moved(found),
     ]
+    return _joined(parts)
+
+
+def _order(said: Sequence[Finding]) -> list[str]:
+    """Return the sources in the order of the findings, misses first."""
+    return list(dict.fromkeys(one.source for one in said))
+
+
+def _joined(parts: Sequence[str]) -> str:
     return "\n\n".join(part.strip() for part in parts) + "\n"
 
 
@@ -66,7 +80,7 @@ def _head(found: Mapping[str, list[Compared]], said: Sequence[Finding]) -> str:
         for one in said
     ]  # fmt: skip
     numbers = {
-        "values": len(values()), "sources": len(sources()), "machine": machine(),
+        "values": len(values()), "sources": len(sources()),
         "computed": sum(not math.isnan(one.ours) for every in found.values() for one in every),
         "missed": sum(one.status == "missed" for one in said),
         "goals": sum(one.status != "beside" for one in said),
@@ -75,27 +89,24 @@ def _head(found: Mapping[str, list[Compared]], said: Sequence[Finding]) -> str:
     return f"# Measured by others\n\n{head}\n\n{markdown(_SAID, rows)}"
 
 
-def _section(key: str, rows: list[Compared], said: Sequence[Finding]) -> str:
+def _section(key: str, rows: list[Compared]) -> str:
+    """Return what a source says of the package, and its picture."""
+    title = TITLES[key]
+    each = f"[Values and provenance](results/measured.md#{_anchor(title)})."
+    file = f"images/measured/{key}.png"
+    picture = f"\n\n![{title}, ours beside theirs]({file})" if len(drawable(rows)) > 1 else ""
+    return f"## {title}\n\n{_folded(_TEXT['meaning'][key])}{picture}\n\n{each}"
+
+
+def _listed(key: str, rows: list[Compared]) -> str:
+    """Return the tables of a source."""
     source = sources()[key]
     about = [
         ["kind", source.kind], ["work", source.work], ["read in", f"`{source.repository}`"],
         ["given", source.given], ["assumed", source.assumed],
     ]  # fmt: skip
-    shown = drawable(rows)
-    picture = f"![{TITLES[key]}, ours beside theirs](images/measured/{key}.png)\n" if len(shown) > 1 else ""
-    lines = "\n".join(
-        _fold(f"* {one.what}: {one.found} ({one.status}; goal: {one.goal}).", "  ") for one in said
-    )
     table = _groups(key) if key in ("nsk", "tpi") else _each(rows)
-    return f"""## {TITLES[key]}
-
-{markdown(("provenance", ""), about)}
-{lines}
-
-{_folded(_TEXT["meaning"][key])}
-
-{picture}
-{table}{_parts(key)}"""
+    return f"## {TITLES[key]}\n\n{markdown(('provenance', ''), about)}\n{table}{_parts(key)}"
 
 
 def _parts(key: str) -> str:
@@ -208,10 +219,16 @@ def _moved(found: Mapping[str, list[Compared]]) -> str:
 
 
 def _folded(text: str) -> str:
-    """Return paragraphs with lines of one width; headings stay."""
-    return "\n\n".join(
-        one if one.startswith("#") else _fold(" ".join(one.split())) for one in text.strip().split("\n\n")
-    )
+    """Return paragraphs and lists with lines of one width; headings stay."""
+    return "\n\n".join(map(_block, text.strip().split("\n\n")))
+
+
+def _block(text: str) -> str:
+    if text.startswith("#"):
+        return text
+    if text.startswith("* "):
+        return "\n".join(_fold(f"* {item}", "  ") for item in text[2:].split("\n* "))
+    return _fold(text)
 
 
 def _fold(text: str, indent: str = "") -> str:

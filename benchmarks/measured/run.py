@@ -1,11 +1,11 @@
-"""Write the page, the table and the figures: ``python -m benchmarks.measured.run``, `make measured`."""
+"""Write the page, its tables and the figures: ``python -m benchmarks.measured.run``, `make measured`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from benchmarks.measured.compared import everything
-from benchmarks.measured.page import COLUMNS, all_rows, page
+from benchmarks.measured.page import COLUMNS, all_rows, page, tables
 from benchmarks.measured.pictures import draw, drawable
 from fmu_bearing.results.table import write_csv
 
@@ -23,6 +23,7 @@ def main() -> None:
     for key, rows in found.items():
         if len(drawable(rows)) > 1:
             draw(drawable(rows), folder / "images" / "measured" / f"{key}.png")
+    (folder / "results" / "measured.md").write_text(tables(found), encoding="utf-8")
     (folder / "measured.md").write_text(page(found), encoding="utf-8")
 
 

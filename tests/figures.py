@@ -355,18 +355,6 @@ def vibration():
             found = row("vibration", what=f"{piece} piece", **case)
             cells = [f"{found[f'{band} mean']} ({found[f'{band} std, %']})" for band in "LMH"]
             yield f"| {name}, {grade}{words}, {piece} | {found['seeds']} | {' | '.join(cells)} |"
-    usual, rigid = (
-        row("vibration", bearing="7003C", rings=rings, what="soft piece", **{"class": "P4"})
-        for rings in ("bend", "round")
-    )
-    low, high = ([rounded(one[f"{band} mean"]) for one in (usual, rigid)] for band in "LH")
-    bent, held = (f"{low[k]} and {high[k]}" for k in range(2))
-    yield f"read {bent} um/s in L and H where they bend, {held} um/s where they do not"
-    large = [
-        rounded(row("vibration", bearing="7009C", what=f"{piece} piece")["H mean"], 3)
-        for piece in ("soft", "firm")
-    ]
-    yield f"the 7009C reads {large[0]} um/s on the soft piece and {large[1]} um/s on the firm one"
     for source in ("inner race", "outer race", "ball sizes", "form of the balls"):
         case = {"bearing": "7003C", "class": "P4", "rings": "bend", "what": f"{source} alone"}
         cells = [row("vibration", **case)[f"{band} mean"] for band in "LMH"]

@@ -18,6 +18,7 @@ from examples.papers.values import FIT, Met, Value
 from fmu_bearing.results.table import markdown
 
 NAME = "impact-noise"
+STATEMENTS = f"{NAME}-statements"
 TITLE = "Impact-noise paper: dry 7003C, held all round, springs for a cage"
 SCENE = "7003C-impact"
 SPEEDS = (10000, 15000, 20000)
@@ -234,14 +235,15 @@ def page_of(runs: Runs, output: Output) -> str:
     assumed, of_assumed = _assumed(runs, answer.changes, stiff)
     _pictures(now[min(now)], output)
     _csv(now, springs, output)
+    statements = page.template(STATEMENTS).format(statements=page.statements_table(judged))
+    output.write(STATEMENTS, statements, output.results)
     one = next(iter(stiff))
     return page.template(NAME).format(
         title=TITLE, caution=page.caution(runs.radiation_model), radiation_model=runs.radiation_model,
         verdict=page.verdict_part(answer, met, lines, judged, _UNKNOWN, _missed(lines, of_assumed)),
         values=page.values_part(met, "dB(A)"),
         slope=page.slope_table(lines), identified=answer.words, timing=page.timing(one.settle, one.duration),
-        counts=counts(judged), statements=page.statements_table(judged), classes=classes_table(),
-        count=COUNT,
+        counts=counts(judged), classes=classes_table(), count=COUNT,
         quoted=_quoted_table(runs), start=_start_table(runs, answer.changes),
         assumed=assumed, above=_above_table(soft | {SPRINGS[-1]: stiff}),
     )  # fmt: skip

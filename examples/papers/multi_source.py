@@ -25,6 +25,7 @@ from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.results.table import markdown
 
 NAME = "multi-source"
+STATEMENTS = f"{NAME}-statements"
 TITLE = "Multi-source paper: 7003C in a spindle, 10,000 to 40,000 r/min"
 SCENE = "7003C-spindle"
 VALUES = values.read(NAME)
@@ -272,6 +273,8 @@ def page_of(runs: Runs, output: Output) -> str:
     _csv(now, exact, output)
     _lines_csv(whole, output)
     _write_motion(runs, output)
+    statements = page.template(STATEMENTS).format(seeds=len(whole), statements=page.statements_table(judged))
+    output.write(STATEMENTS, statements, output.results)
     any_case = next(iter(found))
     return page.template(NAME).format(
         timing=page.timing(any_case.settle, any_case.duration),
@@ -281,8 +284,7 @@ def page_of(runs: Runs, output: Output) -> str:
         identified=answer.words, values=page.values_part(met),
         form=_form(met, any_case.build().imperfections.ball_form_nm),
         slope=page.slope_table(lines), rotor_mode=_rotor_mode(), masses=_corner_table(masses),
-        counts=counts(judged), statements=page.statements_table(judged), classes=classes_table(),
-        seeds=len(whole), axis=_axis_table(runs, answer),
+        counts=counts(judged), classes=classes_table(), seeds=len(whole), axis=_axis_table(runs, answer),
         friction=_friction_table(rubbed, smooth), printed=printed.page_part(runs, output),
         levels=_level_table(whole), carriers=_carrier_table(found),
     )  # fmt: skip

@@ -284,7 +284,7 @@ class Output:
 
     @property
     def results(self) -> pathlib.Path:
-        """Folder of the CSV files."""
+        """Folder of the CSV files and of the pages of statements."""
         return self.root / "docs" / "results" / "papers"
 
     @property
@@ -305,9 +305,9 @@ class Output:
         """Write rows of one set of columns as a CSV file."""
         self.csv(name, list(rows[0]), [[str(cell) for cell in row.values()] for row in rows])
 
-    def write(self, name: str, text: str) -> pathlib.Path:
-        """Write one page."""
-        path = self.pages / f"{name}.md"
+    def write(self, name: str, text: str, folder: pathlib.Path | None = None) -> pathlib.Path:
+        """Write one page; default: beside the other pages."""
+        path = (folder or self.pages) / f"{name}.md"
         path.write_text(text.strip() + "\n", encoding="utf-8")
         return path
 

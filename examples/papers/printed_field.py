@@ -201,9 +201,8 @@ def _filled(text: str) -> str:
 def _single(found: dict[str, Any]) -> str:
     own = found["own"]
     return _filled(
-        f"""At {ALONE:,} r/min each correction is left out alone, for {found["turns"]:.0f} turns from the
-        corrected steady state. Growth is about that state, of 17 balls with all rows, so that tilts and
-        sideways motion are included. With all corrections {own["growth"]:.0f} 1/s at
+        f"""At {ALONE:,} r/min, for {found["turns"]:.0f} turns from the corrected steady state. Growth is
+        about that state, of 17 balls with all rows. With all corrections {own["growth"]:.0f} 1/s at
         {own["frequency"]:.0f} Hz remain; a cell is empty where no correction more than doubles it."""
     )
 
@@ -219,11 +218,9 @@ def _finding(found: dict[str, Any], load: float, angle: float, orbit: float) -> 
         in the rotation row of eq. 2 the sign of Q_cx is wrong, so that normal pocket forces do not turn the
         cage on average and its lands drive it alone. In row x of eq. 3 the loads push the inner ring the way
         it moves: once aside, it leaves by {side["growth"]:,.0f} 1/s. With both signs repaired balls gain
-        spin, as in the multi-source paper: one sign for both gyroscopic terms, and traction by eta V S / h
-        that holds nothing. With the traction repaired too, balls roll, and loads are up to {off:.1f} N off,
-        because the centrifugal force is missing. With all corrections the plain equations give the product's
-        motion: loads within {load:.2f} N, angles within {angle:.3f} deg, orbit within {orbit:.3f} %. Right
-        here and wrong there are the moments of T_xi and of the pockets and the tilt rows of the cage. The
-        outer ring is fixed and has no equation, so that it could not sound; in ours it is the loudest
-        part."""
+        spin, as in the multi-source paper. With the traction repaired too, balls roll, and loads are up to
+        {off:.1f} N off, because the centrifugal force is missing. With all corrections the plain equations
+        give the product's motion: loads within {load:.2f} N, angles within {angle:.3f} deg, orbit within
+        {orbit:.3f} %. The outer ring is fixed and has no equation, so that it could not sound; in ours it
+        is the loudest part."""
     )

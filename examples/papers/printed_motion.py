@@ -235,14 +235,13 @@ def _finding(found: dict[str, Any]) -> str:
     return _filled(
         f"""As printed no run lasts: {ended} after {lasted:.2f} ms at each speed (F = +K x). With that sign
         repaired, and the one of Q_cy in the rotation row of eq. 2, the equations run, but to no steady
-        state. Traction by eta V S / h is {traction:.0e} of the load at {sliding:.0f} m/s of sliding, too
-        little to hold a ball against the gyroscopic pair, which has the same sign twice: spin grows at
-        half the orbit speed (half, since the inertia counts twice), that is {per_turn:.1f} times in a
-        turn of the shaft. With the traction repaired too, balls roll as they should, but loads and angles
-        are equal at both races, because the centrifugal force is missing: they are up to {off_load:.1f} N
-        and {off_angle:.1f} deg off. With all corrections the plain equations give the product's motion:
-        loads within {load:.3f} N, angles within {angle:.4f} deg, orbit within {orbit:.4f} %. So the
-        differences are due to the corrections."""
+        state: traction by eta V S / h, {traction:.0e} of the load at {sliding:.0f} m/s of sliding, cannot
+        hold a ball against the gyroscopic pair, which has the same sign twice. Spin grows at half the
+        orbit speed (half, since the inertia counts twice), {per_turn:.1f} times in a turn of the shaft.
+        With the traction repaired too, balls roll, but loads and angles are equal at both races, because
+        the centrifugal force is missing: up to {off_load:.1f} N and {off_angle:.1f} deg off. With all
+        corrections the plain equations give the product's motion: loads within {load:.3f} N, angles
+        within {angle:.4f} deg, orbit within {orbit:.4f} %."""
     )
 
 
@@ -253,13 +252,10 @@ def _conditions(found: dict[str, Any]) -> tuple[str, str]:
         soon means nothing; the others are steady. Orbit and cage are over shaft speed, spin is seen from
         the orbit, its pitch is from the axis. The ring's velocity is the largest along the axis in the
         second half of the run. Forces that the paper leaves to its references, contact damping included,
-        are the product's in all rows. Balls are equal and the load is axial: one ball represents
-        twelve, and no ring can tilt."""
-    single = f"""At {rpm} each correction is left out alone, for {turns} from the corrected steady state.
-        Growth is about that state, of twelve balls with all rows, so that tilts are included. Traction that
-        carries a load holds the balls, and faults in their moments then hardly show; of the faults that
-        last, only the missing centrifugal force changes loads. Wrong signs of the pedestal, of the cage's
-        rotation and of the inner ring's moments let the bearing fall apart within a tenth of a turn."""
+        are the product's. One ball represents twelve, and no ring can tilt."""
+    single = f"""At {rpm}, for {turns} from the corrected steady state. Growth is about that state, of twelve
+        balls with all rows. Traction that carries a load holds the balls, and faults in their moments then
+        hardly show; of the faults that last, only the missing centrifugal force changes loads."""
     return _filled(runs), _filled(single)
 
 

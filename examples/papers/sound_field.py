@@ -36,6 +36,7 @@ from fmu_bearing.results.table import markdown
 from fmu_bearing.scene import read_scene
 
 NAME = "sound-field"
+STATEMENTS = f"{NAME}-statements"
 TITLE = "Sound-field paper: full-ceramic 7009C, circles of 24 points"
 SCENE = "7009C-spindle"
 SPEEDS = (3000, 6000, 9000, 12000, 15000, 18000)
@@ -191,15 +192,19 @@ def page_of(runs: Runs, output: Output) -> str:
     _write_printed(runs, output)
     if directive:
         draw_pictures(NAME, all_, alone, output)
+    statements = page.template(STATEMENTS).format(
+        statements=page.statements_table(judged),
+        angles=angles_sentence(all_.ceramic) if directive else NO_CIRCLE,
+        sizes=sizes_sentence(VALUES, all_.ceramic) if directive else NO_CIRCLE,
+    )
+    output.write(STATEMENTS, statements, output.results)
     one = next(iter(all_.ceramic))
     return page.template(NAME).format(
         title=TITLE, caution=page.caution(runs.radiation_model), radiation_model=runs.radiation_model,
         verdict=page.verdict_part(answer, met, lines, judged, _UNKNOWN), values=page.values_part(met),
         off=_off(all_, met) if directive and not runs.quick else "",
         slope=page.slope_table(lines), identified=answer.words, timing=page.timing(one.settle, one.duration),
-        counts=counts(judged), classes=classes_table(), statements=page.statements_table(judged),
-        angles=angles_sentence(all_.ceramic) if directive else NO_CIRCLE,
-        sizes=sizes_sentence(VALUES, all_.ceramic) if directive else NO_CIRCLE,
+        counts=counts(judged), classes=classes_table(),
         falls=falls_part(VALUES, all_.ceramic, alone.ceramic, contacts.ceramic),
         alone=_alone_part(met, others) if others else NOT_RUN,
         directions=_direction_table(runs, found) if not runs.quick else NOT_RUN,

@@ -50,6 +50,9 @@ def test_tiny_pages_are_whole(tiny):
         assert "nan" not in text
         for picture in re.findall(r"\]\(\.\./images/papers/([\w-]+\.png)\)", text):
             assert (root / "docs" / "images" / "papers" / picture).stat().st_size < 200_000
+    for name in PAGES:
+        statements = (root / "docs" / "results" / "papers" / f"{name}-statements.md").read_text("utf-8")
+        assert "| 1. " in statements and not re.search(r"\{\w*\}", statements)
     # radiation model compact shows no circle of the 7009C, and says so
     field = (root / "docs" / "papers" / "sound-field.md").read_text("utf-8")
     assert sound_field.NO_CIRCLE in field and "sound-field.png" not in field

@@ -1,4 +1,4 @@
-"""Shortfalls of `rings` and `response` that docs/limits.md states. ``python -m benchmarks.quick_limits``
+"""Shortfalls of `rings` and `response` that docs/fidelities states. ``python -m benchmarks.quick_limits``
 
 Each part measures one: values in `full`, and in both quick fidelities beside it. Rows are printed and written
 to quick_limits.csv of the folder; ``--what`` names parts, all by default.

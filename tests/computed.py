@@ -198,10 +198,18 @@ def limits():
     ]
     assert margins[0] > 0.0 > margins[1], margins
     yield "Beyond about 1 kN preload the 7003C's contact is stiffer here than in reality"
-    yield f"it is renewed at each {100.0 * uneven._MOVED:g} % of speed or load"
-    yield f"with a damping ratio below {weak.LEAST:g}, or below {weak.NARROW:g} with a line on it"
     yield f"pushes the outer ring by more than {place._FAR:g} of the pitch radius"
     yield from _whirls()
+
+
+def solution():
+    """When what uneven balls add is renewed."""
+    yield f"it is renewed at each {100.0 * uneven._MOVED:g} % of speed or load"
+
+
+def rings():
+    """Weak damping, skidding."""
+    yield f"with a damping ratio below {weak.LEAST:g}, or below {weak.NARROW:g} with a line on it"
     yield from _skidding()
 
 
@@ -352,8 +360,9 @@ def vibration():
 
 PAGES = {
     "coupling.md": coupling, "error-motion.md": error_motion_page,
-    "examples.md": examples, "gallery.md": gallery, "limits.md": limits,
-    "motor-spindle.md": motor_spindle, "spindle.md": spindle, "vibration.md": vibration,
+    "examples.md": examples, "fidelities/rings.md": rings, "gallery.md": gallery, "limits.md": limits,
+    "motor-spindle.md": motor_spindle, "solution.md": solution, "spindle.md": spindle,
+    "vibration.md": vibration,
 }  # fmt: skip
 
 

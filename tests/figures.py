@@ -6,7 +6,7 @@ Each function yields what its page has to say, made from today's tables. A page 
 
 import re
 
-from tests.figures_of_limits import limits
+from tests.figures_of_limits import band, full_limits, limits, response_limits, rings_limits
 from tests.figures_of_paper import paper
 from tests.figures_of_settled import settled
 from tests.tables import (
@@ -20,7 +20,6 @@ from tests.tables import (
     rounded,
     row,
     scene_line,
-    signed,
     table,
     usual,
 )
@@ -55,8 +54,9 @@ def _in_use(found):
     return min((found[key] for key in ("sim/CPU", "ramp", "warming", "ripple")), key=float)
 
 
-def _costs():
-    """What leaving something out saves, and what sound costs."""
+def full():
+    """What leaving something out saves, what sound costs, strips and damping; limits of full."""
+    yield from full_limits()
     full, rings, response = ("full, of the whole", "rings, of the whole", "response, of the whole")
 
     def of(name, fidelity=full):
@@ -69,30 +69,76 @@ def _costs():
     yield f"`max_internal_step_us = 100` it takes {of('the same, steps up to 100 us')} of the time"
     loud = [rounded(of("4 microphones", one)) for one in (full, rings, response)]
     yield f"make `full` {loud[0]} times, `rings` {loud[1]} times and `response` {loud[2]} times as long"
+    yield f"One strip instead of five loses {percent(_setting('1')['torque'])} of the torque"
+    damping = _setting(left_out="contact damping")
+    yield f"without contact damping this spindle is {rounded(damping['dB(A)'])} dB(A) louder"
 
 
 def choosing():
-    """Which fidelity, which band, what sound costs."""
+    """Which fidelity, what sound costs."""
     for name, found in _fidelities().items():
         yield f"| {name} | {_cells(found)} | {rounded(found['sim/CPU'])} | {rounded(_in_use(found))} |"
-    for scene, speeds in (
-        ("7003C-bare", "5,000 10,000 20,000"), ("7003C-spindle", "5,000 10,000 12,000 20,000 30,000"),
-        ("7009C-full-ceramic", "9,000 12,000 15,000"), ("7009C-steel", "6,000 9,000 12,000"),
-    ):  # fmt: skip
-        for rpm in speeds.split():
-            yield f"| {scene}, {rpm} | {_of_full(scene, rpm)} |"
+    yield from band()
+    yield from _sound()
+
+
+def rings():
+    """How far from full, radial load, a whirl."""
+    yield from rings_limits()
+    yield _speeds("`rings`")
+    yield from _near("rings")
     for load in ("300", "1000"):
         rings = scene_line("7003C-spindle", "20,000", "rings", load)
         yield (
             f"{load} N on the spindle at 20,000 r/min: inner ring {_ratio(rings, 'inner ring')}, outer ring "
             f"{_ratio(rings, 'outer ring')}, torque {rings['torque']}"
         )
-    yield from _costs()
     whirl = scene_line("7009C-full-ceramic", "18,000", "rings")
     yield f"{_ratio(whirl, 'inner ring')} on the inner ring (rings rigid)"
-    yield f"One strip instead of five loses {percent(_setting('1')['torque'])} of the torque"
-    damping = _setting(left_out="contact damping")
-    yield f"without contact damping this spindle is {rounded(damping['dB(A)'])} dB(A) louder"
+
+
+def response():
+    """How far from full, on gate scenes too."""
+    yield from response_limits()
+    yield _speeds("`response`")
+    yield from _near("response")
+    gates = [
+        float(one["outer ring"])
+        for one in table("scenes")
+        if one["scene"] == "gate 7003C-bare" and one["fidelity"] == "response"
+    ]
+    yield f"the outer ring of bare bearings has down to {min(gates):.2f}"
+
+
+def _speeds(fidelity):
+    """Speed beside that of full, settled and in use."""
+    full_one, found = (_fidelities()[key] for key in ("`full`, `esdirk4`, 25 us, 2e-3", fidelity))
+    return (
+        f"{rounded(found['sim/CPU'])} simulated seconds per second of a processor where `full` has "
+        f"{rounded(full_one['sim/CPU'])}, {rounded(_in_use(found))} where inputs move"
+    )
+
+
+def _near(fidelity):
+    """Ranges over the example scenes without radial load, where no ring whirls by itself."""
+    found = [
+        one
+        for one in table("scenes")
+        if one["fidelity"] == fidelity and one["radial, N"] == "0" and "gate" not in one["scene"]
+        and not (one["scene"].startswith("7009C") and one["r/min"] == "18,000")
+    ]  # fmt: skip
+    inner, outer = ([float(one[key]) for one in found] for key in ("inner ring", "outer ring"))
+    loud, quiet = ([float(one[f"{key}, dB(A)"]) for one in found] for key in ("loudest", "quietest"))
+    yield (
+        f"Of {len(found)} cases of four example scenes at three to five speeds it has {min(inner):.2f} to "
+        f"{max(inner):.2f} of the rms velocity of the inner ring, {min(outer):.2f} to {max(outer):.2f} of "
+        f"the outer's; levels are {min(loud):+.1f} to {max(loud):+.1f} dB(A) off at the loudest of four "
+        f"microphones and {min(quiet):+.1f} to {max(quiet):+.1f} at the quietest"
+    )
+
+
+def _sound():
+    """What microphones and boundary elements cost; a paper's model beside them."""
     for microphones in ("1", "4"):
         yield f"| {microphones} | {_sound_costs(microphones)} |"
     first = sorted(table("first_sound"), key=lambda one: float(one["CPU s"]))
@@ -112,16 +158,6 @@ def choosing():
 
 def _ratio(found, key):
     return f"{float(found[key]):.2f}"
-
-
-def _of_full(scene, rpm):
-    """Ratios and levels of rings, then of response."""
-    cells = []
-    for fidelity in ("rings", "response"):
-        found = scene_line(scene, rpm, fidelity)
-        cells += [_ratio(found, "inner ring"), _ratio(found, "outer ring")]
-        cells += [signed(found["loudest, dB(A)"]), signed(found["quietest, dB(A)"])]
-    return " | ".join(cells)
 
 
 def _sound_costs(microphones):
@@ -165,17 +201,6 @@ def validation():
     from tests.extremes.cases import CASES as EXTREMES
 
     yield f"`tests/extremes` runs {len(EXTREMES)} cases at every fidelity and method"
-    for scene, rpm in (
-        ("gate 7003C-bare", "10,000"), ("gate 7003C-bare", "20,000"), ("gate 7003C-spindle", "12,000"),
-        ("gate 7003C-spindle", "20,000"), ("gate 7009C-full-ceramic", "9,000"),
-        ("gate 7009C-full-ceramic", "18,000"),
-    ):  # fmt: skip
-        ratios = [
-            f"{float(scene_line(scene, rpm, fidelity)[key]):.3f}"
-            for fidelity in ("rings", "response")
-            for key in ("inner ring", "outer ring")
-        ]
-        yield f"| {scene.removeprefix('gate ')}, {rpm} | {' | '.join(ratios)} |"
 
 
 def _accuracy_of_the_benchmark():
@@ -364,6 +389,7 @@ def vibration():
 PAGES = {
     "../README.md": settings, "../paper.md": paper, "examples.md": examples, "gallery.md": gallery,
     "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
+    "fidelities/full.md": full, "fidelities/rings.md": rings, "fidelities/response.md": response,
     "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
     "vibration.md": vibration,
 }  # fmt: skip

@@ -1,14 +1,12 @@
-"""Sentences of the page on limits whose figures come from the tables under docs/results."""
+"""Sentences of the pages on limits and fidelities whose figures come from the tables under docs/results."""
 
 from tests.figures_of_settled import limits_of_settled
 from tests.tables import CASES, critical_speed, fastest, moved, rounded, row, scene_line, table, up, usual
 
 
 def limits():
-    """Speed of full, heavy radial load, what rests on assumed values, bands, three balls."""
+    """What rests on assumed values, settled runs, three balls."""
     yield from _rests_on_assumed_values()
-    yield from _bands()
-    yield from _loads_and_goals()
     yield from limits_of_settled()
     yield f"peaks ({critical_speed()} r/min) is an input, not a prediction"
     gap = row("three_balls", case="in contact, 0.5 m/s, Hertz")
@@ -21,9 +19,18 @@ def limits():
         f"in the three-ball test {rigid} (rigid) and {elastic} (elastic) below the measurement with "
         f"scattering, {without} without"
     )
+
+
+def response_limits():
+    """Levels beside those of rings."""
     spindle = [scene_line("7003C-spindle", "20,000", fidelity) for fidelity in ("rings", "response")]
     apart = max(abs(float(spindle[0][key]) - float(spindle[1][key])) for key in _LEVELS)
     yield f"On the 7003C's spindle at 20,000 r/min its levels lie within {up(apart)} dB(A) of `rings`"
+
+
+def full_limits():
+    """Speed of full, its goals, heavy radial load."""
+    yield from _loads_and_goals()
     settled = [usual(case)[0] for case in CASES if not ("first" in case or "example" in case)]
     free = [float(one["sim/CPU"]) for one in settled if "radial" not in one["case"]]
     loaded = [float(one["sim/CPU"]) for one in settled if "radial" in one["case"]]
@@ -61,8 +68,8 @@ def _rests_on_assumed_values():
     yield f"two seeds differ by up to {max(drawn[0]):.0f} % in ring rms and {max(drawn[1]):.1f} dB(A)"
 
 
-def _bands():
-    """What steps of rings cost, what the band of excitation gives."""
+def rings_limits():
+    """What steps of rings cost."""
     rings = [one for one in table("band") if one["fidelity"] == "rings"]
     level = max(float(one[key]) for one in rings for key in ("quarter steps: dB", "dB(A)"))
     octave = max(float(one["third octaves, dB"]) for one in rings)
@@ -70,6 +77,10 @@ def _bands():
         "With quarter steps the levels on the 7003C's spindle move by at most "
         f"{level:.2f} dB, third octaves by at most {octave:.2f} dB"
     )
+
+
+def band():
+    """What the band of excitation gives."""
     apart = {
         key: max(
             abs(float(one[key]) - float(row("band", **{"r/min": one["r/min"], "band, kHz": "20",

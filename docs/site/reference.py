@@ -21,6 +21,7 @@ from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
 from fmu_bearing.results.variable_names import any_sets
 from fmu_bearing.scene import Scene, read_scene
+from fmu_bearing.scene.exclusions import EXCLUSIONS
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, sizes as printed_sizes
 from fmu_bearing.scene.read import catalogue
 from fmu_bearing.scene.units import symbol
@@ -147,6 +148,15 @@ def sizes():
             "*" + ", ".join(f"{100.0 * (error - 1.0):+.1f}" for error in errors) + "*",
         )
         lines.append(_row(cells))
+    return "\n".join(lines)
+
+
+def exclusions():
+    """List what a scene cannot have, with the reason and the way out."""
+    lines = [_row(("scene", "cannot have", "because", "way round")), _row(["---"] * 4)]
+    for one in EXCLUSIONS:
+        kind = f"{one.kind.name[0].upper()}{one.kind.name[1:]}"
+        lines.append(_row((kind, one.all, one.reason, one.way_out)))
     return "\n".join(lines)
 
 

@@ -41,7 +41,7 @@ from fmu_bearing.scene.exclusions import (
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.vibration_test.rig import rig
 from tests.conftest import GATES, ROOT
-from tests.tables import DOCS, missing
+from tests.tables import DOCS
 
 PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
 PORT = ROOT / "examples" / "port" / "7003C-DB-port.toml"
@@ -197,14 +197,7 @@ def test_settings_ask_the_table(scene):
 
 
 def test_the_page_on_limits_has_the_table():
-    """Every row, and no other, in the order of the table."""
-    sentences = [
-        f"* **{row.kind.name[0].upper()}{row.kind.name[1:]}** cannot have {row.all}: "
-        f"{row.reason}. Way round: {row.way_out}."
-        for row in EXCLUSIONS
-    ]
-    assert not missing("limits.md", sentences)
+    """The site makes it of every row; no cell ends the row early."""
     page = (DOCS / "limits.md").read_text(encoding="utf-8")
-    part = page.split("## What a scene cannot have\n")[1].split("\n## ")[0]
-    shown = [" ".join(item.split()) for item in re.split(r"^(?=\* )", part, flags=re.MULTILINE)[1:]]
-    assert shown == [" ".join(one.split()) for one in sentences]
+    assert "<!-- generated: exclusions -->" in page.split("## What a scene cannot have\n")[1]
+    assert not [row for row in EXCLUSIONS if "|" in f"{row.kind.name}{row.all}{row.reason}{row.way_out}"]

@@ -20,6 +20,7 @@ RESULTS = ROOT / "docs" / "results"
 APART = {
     "ross": "ROSS 3 needs Python 3.13 and an environment of its own",
     "quick_fidelities": "parts of `benchmarks.quick_fidelities`, `quick_gates`, `quick_limits`: hours",
+    "steps_of_full": "surveys from which constants of the method were chosen",
 }
 _SPINDLE = "examples/scenes/7003C-spindle.toml"
 _HERE = "docs/results"

@@ -112,3 +112,33 @@ def missing(page, sentences):
     """Return those of the sentences that a page lacks; line breaks do not count."""
     text = " ".join((DOCS / page).read_text("utf-8").split())
     return [one for one in sentences if " ".join(one.split()) not in text]
+
+
+def settings_of(found):
+    """Tolerance and longest step (us) of a row of the benchmark, as it has them."""
+    return re.search(r"tol (\S+), h <= (\S+) us", found["setting"]).groups()
+
+
+_FIGURE = r"(?<![\w.])[-+]?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?"
+
+
+def write(page, sentences):
+    """Write the figures of the sentences into a page, where its words are the same; return those it lacks."""
+    path = DOCS / page
+    text = path.read_text("utf-8")
+    lacking = missing(page, sentences)
+    for one in list(lacking):
+        words, figures = re.split(_FIGURE, one), re.findall(_FIGURE, one)
+        blank = [r"\s+".join(map(re.escape, re.split(r"\s+", part))) for part in words]
+        # of several rows of a table the one that has most of the figures already
+        places = sorted(
+            re.finditer(f"({_FIGURE})".join(blank), text),
+            key=lambda place, wanted=figures: -sum(map(str.__eq__, place.groups(), wanted)),
+        )
+        if places:
+            for k in range(len(figures), 0, -1):
+                first, last = places[0].span(k)
+                text = text[:first] + figures[k - 1] + text[last:]
+            lacking.remove(one)
+    path.write_text(text, "utf-8")
+    return lacking

@@ -40,6 +40,7 @@ from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD
 from tests.acoustics.playback import SMALL
+from tests.oracles import radiation
 
 RATE = 51_200.0
 AIR = Air()
@@ -229,7 +230,9 @@ def test_power_of_monopole_and_dipole(many):
     assert np.linalg.norm(points, axis=1) == pytest.approx(radius)
     assert (hemisphere_points(radius, many)[:, 0] > 0).all()
     f, a = 1000.0, 5e-3
-    pulsating = np.abs(sources.pulsating_sphere(f, np.full(len(points), radius), a, *(1.225, 340.0))) ** 2 / 2
+    pulsating = (
+        np.abs(radiation.pulsating_sphere(f, np.full(len(points), radius), a, *(1.225, 340.0))) ** 2 / 2
+    )
     ka = 2 * np.pi * f / 340 * a
     exact = 1.225 * 340 * 4 * np.pi * a**2 * ka**2 / (1 + ka**2) / 2 / (2 * np.pi * f) ** 2
     found = power_from_pressure(pulsating, radius, AIR)

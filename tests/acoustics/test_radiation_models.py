@@ -19,6 +19,7 @@ from fmu_bearing.engine.choices import RADIATION_MODELS
 from fmu_bearing.engine.layout import MO, SD, STRIDE
 from fmu_bearing.engine.sound.channels import keep
 from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, ball, chain, lines, raw_time, still
+from tests.oracles import radiation
 
 PERIOD = 2048  # raw samples: 100 Hz
 GRID = np.concatenate([np.arange(0.0, 1000.0, 10.0), np.arange(1000.0, 20_001.0, 100.0)])
@@ -35,7 +36,7 @@ def flexing(radiators, air, circle, harmonics, modes=(), plane=None):
     """Stand-in for boundary elements: compact bodies, and each flexural coordinate a monopole."""
     paths = compact_paths(radiators, air, circle, harmonics)
     f = fit_frequencies()
-    sound = sources.pulsating_sphere(f, circle.distance, 0.01, air.density, air.sound_speed)
+    sound = radiation.pulsating_sphere(f, circle.distance, 0.01, air.density, air.sound_speed)
     for i, mode in enumerate(mode for mode in modes for _ in range(2)):
         channel, flight = SD.c_flex(harmonics) + i, circle.flight(air)
         paths.append(Path(mode.body, channel, flight, sound, circle.uniform(), SD.FLEXURE))
@@ -106,7 +107,7 @@ def test_flexure_makes_sound_of_its_kind(elements):
     motion[:, MO.FLEXURES + 3] = np.cos(2 * np.pi * 1000 * raw_time(PERIOD))
     player = Player(ps)
     pressure = player.play(motion, 41 * PERIOD)[:, 0]
-    expected = sources.pulsating_sphere(1000.0, 0.105, 0.01, RHO, C) * chain([1000.0])[0]
+    expected = radiation.pulsating_sphere(1000.0, 0.105, 0.01, RHO, C) * chain([1000.0])[0]
     assert abs(lines(pressure, [1000.0])[0] - expected) < 10 ** (-50 / 20) * abs(expected)
     for name in ("spl_flexure", "spl_outer_ring"):
         assert player.reading(name) == pytest.approx(player.reading("spl"), abs=1e-6)

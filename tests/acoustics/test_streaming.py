@@ -22,6 +22,7 @@ from tests.acoustics.playback import (
     raw_time,
     still,
 )
+from tests.oracles import radiation
 
 GATE = 10 ** (-50 / 20)
 PERIOD = 2048  # raw samples: 100 Hz
@@ -265,7 +266,7 @@ def test_paper_model_adds_energies():
         return 0.5 * abs(response * amplitude * chain([frequency])[0]) ** 2
 
     f = {name: np.array(name) for name in wave}
-    inner = energy(sources.paper_cylinder(f[500.0], 0.15, 11e-3, RHO, C), 0.1 * wave[500.0], 500.0)
+    inner = energy(radiation.paper_cylinder(f[500.0], 0.15, 11e-3, RHO, C), 0.1 * wave[500.0], 500.0)
     # eq. 19: u = R_i / 2 sqrt(4 w_x^2) = R_i w_x
     inner += energy(sources.paper_point(f[2000.0], 0.15, 11e-3, RHO, C), 11e-3 * 5.0 * wave[2000.0], 2000.0)
     outer = energy(sources.paper_piston(f[1000.0], 0.15, 35e-3, 30e-3, RHO, C), 7.0, 1000.0)

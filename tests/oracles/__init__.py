@@ -12,6 +12,7 @@ module              answers
 `shaft`             several of them on one rigid shaft, by a general root finder
 `spindle_dynamics`  several of any kind on one shaft in motion, by dense systems
 `journal`           short journal bearing: film force by quadrature of the pressure, and in closed form
+`radiation`         sound of spheres, cylinders and faces in closed form
 `cartesian`         equations of motion in global Cartesian axes, ball by ball
 ==================  ================================================================================
 

@@ -5,35 +5,21 @@ any shape, zero allowed), lengths in m, air density in kg/m3, sound speed in m/s
 Pa per m/s2, and contains the flight time from the body's centre. Per acceleration rather than per velocity,
 because these functions stay finite at zero frequency.
 
-Exact ones: `pulsating_sphere`, `oscillating_sphere`, `oscillating_cylinder` (two-dimensional),
-`baffled_ring_on_axis`. Low-frequency one: `compact_dipole`. As printed in the multi-source paper
+Exact one: `oscillating_sphere`. Low-frequency one: `compact_dipole`. As printed in the multi-source paper
 ("Acoustic model of ceramic angular contact ball bearing based on multi-sound source method"), errors
-included: `paper_ball` (eqs. 15, 17), `paper_point` (eqs. 18, 20), `paper_piston` (eqs. 27, 29),
-`paper_cylinder` (eqs. 36-42).
+included: `paper_ball` (eqs. 15, 17), `paper_point` (eqs. 18, 20), `paper_piston` (eqs. 27, 29); of eqs.
+36-42 the magnitude, `paper_cylinder_causal`.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import h2vp, hankel2
+from scipy.special import h2vp
 
 Spectrum = NDArray[np.complex128]
 
 
 def _wavenumber(frequency: ArrayLike, sound_speed: float) -> NDArray[np.float64]:
     return 2.0 * np.pi * np.asarray(frequency, dtype=float) / sound_speed
-
-
-def pulsating_sphere(
-    frequency: ArrayLike, distance: ArrayLike, radius: float, density: float, sound_speed: float
-) -> Spectrum:
-    """Pressure around a sphere whose surface breathes, per radial surface acceleration.
-
-    Exact. ``distance`` counts from the centre and broadcasts against ``frequency``. Source: any text on
-    radiation from spheres, for example Morse and Ingard (1968).
-    """
-    k = _wavenumber(frequency, sound_speed)
-    r = np.asarray(distance, dtype=float)
-    return density * radius**2 / r * np.exp(-1j * k * (r - radius)) / (1.0 + 1j * k * radius)
 
 
 def oscillating_sphere(
@@ -69,48 +55,6 @@ def cylinder_factor(frequency: ArrayLike, radius: float, sound_speed: float) -> 
     factor = np.where(low, 1.0, -2j / (np.pi * safe**2 * h2vp(1, safe)))
     shaped: Spectrum = factor.reshape(np.shape(frequency))
     return shaped
-
-
-def oscillating_cylinder(
-    frequency: ArrayLike,
-    distance: ArrayLike,
-    cosine: ArrayLike,
-    radius: float,
-    density: float,
-    sound_speed: float,
-) -> Spectrum:
-    """Pressure around an infinite rigid cylinder shaken across its axis, per acceleration.
-
-    Exact and two-dimensional: what eqs. 31-34 of the multi-source paper aim at, propagation counted once.
-    ``distance`` counts from the axis.
-    """
-    k = _wavenumber(frequency, sound_speed)
-    k, r, cosine = np.broadcast_arrays(k, np.asarray(distance, float), np.asarray(cosine, float))
-    low = k * radius < 1e-6
-    safe = np.where(low, 1.0 / radius, k)
-    moving = -hankel2(1, safe * r) / (safe * h2vp(1, safe * radius))
-    result: Spectrum = (density * cosine * np.where(low, radius**2 / r, moving)).astype(complex)
-    return result
-
-
-def baffled_ring_on_axis(
-    frequency: ArrayLike,
-    distance: ArrayLike,
-    outer_radius: float,
-    inner_radius: float,
-    density: float,
-    sound_speed: float,
-) -> Spectrum:
-    """Pressure on the axis of a flush annular face moving in a rigid baffle, per acceleration.
-
-    Exact; ``distance`` counts from the face. The two edge waves of the Rayleigh integral, written as a
-    product so that zero frequency needs no limit.
-    """
-    k = _wavenumber(frequency, sound_speed)
-    z = np.asarray(distance, dtype=float)
-    far, near = np.hypot(z, outer_radius), np.hypot(z, inner_radius)
-    half = 0.5 * (far - near)
-    return density * 2.0 * half * np.sinc(k * half / np.pi) * np.exp(-0.5j * k * (far + near))
 
 
 def compact_dipole(
@@ -171,31 +115,14 @@ def paper_piston(
     return density * (outer_diameter**2 - inner_diameter**2) / (8.0 * r) * np.exp(-1j * k * r)
 
 
-def paper_cylinder(
-    frequency: ArrayLike, distance: ArrayLike, radius: float, density: float, sound_speed: float
-) -> Spectrum:
-    """Mantle of a ring in the multi-source paper, eqs. 36-42 as printed, per d|v_yz|/dt.
-
-    cos(theta) is 1 (assumed, as for `paper_ball`). A0, B_r and B_i are multiplied through by powers of k so
-    that the value at zero frequency, rho a^2 / r, needs no limit.
-    """
-    k = _wavenumber(frequency, sound_speed)
-    r = np.asarray(distance, dtype=float)
-    a = radius
-    denominator = k**4 / 4.0 + 4.0 / (np.pi**2 * a**4)  # k^4 (1/4 + (2/(pi k^2 a^2))^2)
-    real = k**2 / (np.pi * r) + k**2 * r / (np.pi * a**2)  # k^3 B_r
-    imaginary = k**4 * r / 4.0 - 4.0 / (np.pi**2 * r * a**2)  # k^3 B_i
-    return density * (real - 1j * imaginary) / (1j * denominator) * np.exp(-1j * k * r)
-
-
 def paper_cylinder_causal(
     frequency: ArrayLike, distance: float, radius: float, density: float, sound_speed: float
 ) -> Spectrum:
-    """`paper_cylinder` with its magnitude and flight time kept and its phase made that of a causal filter.
+    """Mantle of a ring in the multi-source paper, eqs. 36-42, per d|v_yz|/dt, its phase made causal.
 
-    The printed phase belongs to no real impulse response (its imaginary part is even in frequency); the
-    squared magnitude, a ratio of polynomials in k^4, has one minimum-phase factor, positive at zero
-    frequency.
+    Magnitude and flight time are the printed ones; cos(theta) is 1 (assumed, as for `paper_ball`). The
+    printed phase belongs to no real impulse response (its imaginary part is even in frequency); the squared
+    magnitude, a ratio of polynomials in k^4, has one minimum-phase factor, positive at zero frequency.
     """
     k = _wavenumber(frequency, sound_speed)
     r, a = distance, radius

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from fmu_bearing.acoustics.filters.fir import fit
-from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.bem import solution as solved
 from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
@@ -18,6 +17,7 @@ from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import BALLS, CAGE, INNER, OUTER, Air, Housing, Radiators, Ring
 from fmu_bearing.engine.layout import SD
+from tests.oracles import radiation
 
 AIR = Air()
 BARE = Radiators(
@@ -118,7 +118,7 @@ def test_flush_faces_on_the_axis():
     assert not {1, 2, 4, 5} & set(paths)  # sideways motion of a flush face is silent
     f = fit_frequencies()
     for channel, ring in ((0, BARE.inner_ring), (3, BARE.outer_ring)):
-        exact = -sources.baffled_ring_on_axis(f, 0.08, ring.outer / 2, ring.inner / 2, 1.225, 340.0)
+        exact = -radiation.baffled_ring_on_axis(f, 0.08, ring.outer / 2, ring.inner / 2, 1.225, 340.0)
         assert np.abs(paths[channel].response / exact - 1.0).max() < 2e-3
 
 

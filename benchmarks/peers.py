@@ -12,8 +12,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.first_order import FirstOrder
 from benchmarks.table import Row
-from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import relative_error
 
 #: Relative tolerances; absolute ones are these times the scale of each component. Each solver starts at the

@@ -10,9 +10,9 @@ import time
 
 from benchmarks import bem, exudyn_peer, memory, ours, peers, sound, terms
 from benchmarks.cases import CASES, GATES, QUICK, SOLVERS, Case
+from benchmarks.first_order import FirstOrder
 from benchmarks.fmu import calls, whole
 from benchmarks.table import COLUMNS, Row, fill_ratios
-from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import Reference
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.results import table

@@ -26,8 +26,8 @@ from benchmarks import (
     terms,
 )
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
+from benchmarks.first_order import FirstOrder
 from benchmarks.fmu import calls, whole
-from fmu_bearing.accuracy.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import reference_from
 from fmu_bearing.cli import app
 from fmu_bearing.results.table import markdown, write_csv

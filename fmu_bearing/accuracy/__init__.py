@@ -1,7 +1,6 @@
 """Studies of a scene: error against cost, sensitivity to assumed values and to a designer's choices.
 
 ================  =============================================================================
-``first_order``   fidelity ``full`` as x' = g(t, x), for other integrators
 ``reference``     reference trajectory from two integrators, to which other results are compared
 ``tradeoff``      fidelities, methods, steps, strips, terms against the reference
 ``chart``         error against speed, drawn

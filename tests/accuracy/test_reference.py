@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.accuracy.first_order import FirstOrder
+from benchmarks.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import (
     explicit_rings,
     implicit_rings,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fmu_bearing.accuracy.first_order import FirstOrder
+from benchmarks.first_order import FirstOrder
 from fmu_bearing.acoustics.radiation.bem.integrals import Potentials
 from fmu_bearing.acoustics.radiation.bem.meridian import mesh_of, ring
 from fmu_bearing.arrays import Arrays

@@ -6,8 +6,6 @@ computation ended early; 130 interrupted. In the last two cases the results so f
 Commands import their modules when they run, so that help and completion answer at once.
 """
 
-import json
-import math
 import os
 import re
 import sys
@@ -257,21 +255,11 @@ def check_new_in(force: bool, folder: Path | None, *patterns: str) -> None:
 
 def print_json(result: Any) -> None:
     """Print ``result`` as JSON; NaN and infinity become null, because JSON does not have them."""
-    typer.echo(json.dumps(_plain(result), indent=2, ensure_ascii=False))
+    from fmu_bearing.results.base import as_json
+
+    typer.echo(as_json(result))
 
 
 def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:
     """Rows of a table with their columns' names."""
     return [dict(zip(columns, row, strict=True)) for row in rows]
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
-        return _plain(value.tolist())
-    if isinstance(value, Path):
-        return str(value)
-    return None if isinstance(value, float) and not math.isfinite(value) else value

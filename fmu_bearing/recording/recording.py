@@ -1,6 +1,5 @@
 """Recordings: channels of a run, kept in files, or pressures taken from the run of an FMU."""
 
-import html
 import json
 import math
 import os
@@ -23,7 +22,7 @@ from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure
 from fmu_bearing.results.result import read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
-from fmu_bearing.results.table import number
+from fmu_bearing.results.table import html_table, number
 from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene import Scene, SceneError, SceneSource, read_scene_text, scene_of, si
 
@@ -127,19 +126,13 @@ class Recording(ChannelHistory):
 
     def _repr_html_(self) -> str:
         """Return microphones and means of the variables; levels are left out, as they take time."""
-        places = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}</td><td>mm</td></tr>"
-            for name, (x, y, z) in self.microphones
+        places = [
+            [name, f"{1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}", "mm"] for name, (x, y, z) in self.microphones
+        ]
+        means = [[name, number(float(np.mean(v))), unit_of(name)] for name, v in self.within().items()]
+        return html_table(repr(self), ["microphone", "place", ""], places) + html_table(
+            "means", ["variable", "mean", "unit"], means
         )
-        means = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{number(float(np.mean(values)))}</td>"
-            f"<td>{html.escape(unit_of(name))}</td></tr>"
-            for name, values in self.within().items()
-        )
-        head = (
-            f"<caption>{html.escape(repr(self))}</caption><tr><th>microphone</th><th>place</th><th></th></tr>"
-        )
-        return f"<table>{head}{places}<tr><th>variable</th><th>mean</th><th>unit</th></tr>{means}</table>"
 
     @property
     def doubts(self) -> dict[str, float]:

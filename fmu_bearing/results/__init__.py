@@ -2,6 +2,7 @@
 
 ==================  ===========================================================================
 ``variable_names``  names of variables, with patterns and suggestions
+``base``            the base of all results: values with units, from which JSON, tables and files follow
 ``table``           tables to terminal, Markdown, CSV; the machine they were made on
 ``column_units``    units of columns as people write them
 ``rows``            rows and columns of CSV files: separators, decimal commas, titles with units

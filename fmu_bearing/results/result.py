@@ -1,12 +1,10 @@
 """Results of a run, and their files: CSV as FMPy reads and writes it, netCDF."""
 
 import gc
-import html
 import math
 import os
 import pathlib
 import sys
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,11 +19,13 @@ from fmu_bearing.extras import need
 from fmu_bearing.file_words import NETCDF, RESULT, absent, instead, one_line, why
 from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
+from fmu_bearing.results.base import Result, write_netcdf, written
 from fmu_bearing.results.column_units import unit_of_suffix, written_unit
 from fmu_bearing.results.levels import present, shown
 from fmu_bearing.results.rows import read_columns
 from fmu_bearing.results.series import Series, structured
 from fmu_bearing.results.spectra import Spectrum, of_variables
+from fmu_bearing.results.table import html_table
 from fmu_bearing.results.time_pictures import time_picture
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.units import split_unit
@@ -46,7 +46,7 @@ class ResultError(ValueError):
 
 
 @dataclass(repr=False)
-class Run(Series):
+class Run(Series, Result):
     """Variables of a bearing over time, SI units.
 
     Attributes
@@ -76,6 +76,10 @@ class Run(Series):
     (['heat.inner_ring', 'heat.outer_ring', 'heat.oil'], 0.002)
     """
 
+    quantities = (
+        "name", "ended", "note", "points [1] = __len__", "time_s = _reached", "wall_s", "last = _last",
+    )  # fmt: skip
+
     wall: float = float("nan")
     ended: str = COMPLETE
     note: str = ""
@@ -91,14 +95,13 @@ class Run(Series):
         return f"Run({self.name}, {points}, {len(self.names)} variables{ended})"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{shown(self[name][-1], unit) if len(self) else '-'}</td>"
-            f"<td>{html.escape(unit)}</td></tr>"
-            for name, unit in self._units().items()
-        )
+        last = {
+            name: shown(self[name][-1], unit) if len(self) else "-" for name, unit in self._units().items()
+        }
         ended = "" if self.complete else f", {self.ended}: {self.note}"
-        head = f"<caption>{html.escape(f'{self.name} at {self._reached():g} s{ended}')}</caption>"
-        return f"<table>{head}<tr><th>variable</th><th>last value</th><th>unit</th></tr>{rows}</table>"
+        rows = [[name, last[name], unit] for name, unit in self._units().items()]
+        head = ["variable", "last value", "unit"]
+        return html_table(f"{self.name} at {self._reached():g} s{ended}", head, rows)
 
     def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """Write to ``.csv`` (as FMPy writes it: SI units, full precision) or ``.nc`` (netCDF, with units).
@@ -115,8 +118,7 @@ class Run(Series):
         path = check_target(path)
         if path.suffix == ".csv":
             return write_whole(path, written(lambda file: write_csv(file, self.table), ".csv"))
-        data = self.to_xarray()
-        return write_whole(path, written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
+        return write_netcdf(path, self.to_xarray())
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""
@@ -268,23 +270,12 @@ class Run(Series):
         read = read_scene_text(scene, str(path)) if scene else None
         return cls(name, table, units, read, ended=ended, note=note)
 
-    def summary(self) -> dict[str, Any]:
-        """Return how the run ended, and the last values with their units, for machines.
-
-        The value of a level is None where metering has not begun.
-        """
+    def _last(self) -> dict[str, dict[str, Any]]:
+        """Return the last values with their units; of a level None where metering has not begun."""
         return {
-            "name": self.name,
-            "ended": self.ended,
-            "note": self.note,
-            "points": len(self),
-            "time_s": self._reached(),
-            "wall_s": self.wall,
-            "last": {
-                name: {"value": None if math.isnan(value) else value, "unit": unit}
-                for name, unit in self._units().items()
-                for value in present(self[name][-1:], unit).tolist()
-            },
+            name: {"value": None if math.isnan(value) else value, "unit": unit}
+            for name, unit in self._units().items()
+            for value in present(self[name][-1:], unit).tolist()
         }
 
 
@@ -367,11 +358,3 @@ def _plain(path: str | os.PathLike[str]) -> pathlib.Path:
         raise ResultError(f"{path}: {absent(path)}") from None
     except OSError as problem:
         raise ResultError(f"{path}: cannot be read: {why(problem)}") from None
-
-
-def written(write: Any, suffix: str) -> bytes:
-    """Return the bytes that a writer puts into a file."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / f"result{suffix}"
-        write(file)
-        return file.read_bytes()

@@ -1,6 +1,5 @@
 """Spectra of variables and of microphones, with their names and units."""
 
-import html
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -18,7 +17,7 @@ from fmu_bearing.results.picture_parts import (
     mark_excitation,
     series,
 )
-from fmu_bearing.results.table import number
+from fmu_bearing.results.table import html_table, number
 
 if TYPE_CHECKING:
     import pandas
@@ -74,14 +73,12 @@ class Spectrum:
         return f"Spectrum({', '.join(self.names)}; {len(self.frequency)} bins to {self.frequency[-1]:g} Hz)"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{number(float(row[top]))}</td><td>{html.escape(unit)}</td>"
-            f"<td>{self.frequency[top]:.6g}</td></tr>"
+        rows = [
+            [name, number(float(row[top])), unit, f"{self.frequency[top]:.6g}"]
             for name, row, unit in zip(self.names, self.values, self.units, strict=True)
             for top in [1 + int(np.argmax(row[1:]))]  # the first bin is the mean's
-        )
-        head = f"<tr><th>{self.kind}</th><th>highest</th><th>unit</th><th>at, Hz</th></tr>"
-        return f"<table><caption>{html.escape(repr(self))}</caption>{head}{rows}</table>"
+        ]
+        return html_table(repr(self), [self.kind, "highest", "unit", "at, Hz"], rows)
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return a dataset over frequency; microphones are a coordinate, units are attributes."""

@@ -1,13 +1,14 @@
 """Tables of results for terminal, Markdown and CSV; description of the machine."""
 
 import csv
+import html
 import io
 import math
 import os
 import pathlib
 import platform
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numba
@@ -19,6 +20,10 @@ from fmu_bearing.files import write_whole
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+
+#: Columns and rows of texts.
+Table = tuple[list[str], list[list[str]]]
 
 
 def machine() -> str:
@@ -53,6 +58,14 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Pipe table."""
     lines = ["| " + " | ".join(columns) + " |", "|" + " --- |" * len(columns)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def html_table(caption: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table for notebooks."""
+    lines = [("th", columns), *(("td", row) for row in rows)]
+    cells = ("".join(f"<{tag}>{html.escape(text)}</{tag}>" for text in line) for tag, line in lines)
+    body = "".join(f"<tr>{row}</tr>" for row in cells)
+    return f"<table><caption>{html.escape(caption)}</caption>{body}</table>"
 
 
 def terminal() -> "Console":

@@ -8,6 +8,7 @@ from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.results.levels import shown
 from fmu_bearing.results.result import Run
+from fmu_bearing.results.table import html_table
 from fmu_bearing.results.variable_names import by_name
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.simulate import simulate
@@ -139,9 +140,7 @@ class Bearing(Mapping[str, float]):
 
     def _repr_html_(self) -> str:
         units = self._instance.by_name
-        rows = "".join(
-            f"<tr><td>{name}</td><td>{shown(value, units[name].unit)}</td><td>{units[name].unit}</td></tr>"
-            for name, value in self.read().items()
-        )
-        head = f"<caption>{self!r}</caption><tr><th>output</th><th>value</th><th>unit</th></tr>"
-        return f"<table>{head}{rows}</table>"
+        rows = [
+            [name, shown(value, units[name].unit), units[name].unit] for name, value in self.read().items()
+        ]
+        return html_table(repr(self), ["output", "value", "unit"], rows)

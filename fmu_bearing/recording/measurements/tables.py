@@ -22,7 +22,7 @@ from fmu_bearing.acoustics.analysis.power import Power
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.levels import decibels
-from fmu_bearing.results.table import markdown, write_csv
+from fmu_bearing.results.table import Table, markdown, write_csv
 
 __all__ = [
     "Table",
@@ -38,8 +38,6 @@ __all__ = [
     "third_octave_table",
     "write_csv",
 ]
-
-Table = tuple[list[str], list[list[str]]]
 
 
 def lines_table(lines: Sequence[Line]) -> Table:

@@ -69,10 +69,9 @@ def info(
     found = verdicts(point)
     lines = cautions(point, found)
     if as_json:
-        judged = {"verdicts": [one.as_dict() for one in found], "cautions": lines}
-        judged["measured_elsewhere"] = measured_elsewhere()
-        seats = {} if point.scene.fit is None else {"fits": _seats(point).summary()}
-        steady = {} if warm is None else {"temperatures": warm.summary()}
+        judged = {"verdicts": found, "cautions": lines, "measured_elsewhere": measured_elsewhere()}
+        seats = {} if point.scene.fit is None else {"fits": _seats(point)}
+        steady = {} if warm is None else {"temperatures": warm}
         print_json(point.summary() | judged | seats | steady)
         return
     if point.scene.assembly.shaft is None:
@@ -147,7 +146,9 @@ def _show_bearing(point: "BearingPoint") -> None:
 
 def _show_set(found: "Statics") -> None:
     """Print what the bearings of a set carry, and how stiff they hold the shaft."""
+    from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
+    from fmu_bearing.steady.statics import BearingLoad
 
     scene = found.scene
     _show_heading(
@@ -155,10 +156,7 @@ def _show_set(found: "Statics") -> None:
         f"{materials_words(scene)}; {scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
-    columns = (
-        "bearing", "at, mm", "axial, N", "y, N", "z, N", "ball, N", "angle, deg", "inner, GPa", "outer, GPa",
-    )  # fmt: skip
-    show("bearings: load; largest ball load, angle, pressure", columns, _loads(found))
+    show("bearings: load; largest ball load, angle, pressure", *table(BearingLoad, found.bearings))
     show("shaft", ("", "value"), _shaft(found))
 
 
@@ -211,21 +209,6 @@ def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
         rows.append([shared_label(first), *cells, first.limit])
     show("verdicts", ("figure", *(f"bearing {k + 1}" for k in range(bearings)), "limit"), rows)
     show("verdicts on the set", one_by_one, together)
-
-
-def _loads(found: "Statics") -> list[list[str]]:
-    """Rows of the table of what the bearings of a set carry."""
-    from fmu_bearing.results.table import tenths
-
-    return [
-        [
-            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", tenths(row["axial_N"]),
-            tenths(row["force_y_N"]), tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
-            f"{row['angle_inner_max_deg']:.2f}", f"{row['pressure_inner_GPa']:.3f}",
-            f"{row['pressure_outer_GPa']:.3f}",
-        ]
-        for row in found.table()
-    ]  # fmt: skip
 
 
 def _shaft(found: "Statics") -> list[list[str]]:

@@ -12,6 +12,7 @@ from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, ope
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
 from fmu_bearing.instance import EngineError
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.fit import (
     SIDES,
@@ -36,82 +37,73 @@ _TAIL = 0.5 * math.erfc(3.0 / math.sqrt(2.0))  # 0.135 %: beyond 3 sigma on one 
 
 
 @dataclass(frozen=True)
-class SeatPoint:
-    """The seat of one ring with one interference, SI units.
+class SeatPoint(Result):
+    """The seat of one ring with one interference, SI units."""
 
-    Attributes
-    ----------
-    words : str
-        Where the interference comes from.
-    drawn : float
-        Interference on *diameter* by the diameters at 20 degC, before loss by roughness (m).
-    states : dict
-        By ``mounted`` (20 degC, still), ``warm`` (still) and ``running``: interference on the *radius*,
-        pressure, hoop stress, growth of the race.
-    loss_speed : float, optional
-        rad/s at which the fit lets go at the scene's temperatures; None where no speed loosens it.
-    ring_kelvin, partner_kelvin : float, optional
-        K by which the inner ring is warmed or the shaft cooled, or the outer ring cooled or the housing
-        warmed, to slip on without force; None of a material that does not expand.
-    breaking : dict, optional
-        By state the chance that a ceramic inner ring breaks at once; None without strength and modulus.
-    """
+    quantities = (
+        "words", "interference_m", Quantity("pressure_Pa", of=lambda one: one.of_state("pressure")),
+        Quantity("hoop_stress_Pa", of=lambda one: one.of_state("hoop")),
+        Quantity("race_growth_m", of=lambda one: one.of_state("race")),
+        Quantity("loss_speed_rpm", factor=1.0 / RPM),
+        Quantity("mounting_kelvin [K]", of=lambda k: {"ring": k.ring_kelvin, "partner": k.partner_kelvin}),
+        "breaking_chance [1] = breaking",
+    )  # fmt: skip
 
     words: str
+    """Where the interference comes from."""
     drawn: float
+    """Interference on *diameter* by the diameters at 20 degC, before loss by roughness (m)."""
     states: dict[str, State]
+    """By ``mounted`` (20 degC, still), ``warm`` (still) and ``running``: interference on the *radius*,
+    pressure, hoop stress, growth of the race."""
     loss_speed: float | None
+    """rad/s at which the fit lets go at the scene's temperatures; None where no speed loosens it."""
     ring_kelvin: float | None
     partner_kelvin: float | None
+    """K by which the inner ring is warmed or the shaft cooled, or the outer ring cooled or the housing
+    warmed, to slip on without force; None of a material that does not expand."""
     breaking: dict[str, float] | None
+    """By state the chance that a ceramic inner ring breaks at once; None without strength and modulus."""
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines; interference on diameter."""
-        return {
-            "words": self.words,
-            "interference_m": {"drawn": self.drawn}
-            | {k: 2.0 * s.interference for k, s in self.states.items()},
-            "pressure_Pa": {key: one.pressure for key, one in self.states.items()},
-            "hoop_stress_Pa": {key: one.hoop for key, one in self.states.items()},
-            "race_growth_m": {key: one.race for key, one in self.states.items()},
-            "loss_speed_rpm": None if self.loss_speed is None else self.loss_speed / RPM,
-            "mounting_kelvin": {"ring": self.ring_kelvin, "partner": self.partner_kelvin},
-            "breaking_chance": self.breaking,
-        }
+    @property
+    def interference(self) -> dict[str, float]:
+        """On diameter (m), as drawn and by state."""
+        return {"drawn": self.drawn} | {key: 2.0 * one.interference for key, one in self.states.items()}
+
+    def of_state(self, name: str) -> dict[str, float]:
+        """Return ``pressure``, ``hoop`` (Pa) or ``race`` (m) by state."""
+        return {key: getattr(one, name) for key, one in self.states.items()}
 
 
 @dataclass(frozen=True)
-class FitPoint:
-    """One bearing with one interference of its seats, SI units.
+class FitPoint(Result):
+    """One bearing with one interference of its seats, SI units."""
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    seats : dict
-        By ``inner`` and ``outer``, those rings that have a seat.
-    free_angles : dict
-        Contact angle (rad) of unloaded balls: ``drawing``, ``mounted``, ``warm``, ``running``.
-    preloads : dict
-        N, without other loads: the same states; ``drawing`` where it is that of the loose bearing. Empty
-        where a spring holds it.
-    gaps : dict
-        By those states in which a rigid preload is lost: how far (m) the balls are loose along the axis.
-    point : BearingPoint
-        The operating point.
-    apart, together : Mounted
-        In closed form, with each seat's own interference of the column, and with those of the operating
-        point; they differ in probable columns of two seats.
-    """
+    quantities = (
+        "bearing [1] = number", "seats", "free_angle_rad = free_angles", "preload_N = preloads",
+        "gap_m = gaps", "axial_load_N = point.axial",
+        Quantity("contact_angle_rad", of=lambda one: one.point.at_races("angle_mean")),
+        Quantity("pressure_max_Pa", of=lambda one: one.point.at_races("pressure_max")),
+        "axial_stiffness_N_m", "radial_stiffness_N_m", "life_h = point.life",
+    )  # fmt: skip
 
     number: int
+    """From 1."""
     seats: dict[Kind, SeatPoint]
+    """By ``inner`` and ``outer``, those rings that have a seat."""
     free_angles: dict[str, float]
+    """Contact angle (rad) of unloaded balls: ``drawing``, ``mounted``, ``warm``, ``running``."""
     preloads: dict[str, float]
+    """N, without other loads: the same states; ``drawing`` where it is that of the loose bearing. Empty where
+    a spring holds it."""
     gaps: dict[str, float]
+    """By those states in which a rigid preload is lost: how far (m) the balls are loose along the axis."""
     point: BearingPoint
+    """The operating point."""
     apart: Mounted
     together: Mounted
+    """In closed form, with each seat's own interference of the column, and with those of the operating point;
+    they differ in probable columns of two seats."""
 
     @property
     def axial_stiffness(self) -> float:
@@ -123,73 +115,38 @@ class FitPoint:
         """Of the bearing at its operating point, mean of both directions, N/m."""
         return 0.5 * float(self.point.stiffness[1, 1] + self.point.stiffness[2, 2])
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
-        contacts = self.point.contacts
-        return {
-            "bearing": self.number,
-            "seats": {ring: seat.summary() for ring, seat in self.seats.items()},
-            "free_angle_rad": self.free_angles,
-            "preload_N": self.preloads,
-            "gap_m": self.gaps,
-            "axial_load_N": self.point.axial,
-            "contact_angle_rad": {ring: contacts[ring]["angle_mean"] for ring in contacts},
-            "pressure_max_Pa": {ring: contacts[ring]["pressure_max"] for ring in contacts},
-            "axial_stiffness_N_m": self.axial_stiffness,
-            "radial_stiffness_N_m": self.radial_stiffness,
-            "life_h": self.point.life,
-        }
-
 
 @dataclass(frozen=True)
-class Column:
-    """A scene's bearings with one interference of their seats.
+class Column(Result):
+    """A scene's bearings with one interference of their seats."""
 
-    Attributes
-    ----------
-    take : str
-        ``min``, ``probable min``, ``mean``, ``probable max`` or ``max``.
-    bearings : tuple of FitPoint
-    point : OperatingPoint
-        Its scene has these interferences.
-    """
+    quantities = "take", "bearings", "life_h"
 
     take: Take
+    """``min``, ``probable min``, ``mean``, ``probable max`` or ``max``."""
     bearings: tuple[FitPoint, ...]
     point: OperatingPoint
+    """Its scene has these interferences."""
 
     @property
     def life(self) -> float | None:
         """L10r (h) of all bearings together; None where no standard rates them."""
         return self.point.life
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
-        return {
-            "take": self.take,
-            "bearings": [one.summary() for one in self.bearings],
-            "life_h": self.life,
-        }
-
 
 @dataclass(frozen=True)
-class Fits:
-    """What the tolerances of the seats do, in five columns.
+class Fits(Result):
+    """What the tolerances of the seats do, in five columns."""
 
-    Attributes
-    ----------
-    scene : Scene
-    columns : tuple of Column
-        From the loosest fit to the tightest, those with an equilibrium. With two seats of a tolerance the
-        probable columns of figures that depend on both rings have a pair of interferences of which 0.135 %
-        are looser or tighter.
-    remarks : tuple of str
-        How the columns were found.
-    """
+    quantities = "scene = scene.name", "speed_rpm = scene.operation.speed_rpm", "columns", "remarks"
 
     scene: Scene
     columns: tuple[Column, ...]
+    """From the loosest fit to the tightest, those with an equilibrium. With two seats of a tolerance the
+    probable columns of figures that depend on both rings have a pair of interferences of which 0.135 % are
+    looser or tighter."""
     remarks: tuple[str, ...]
+    """How the columns were found."""
 
     def column(self, take: Take) -> Column:
         """Return the column of a take."""
@@ -200,15 +157,6 @@ class Fits:
         middle = self.columns[len(self.columns) // 2]
         (mean,) = [one for one in middle.bearings if one.number == number]
         return "; ".join(f"{ring} ring {seat.words}" for ring, seat in mean.seats.items())
-
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
-        return {
-            "scene": self.scene.name,
-            "speed_rpm": self.scene.operation.speed_rpm,
-            "columns": [one.summary() for one in self.columns],
-            "remarks": self.remarks,
-        }
 
 
 @one_thread

@@ -1,11 +1,12 @@
 """Heat of a bearing at its operating point: where friction loses power, and what that power warms."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass, fields
-from typing import Any, Protocol
+from dataclasses import dataclass, fields
+from typing import Protocol
 
 from fmu_bearing.design.measured import Range
 from fmu_bearing.design.torque_range import TorqueRange
+from fmu_bearing.results.base import Result
 from fmu_bearing.results.table import number
 
 #: Where power is lost, and what the loss warms, in words.
@@ -20,35 +21,28 @@ _SHARES = {"sliding": "contacts"}  # names of the engine's shares that differ
 
 
 @dataclass(frozen=True)
-class Heat:
+class Heat(Result):
     """Power (W) that the shaft loses to friction, all of which becomes heat.
 
     The first four add up to `total`, and so do the last three: half of what a contact loses warms its ring,
     all else oil and balls.
-
-    Attributes
-    ----------
-    sliding : float
-        Sliding, spinning and damping in the contacts of both races.
-    rolling : float
-        Rolling resistance of the oil at the inlets of the contacts.
-    cage : float
-        Pockets and lands of the cage, or dampers between the balls.
-    drag : float
-        Drag of oil and air on the balls that go round.
-    inner_ring, outer_ring : float
-        To the rings.
-    oil : float
-        To oil and balls.
     """
 
+    quantities = tuple(f"{name} [W]" for name in ("total", *ARISES, *GOES, "inner_race", "outer_race"))
+
     sliding: float
+    """Sliding, spinning and damping in the contacts of both races."""
     rolling: float
+    """Rolling resistance of the oil at the inlets of the contacts."""
     cage: float
+    """Pockets and lands of the cage, or dampers between the balls."""
     drag: float
+    """Drag of oil and air on the balls that go round."""
     inner_ring: float
     outer_ring: float
+    """To the rings."""
     oil: float
+    """To oil and balls."""
 
     @property
     def total(self) -> float:
@@ -64,11 +58,6 @@ class Heat:
     def outer_race(self) -> float:
         """What the contacts of the outer race lose, W."""
         return 2.0 * self.outer_ring
-
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, W, for machines."""
-        races = {"inner_race": self.inner_race, "outer_race": self.outer_race}
-        return {"total": self.total} | asdict(self) | races
 
 
 def heat_of(output: Callable[[str], float], speed: float, cage: bool) -> Heat:

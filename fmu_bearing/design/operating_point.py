@@ -26,6 +26,7 @@ from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.run import rates
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
@@ -43,63 +44,54 @@ _SLOPE = 10.0 / 9.0  # Weibull's exponent of point contact: Lundberg and Palmgre
 
 
 @dataclass(frozen=True)
-class BearingPoint:
-    """Figures of one bearing at its operating point, SI units.
+class BearingPoint(Result):
+    """Figures of one bearing at its operating point, SI units."""
 
-    Attributes
-    ----------
-    scene : Scene
-        Of this bearing alone, without sound, imperfections and bending. Of a set its preload is what it
-        carries loose, at standstill and 20 degC without load on the shaft, by a constant force behind springs
-        and by displacement with spacers; 0 in a set without one.
-    contacts : dict
-        By ``inner`` and ``outer``: the outputs ``contact.*`` there.
-    frequencies : KinematicFrequencies
-        Hz, as cage and balls turn in the steady state.
-    film : float
-        Thinnest film over the composite roughness.
-    viscosity : float
-        Kinematic viscosity of the oil, mm2/s.
-    viscosity_ratio : float
-        That over the one ISO 281 asks for at this speed and size; NaN at standstill.
-    speed_number : float
-        n d_m, mm r/min.
-    speed_limit : float, optional
-        Its limit for spring-loaded bearings of this angle, see `design.rating.speed_limit`.
-    least_preload : float
-        N: below it balls skid, see `design.rating.least_preload`.
-    rating : Rating, optional
-        None where no standard rates the bearing.
-    reference_life : float, optional
-        Mrev: L10r by ISO 16281 from the loads of the balls; None where no standard rates the bearing.
-    friction_torque : float
-        N m: of the settled bearing, positive where it brakes positive rotation.
-    heat : Heat
-        W: what that torque loses, by where it arises and what it warms.
-    gyroscopic_friction : float
-        Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls.
-    load : BearingLoad
-        What it carries, where its ring is, the loads of its balls.
-    on_shaft : bool
-        Whether it is one of a set: the shaft holds its inner ring.
-    """
+    quantities = (
+        "bearing [1] = load.number", "kind = scene.materials.kind", "speed_rpm = scene.operation.speed_rpm",
+        "preload_N = scene.mounted.preload_N", "axial_load_N = axial", "radial_load_N = radial",
+        "contact [N, rad, Pa, 1] = contacts", "displacement_m", "stiffness [N/m, N, N m/rad]",
+        "frequencies_Hz = frequencies._asdict", "film_over_roughness [1] = film", "viscosity_mm2_s",
+        "viscosity_ratio [1]", "speed_number_mm_rpm", "speed_limit_mm_rpm", "least_preload_N",
+        "rating [N, 1] = rating._asdict", "reference_life_Mrev", "friction_torque_N_m [N m]",
+        "heat_W", "gyroscopic_friction [1]",
+        Quantity("ball_loads_N", of=lambda one: dict(zip(RINGS, one.ball_loads, strict=True))),
+    )  # fmt: skip
 
     scene: Scene
+    """Of this bearing alone, without sound, imperfections and bending. Of a set its preload is what it
+    carries loose, at standstill and 20 degC without load on the shaft, by a constant force behind springs and
+    by displacement with spacers; 0 in a set without one."""
     contacts: dict[str, dict[str, float]]
+    """By ``inner`` and ``outer``: the outputs ``contact.*`` there."""
     frequencies: KinematicFrequencies
+    """Hz, as cage and balls turn in the steady state."""
     film: float
+    """Thinnest film over the composite roughness."""
     viscosity: float
+    """Kinematic viscosity of the oil, mm2/s."""
     viscosity_ratio: float
+    """That over the one ISO 281 asks for at this speed and size; NaN at standstill."""
     speed_number: float
+    """n d_m, mm r/min."""
     speed_limit: float | None
+    """Its limit for spring-loaded bearings of this angle, see `design.rating.speed_limit`."""
     least_preload: float
+    """N: below it balls skid, see `design.rating.least_preload`."""
     rating: Rating | None
+    """None where no standard rates the bearing."""
     reference_life: float | None
+    """Mrev: L10r by ISO 16281 from the loads of the balls; None where no standard rates the bearing."""
     friction_torque: float
+    """N m: of the settled bearing, positive where it brakes positive rotation."""
     heat: Heat
+    """W: what that torque loses, by where it arises and what it warms."""
     gyroscopic_friction: float
+    """Coefficient of friction that keeps a ball from turning about its gyroscopic axis, mean of the balls."""
     load: BearingLoad
+    """What it carries, where its ring is, the loads of its balls."""
     on_shaft: bool
+    """Whether it is one of a set: the shaft holds its inner ring."""
 
     @property
     def stiffness(self) -> NDArray[np.float64]:
@@ -138,60 +130,32 @@ class BearingPoint:
             return None
         return iso281.hours(self.reference_life, speed)
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
-        return {
-            "bearing": self.load.number,
-            "kind": self.scene.materials.kind,
-            "speed_rpm": self.scene.operation.speed_rpm,
-            "preload_N": self.scene.mounted.preload_N,
-            "axial_load_N": self.axial,
-            "radial_load_N": self.radial,
-            "contact": self.contacts,
-            "displacement_m": self.displacement,
-            "stiffness": self.stiffness.tolist(),
-            "frequencies_Hz": self.frequencies._asdict(),
-            "film_over_roughness": self.film,
-            "viscosity_mm2_s": self.viscosity,
-            "viscosity_ratio": self.viscosity_ratio,
-            "speed_number_mm_rpm": self.speed_number,
-            "speed_limit_mm_rpm": self.speed_limit,
-            "least_preload_N": self.least_preload,
-            "rating": None if self.rating is None else self.rating._asdict(),
-            "reference_life_Mrev": self.reference_life,
-            "friction_torque_N_m": self.friction_torque,
-            "heat_W": self.heat.summary(),
-            "gyroscopic_friction": self.gyroscopic_friction,
-            "ball_loads_N": dict(zip(RINGS, self.ball_loads.tolist(), strict=True)),
-        }
+    def at_races(self, name: str) -> dict[str, float]:
+        """Return an output ``contact.*`` by race."""
+        return {ring: found[name] for ring, found in self.contacts.items()}
 
 
 @dataclass(frozen=True)
-class OperatingPoint:
-    """A scene's bearings at their operating point, SI units.
+class OperatingPoint(Result):
+    """A scene's bearings at their operating point, SI units."""
 
-    Attributes
-    ----------
-    scene : Scene
-    bearings : tuple of BearingPoint
-        From the nose on; a single bearing is the only one.
-    statics : Statics
-        What they carry, and how stiff they hold the shaft.
-    life : float, optional
-        h: L10r of all bearings together; None where one has none, and at standstill.
-    whirl : tuple of float, optional
-        Hz, 1/s: frequency and growth of the mode by which the inner ring, or the set, whirls by itself; None
-        where none grows, or where it is not known.
-    steady : bool
-        Whether a steady state was found; else no growth is known.
-    """
+    quantities = (
+        "scene = scene.name", "speed_rpm = scene.operation.speed_rpm", "bearings = _with_ranges", "statics",
+        "heat_W", "torque_range", "life_h", "whirl_Hz_1_s", "steady",
+    )  # fmt: skip
 
     scene: Scene
     bearings: tuple[BearingPoint, ...]
+    """From the nose on; a single bearing is the only one."""
     statics: Statics
+    """What they carry, and how stiff they hold the shaft."""
     life: float | None
+    """h: L10r of all bearings together; None where one has none, and at standstill."""
     whirl: tuple[float, float] | None
+    """Hz, 1/s: frequency and growth of the mode by which the inner ring, or the set, whirls by itself; None
+    where none grows, or where it is not known."""
     steady: bool
+    """Whether a steady state was found; else no growth is known."""
 
     @property
     def heat(self) -> Heat:
@@ -214,23 +178,13 @@ class OperatingPoint:
         """That no steady state was found, that the pedestal is soft."""
         return self.statics.remarks
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
+    def _with_ranges(self) -> list[dict[str, Any]]:
+        """Return the bearings with the ranges of their torque (N m) and heat (W)."""
         found = self.torque_range
-        return {
-            "scene": self.scene.name,
-            "speed_rpm": self.scene.operation.speed_rpm,
-            "bearings": [
-                one.summary() | {"friction_torque_range_N_m": torque, "heat_range_W": found.heat(torque)}
-                for one, torque in zip(self.bearings, found.bearings, strict=True)
-            ],
-            "statics": self.statics.summary(),
-            "heat_W": self.heat.summary(),
-            "torque_range": found.summary(),
-            "life_h": self.life,
-            "whirl_Hz_1_s": self.whirl,
-            "steady": self.steady,
-        }
+        return [
+            one.summary() | {"friction_torque_range_N_m": torque, "heat_range_W": found.heat(torque)}
+            for one, torque in zip(self.bearings, found.bearings, strict=True)
+        ]
 
 
 @one_thread

@@ -8,12 +8,13 @@ to the size and the materials of the bearing. All of them are assumed.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from fmu_bearing.design.heat import Heat, heat_of
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import still_of
 from fmu_bearing.steady.rest import started
@@ -43,32 +44,29 @@ class Conductance(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Temperatures:
-    """Steady temperatures of a scene's bearings.
+class Temperatures(Result):
+    """Steady temperatures of a scene's bearings."""
 
-    Attributes
-    ----------
-    scene : Scene
-        At these temperatures.
-    ambient : float
-        degC.
-    places : dict of (int, str) to float
-        degC by bearing (1, 2, ...) and node: ``inner_ring``, ``outer_ring``, ``oil``; 0 with ``housing`` and,
-        of a set, ``shaft``.
-    low, high : dict
-        The same with all conductances `FACTOR` times as large, and as small; ``high`` is empty where there is
-        no steady state then.
-    heats : tuple of Heat
-        Of each bearing at these temperatures.
-    conductances : tuple of Conductance
-    """
+    quantities = (
+        "ambient_degC", Quantity("degC", of=lambda one: _named(one.places)),
+        Quantity("low_degC", of=lambda one: _named(one.low)),
+        Quantity("high_degC", of=lambda one: _named(one.high)), "heat_W = heats",
+        Quantity("conductances_W_K", of=lambda found: {f"{a}-{b}": v for a, b, v, _ in found.conductances}),
+    )  # fmt: skip
 
     scene: Scene
+    """At these temperatures."""
     ambient: float
+    """degC."""
     places: dict[tuple[int, str], float]
+    """degC by bearing (1, 2, ...) and node: ``inner_ring``, ``outer_ring``, ``oil``; 0 with ``housing`` and,
+    of a set, ``shaft``."""
     low: dict[tuple[int, str], float]
     high: dict[tuple[int, str], float]
+    """The same with all conductances `FACTOR` times as large, and as small; ``high`` is empty where there is
+    no steady state then."""
     heats: tuple[Heat, ...]
+    """Of each bearing at these temperatures."""
     conductances: tuple[Conductance, ...]
 
     def rows(self) -> tuple[tuple[str, ...], list[list[str]]]:
@@ -90,20 +88,12 @@ class Temperatures:
         ]
         return ("between", "W/K", "assumed"), rows
 
-    def summary(self) -> dict[str, Any]:
-        """Return all of it for machines."""
 
-        def named(places: dict[tuple[int, str], float]) -> dict[str, float]:
-            return {
-                f"bearing[{number}].{node}" if number else node: value
-                for (number, node), value in places.items()
-            }
-
-        return {
-            "ambient_degC": self.ambient, "degC": named(self.places), "low_degC": named(self.low),
-            "high_degC": named(self.high), "heat_W": [heat.summary() for heat in self.heats],
-            "conductances_W_K": {f"{one.one}-{one.other}": one.value for one in self.conductances},
-        }  # fmt: skip
+def _named(places: dict[tuple[int, str], float]) -> dict[str, float]:
+    """Return values by the names of their places."""
+    return {
+        f"bearing[{number}].{node}" if number else node: value for (number, node), value in places.items()
+    }
 
 
 def temperatures(scene: Scene, ambient: float = AMBIENT, cooling: float | None = None) -> Temperatures:

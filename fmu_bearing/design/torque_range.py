@@ -8,7 +8,7 @@ each other. Inputs are the same in all bearings of a set.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,8 @@ from fmu_bearing.design.measured import Range
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
+from fmu_bearing.results.base import Quantity, Result, table
+from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.base import Part
 from fmu_bearing.scene.bearing import Bearing, Cage
@@ -64,30 +66,34 @@ _Ends = tuple[tuple[str, _Values], tuple[str, _Values]]  # low and high: in word
 _EACH = ("inner_ring", "outer_ring", "balls")
 
 
-class End(NamedTuple):
-    """One end of an input.
+@dataclass(frozen=True)
+class End(Result):
+    """One end of an input."""
 
-    Attributes
-    ----------
-    words : str
-        The values, in the unit of the input's words.
-    values : dict
-        By dotted key, for `Scene.replace`.
-    torques : tuple of float
-        Friction torque of each bearing there, N m; empty where there is no equilibrium.
-    """
+    quantities = "values", Quantity("friction_torque_N_m [N m]", of=lambda end: end.torques or None)
 
     words: str
+    """The values, in the unit of the input's words."""
     values: _Values
+    """By dotted key, for `Scene.replace`."""
     torques: tuple[float, ...]
+    """Friction torque of each bearing there, N m; empty where there is no equilibrium."""
 
-    def summary(self) -> dict[str, Any]:
-        """Return all by name, for machines."""
-        return {"values": self.values, "friction_torque_N_m": list(self.torques) or None}
+    @property
+    def shown(self) -> str:
+        """Torque of all bearings, N mm, as people read it."""
+        return f"{1e3 * sum(self.torques):.2f}" if self.torques else "no equilibrium"
 
 
-class Input(NamedTuple):
+@dataclass(frozen=True)
+class Input(Result):
     """An input with its ends: name, what it is in words, `End` low and high."""
+
+    quantities = (
+        "low", "high", Quantity(" = words", ""), Quantity(" = low.words", "low"),
+        Quantity(" = high.words", "high"), Quantity(" = low.shown", "at low"),
+        Quantity(" = high.shown", "at high"),
+    )  # fmt: skip
 
     name: str
     words: str
@@ -96,22 +102,20 @@ class Input(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TorqueRange:
-    """The range of the friction torque of a scene's settled bearings, SI units.
+class TorqueRange(Result):
+    """The range of the friction torque of a scene's settled bearings, SI units."""
 
-    Attributes
-    ----------
-    scene : Scene
-        Without sound and imperfections.
-    torques : tuple of float
-        Of each bearing with the scene's own values, N m.
-    inputs : tuple of Input
-        Those that act in this scene.
-    """
+    quantities = (
+        "friction_torque_N_m [N m] = total", Quantity("heat_W", of=lambda one: one.heat(one.total)),
+        Quantity("inputs", of=lambda found: {one.name: one for one in found.inputs}),
+    )  # fmt: skip
 
     scene: Scene
+    """Without sound and imperfections."""
     torques: tuple[float, ...]
+    """Of each bearing with the scene's own values, N m."""
     inputs: tuple[Input, ...]
+    """Those that act in this scene."""
 
     @property
     def bearings(self) -> tuple[Range, ...]:
@@ -141,24 +145,9 @@ class TorqueRange:
         """Return the ends of each input at which there is an equilibrium."""
         return [[end for end in (one.low, one.high) if end.torques] for one in self.inputs]
 
-    def table(self) -> tuple[tuple[str, ...], list[list[str]]]:
+    def table(self) -> Table:
         """Return columns and rows for people: each input with its ends, and the torque (N mm) there."""
-        columns = ("", "low", "high", "at low", "at high")
-        ends = [(one, (one.low, one.high)) for one in self.inputs]
-        return columns, [
-            [one.words, *(end.words for end in both), *(_torque_words(end) for end in both)]
-            for one, both in ends
-        ]
-
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units, for machines."""
-        return {
-            "friction_torque_N_m": self.total,
-            "heat_W": self.heat(self.total),
-            "inputs": {
-                one.name: {"low": one.low.summary(), "high": one.high.summary()} for one in self.inputs
-            },
-        }
+        return table(Input, self.inputs)
 
 
 @one_thread
@@ -214,10 +203,6 @@ def _range(settled: float, ends: Iterable[Sequence[float]]) -> Range:
     down = math.hypot(*(min([0.0, *one]) for one in changes))
     up = math.hypot(*(max([0.0, *one]) for one in changes))
     return Range(settled - down, settled + up)
-
-
-def _torque_words(end: End) -> str:
-    return f"{1e3 * sum(end.torques):.2f}" if end.torques else "no equilibrium"
 
 
 # --- what moves each input: low and high, None where it does not act ----------------------------------------

@@ -1,10 +1,11 @@
 """A verdict: figure, limit, source of the limit, judgement, way out."""
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 from fmu_bearing.formulas import iso281
+from fmu_bearing.results.base import Result
 
 Judgement = Literal["good", "watch", "change", "not judged"]
 
@@ -16,43 +17,31 @@ ASSUMED_LIFE = 20_000.0
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """The judgement of one figure.
+class Verdict(Result):
+    """The judgement of one figure."""
 
-    Attributes
-    ----------
-    key : str
-        For machines.
-    label : str
-    value : float, optional
-        SI units, or the unit in the label.
-    text : str
-        The value as it is shown, with its unit.
-    limit : str
-        The limit in words.
-    source : str
-        Where the limit comes from.
-    judgement : str
-        ``good``, ``watch``, ``change`` or ``not judged``.
-    advice : str
-        One sentence with figure, limit and way out; empty where all is good.
-    bearing : int, optional
-        Of which bearing, from 1; None: of all together.
-    """
+    quantities = (
+        "key", "label", "value [as in the label]", "text", "limit", "source", "judgement", "advice",
+        "bearing [1]",
+    )  # fmt: skip
 
     key: str
+    """For machines."""
     label: str
     value: float | None
+    """SI units, or the unit in the label."""
     text: str
+    """The value as it is shown, with its unit."""
     limit: str
+    """The limit in words."""
     source: str
+    """Where the limit comes from."""
     judgement: Judgement
+    """``good``, ``watch``, ``change`` or ``not judged``."""
     advice: str = ""
+    """One sentence with figure, limit and way out; empty where all is good."""
     bearing: int | None = None
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the verdict by name, for machines."""
-        return asdict(self)
+    """Of which bearing, from 1; None: of all together."""
 
 
 def overall(found: Iterable[Verdict]) -> Judgement:

@@ -18,6 +18,8 @@ from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.results.base import Quantity, Result
+from fmu_bearing.results.table import tenths
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
@@ -40,39 +42,44 @@ from fmu_bearing.threads import one_thread
 
 
 @dataclass(frozen=True)
-class BearingLoad:
-    """What one bearing carries, SI units, shaft axes.
+class BearingLoad(Result):
+    """What one bearing carries, SI units, shaft axes."""
 
-    Attributes
-    ----------
-    number : int
-        From 1 at the nose; 1 for a single bearing.
-    position : float
-        m from the nose; 0 for a single bearing.
-    sign : int
-        1 where it carries axial force on the shaft towards +X, else -1.
-    force : ndarray, shape (3,)
-        Of the shaft on the bearing, N.
-    moment : ndarray, shape (2,)
-        About y and z through its centre, N m.
-    displacement : ndarray, shape (5,)
-        Of the inner ring against the outer in the bearing's own axes: m, rad.
-    stiffness : ndarray, shape (5, 5)
-        Of the bearing in its own axes, for frequency to 0, see `BearingStiffness.static`.
-    ball_loads, contact_angles, pressures : ndarray, shape (2, balls)
-        N, rad, Pa at inner and outer race, in the bearing's own axes.
-    """
+    quantities = (
+        Quantity(" = label", "bearing"), "bearing [1] = number", "carries",
+        Quantity("position_mm", "at, mm", "g", factor=1e3), Quantity("axial_N", "axial, N", tenths),
+        Quantity("force_y_N", "y, N", tenths, of=lambda one: one.force[1]),
+        Quantity("force_z_N", "z, N", tenths, of=lambda one: one.force[2]),
+        Quantity("moment_y_N_m [N m]", of=lambda one: one.moment[0]),
+        Quantity("moment_z_N_m [N m]", of=lambda one: one.moment[1]),
+        Quantity("ball_load_max_N = ball_loads.max", "ball, N", ".1f"),
+        "balls_unloaded [1] = unloaded",
+        Quantity(
+            "angle_inner_max_deg", "angle, deg", ".2f",
+            of=lambda one: math.degrees(one.contact_angles[0].max()),
+        ),
+        Quantity("pressure_inner_GPa", "inner, GPa", ".3f", of=lambda one: 1e-9 * one.pressures[0].max()),
+        Quantity("pressure_outer_GPa", "outer, GPa", ".3f", of=lambda one: 1e-9 * one.pressures[1].max()),
+    )  # fmt: skip
 
     number: int
+    """From 1 at the nose; 1 for a single bearing."""
     position: float
+    """m from the nose; 0 for a single bearing."""
     sign: int
+    """1 where it carries axial force on the shaft towards +X, else -1."""
     force: NDArray[np.float64]
+    """Of the shaft on the bearing, N. Shape (3,)."""
     moment: NDArray[np.float64]
+    """About y and z through its centre, N m. Shape (2,)."""
     displacement: NDArray[np.float64]
+    """Of the inner ring against the outer in the bearing's own axes: m, rad. Shape (5,)."""
     stiffness: NDArray[np.float64]
+    """Of the bearing in its own axes, for frequency to 0, see `BearingStiffness.static`. Shape (5, 5)."""
     ball_loads: NDArray[np.float64]
     contact_angles: NDArray[np.float64]
     pressures: NDArray[np.float64]
+    """N, rad, Pa at inner and outer race, in the bearing's own axes. Shape (2, balls)."""
 
     @property
     def axial(self) -> float:
@@ -85,49 +92,27 @@ class BearingLoad:
         return math.hypot(float(self.force[1]), float(self.force[2]))
 
     @property
+    def carries(self) -> str:
+        """Direction of the axial force on the shaft that it carries."""
+        return "+x" if self.sign > 0 else "-x"
+
+    @property
+    def label(self) -> str:
+        """Number and direction."""
+        return f"{self.number}, {self.carries}"
+
+    @property
     def unloaded(self) -> int:
         """How many balls the inner race does not touch."""
         return int(np.sum(self.ball_loads[0] <= 0.0))
 
 
 @dataclass(frozen=True)
-class Statics:
+class Statics(Result):
     """The bearings of a scene, and their shaft, in their steady state under a load, SI units.
 
     It is the state in which runs of fidelity full start, of perfect bearings with rigid rings. A single
     bearing is its own shaft: the nose is its inner ring.
-
-    Attributes
-    ----------
-    scene : Scene
-    load : ndarray, shape (5,)
-        On the shaft, moved to its nose, with weight: forces x y z (N), moments about y, z (N m).
-    displacement : ndarray, shape (5,)
-        Of the shaft at its nose: x y z (m), tilts about y, z (rad), with displacements of a housing or of
-        pedestals that move. Zero is where the preloaded set is at 20 degC and standstill, of a set that
-        carries one way and of a single bearing where balls are in line with the grooves (in runs of such a
-        set: where the load at the start puts it); thermal growth counts from the nose.
-    bearings : tuple of BearingLoad
-    stiffness : ndarray, shape (5, 5)
-        Of the shaft at its nose, the rest of it free: rows forces and moments, columns displacements and
-        tilts. Its bearings are as stiff as for frequency to 0 at their steady state.
-    nose_stiffness_bending : float
-        `nose_stiffness` with a shaft that bends in bearings as stiff as here, N/m; the same where the scene's
-        shaft bends, and for a single bearing.
-    lift_off : dict
-        By direction of an axial load alone, ``+x`` and ``-x``, the load that unloads the first bearing; empty
-        for a single bearing.
-    preloads : dict
-        Axial load (N) of each bearing without load: ``cold``, ``warm`` (standstill), ``running``. Empty for a
-        set that carries one way and a single bearing under constant force.
-    gaps : dict
-        By those states in which a single bearing with a rigid preload has none: how far (m) its balls and
-        races are apart along the axis.
-    spacing, neutral_spacing : float, optional
-        Distance (m) of both directions' bearings, and that at which warm inner rings and shaft leave the
-        preload as it is.
-    remarks : tuple of str
-        That no steady state was found, that the pedestal is soft.
 
     Examples
     --------
@@ -137,18 +122,47 @@ class Statics:
     '48 N/um, neutral spacing 63 mm'
     """
 
+    quantities = (
+        "scene = scene.name", "arrangement", "speed_rpm = scene.operation.speed_rpm", "load [N, N m]",
+        "displacement [m, rad]", "bearings", "stiffness [N/m, N, N m/rad]", "axial_stiffness_N_m",
+        "radial_stiffness_N_m", "tilt_stiffness_N_m_rad", "nose_stiffness_N_m", "nose_stiffness_bending_N_m",
+        Quantity("lift_off [N]", of=lambda found: {
+            way: {"load_N": one.load, "bearing": one.bearing} for way, one in found.lift_off.items()
+        }),
+        "preloads_N", "gaps_m", "spacing_m", "neutral_spacing_m", "cautions",
+    )  # fmt: skip
+
     scene: Scene
     load: NDArray[np.float64]
+    """On the shaft, moved to its nose, with weight: forces x y z (N), moments about y, z (N m). Shape (5,).
+    """
     displacement: NDArray[np.float64]
+    """Of the shaft at its nose: x y z (m), tilts about y, z (rad), with displacements of a housing or of
+    pedestals that move. Zero is where the preloaded set is at 20 degC and standstill, of a set that carries
+    one way and of a single bearing where balls are in line with the grooves (in runs of such a set: where the
+    load at the start puts it); thermal growth counts from the nose. Shape (5,)."""
     bearings: tuple[BearingLoad, ...]
     stiffness: NDArray[np.float64]
+    """Of the shaft at its nose, the rest of it free: rows forces and moments, columns displacements and
+    tilts. Its bearings are as stiff as for frequency to 0 at their steady state. Shape (5, 5)."""
     nose_stiffness_bending: float
+    """`nose_stiffness` with a shaft that bends in bearings as stiff as here, N/m; the same where the scene's
+    shaft bends, and for a single bearing."""
     lift_off: dict[str, LiftOff]
+    """By direction of an axial load alone, ``+x`` and ``-x``, the load that unloads the first bearing; empty
+    for a single bearing."""
     preloads: dict[str, list[float]]
+    """Axial load (N) of each bearing without load: ``cold``, ``warm`` (standstill), ``running``. Empty for a
+    set that carries one way and a single bearing under constant force."""
     gaps: dict[str, float]
+    """By those states in which a single bearing with a rigid preload has none: how far (m) its balls and
+    races are apart along the axis."""
     spacing: float | None
     neutral_spacing: float | None
+    """Distance (m) of both directions' bearings, and that at which warm inner rings and shaft leave the
+    preload as it is."""
     remarks: tuple[str, ...]
+    """That no steady state was found, that the pedestal is soft."""
 
     @property
     def arrangement(self) -> str:
@@ -176,51 +190,13 @@ class Statics:
         """Force along z at the nose per displacement there, the shaft free, N/m."""
         return _at_nose(self.stiffness)
 
+    def records(self) -> tuple[BearingLoad, ...]:
+        """Return the bearings."""
+        return self.bearings
+
     def table(self) -> list[dict[str, Any]]:
         """Return a row per bearing, units in the names."""
-        return [
-            {
-                "bearing": one.number,
-                "position_mm": 1e3 * one.position,
-                "carries": "+x" if one.sign > 0 else "-x",
-                "axial_N": one.axial,
-                "force_y_N": float(one.force[1]),
-                "force_z_N": float(one.force[2]),
-                "moment_y_N_m": float(one.moment[0]),
-                "moment_z_N_m": float(one.moment[1]),
-                "ball_load_max_N": float(one.ball_loads.max()),
-                "balls_unloaded": one.unloaded,
-                "angle_inner_max_deg": math.degrees(float(one.contact_angles[0].max())),
-                "pressure_inner_GPa": 1e-9 * float(one.pressures[0].max()),
-                "pressure_outer_GPa": 1e-9 * float(one.pressures[1].max()),
-            }
-            for one in self.bearings
-        ]
-
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, SI units but where a name ends in a unit, for machines."""
-        return {
-            "scene": self.scene.name,
-            "arrangement": self.arrangement,
-            "speed_rpm": self.scene.operation.speed_rpm,
-            "load": self.load.tolist(),
-            "displacement": self.displacement.tolist(),
-            "bearings": self.table(),
-            "stiffness": self.stiffness.tolist(),
-            "axial_stiffness_N_m": self.axial_stiffness,
-            "radial_stiffness_N_m": self.radial_stiffness,
-            "tilt_stiffness_N_m_rad": self.tilt_stiffness,
-            "nose_stiffness_N_m": self.nose_stiffness,
-            "nose_stiffness_bending_N_m": self.nose_stiffness_bending,
-            "lift_off": {
-                way: {"load_N": one.load, "bearing": one.bearing} for way, one in self.lift_off.items()
-            },
-            "preloads_N": self.preloads,
-            "gaps_m": self.gaps,
-            "spacing_m": self.spacing,
-            "neutral_spacing_m": self.neutral_spacing,
-            "cautions": self.cautions(),
-        }
+        return [one.summary() for one in self.bearings]
 
     def cautions(self) -> list[str]:
         """Return what a designer should look at, one line each."""

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from fmu_bearing.steady.stiffness.ross import write
 from fmu_bearing.steady.stiffness.stiffness_files import dataset, save
@@ -59,16 +59,15 @@ class BearingStiffness(StiffnessTable):
     ((2, 1, 2, 5, 5), '159 N/um')
     """
 
+    quantities = (
+        "bearing [1] = number", "K [N/m, N, N m/rad]", "C [N s/m, N s, N m s/rad]",
+        "static [N/m, N, N m/rad]",
+        "f_c_Hz = orbit", "spread [1]", "steady", "against_static [1]",
+    )  # fmt: skip
+
     def cautions(self) -> list[str]:
         """Return what limits these numbers, in sentences."""
         return [*limits_of(self)]
-
-    def summary(self) -> dict[str, Any]:
-        """Return the numbers by name, SI units, for machines."""
-        return {
-            "bearing": self.number, "K": self.K, "C": self.C, "static": self.static, "f_c_Hz": self.orbit,
-            "spread": self.spread, "steady": self.steady, "against_static": self.against_static(),
-        }  # fmt: skip
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return all as a dataset over speed, preload and frequency, the scene as TOML text in ``scene``.

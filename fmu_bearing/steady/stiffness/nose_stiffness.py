@@ -3,13 +3,15 @@
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.picture_parts import empty, label, marked
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import Scene
@@ -32,24 +34,26 @@ _PANELS = 4  # the first of them
 
 
 @dataclass(frozen=True)
-class NoseStiffness:
-    """Stiffness of a set's shaft at its nose over speed and preload, under the scene's load.
+class NoseStiffness(Result):
+    """Stiffness of a set's shaft at its nose over speed and preload, under the scene's load."""
 
-    Attributes
-    ----------
-    scene : Scene
-    speeds : ndarray
-        r/min.
-    preloads : ndarray
-        N: of spacers, or the force of springs; 0 alone for a set without preload.
-    points : tuple of tuple of Statics
-        By speed, then by preload.
-    """
+    quantities = (
+        "static [N/m, N, N m/rad]",
+        *(
+            Quantity(
+                f"{key} [{'N m/rad' if key == 'tilt_stiffness' else 'N/m'}]", of=methodcaller("named", key)
+            )
+            for _, key, _, _ in NAMED
+        ),
+    )
 
     scene: Scene
     speeds: NDArray[np.float64]
+    """r/min."""
     preloads: NDArray[np.float64]
+    """N: of spacers, or the force of springs; 0 alone for a set without preload."""
     points: tuple[tuple[Statics, ...], ...]
+    """By speed, then by preload."""
 
     @property
     def static(self) -> NDArray[np.float64]:
@@ -115,7 +119,3 @@ class NoseStiffness:
         """Return what a designer should look at, each line once."""
         lines = (line for row in self.points for one in row for line in one.cautions())
         return list(dict.fromkeys(lines))
-
-    def summary(self) -> dict[str, Any]:
-        """Return the numbers by name, SI units, for machines."""
-        return {"static": self.static, **{key: self.named(key) for _, key, _, _ in NAMED}}

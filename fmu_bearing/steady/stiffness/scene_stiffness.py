@@ -15,6 +15,7 @@ from fmu_bearing.modal.equations.bearing import BearingLinearised
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.modes.points import given
 from fmu_bearing.progress import keeping
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.member import still_of
@@ -34,22 +35,8 @@ FREQUENCIES = tuple(float(f"{value:.3g}") for value in np.geomspace(50.0, 10e3, 
 
 
 @dataclass(frozen=True)
-class Stiffness:
+class Stiffness(Result):
     """Stiffness of a scene's bearings, and of the shaft that they hold, over speed and preload.
-
-    Attributes
-    ----------
-    scene : Scene
-    speeds : ndarray
-        r/min, rising.
-    preloads : ndarray
-        N, rising: of a single bearing, of spacers, or the force of springs; 0 alone for a set without.
-    frequencies : ndarray
-        Hz, rising: of the bearings' tables.
-    bearings : tuple of BearingStiffness
-        Stiffness and damping of each bearing, in its own axes.
-    nose : NoseStiffness, optional
-        Static stiffness of the shaft at its nose; None for a single bearing.
 
     Examples
     --------
@@ -61,12 +48,22 @@ class Stiffness:
     '33.4 N/um'
     """
 
+    quantities = (
+        "scene = scene.name", "speeds_rpm", "preloads_N", "frequencies_Hz",
+        Quantity("spacing", of=lambda found: found.bearings[0].spacing), "bearings", "nose", "cautions",
+    )  # fmt: skip
+
     scene: Scene
     speeds: NDArray[np.float64]
+    """r/min, rising."""
     preloads: NDArray[np.float64]
+    """N, rising: of a single bearing, of spacers, or the force of springs; 0 alone for a set without."""
     frequencies: NDArray[np.float64]
+    """Hz, rising: of the bearings' tables."""
     bearings: tuple[BearingStiffness, ...]
+    """Stiffness and damping of each bearing, in its own axes."""
     nose: NoseStiffness | None
+    """Static stiffness of the shaft at its nose; None for a single bearing."""
 
     def named(self, attribute: str) -> NDArray[np.float64]:
         """Return a stiffness at the nose, ``nose_stiffness.NAMED``, by its attribute of `Statics`, SI units.
@@ -128,15 +125,6 @@ class Stiffness:
             Without Matplotlib.
         """
         return self.bearings[0].picture() if self.nose is None else self.nose.picture()
-
-    def summary(self) -> dict[str, Any]:
-        """Return all numbers by name, SI units, for machines."""
-        return {
-            "scene": self.scene.name, "speeds_rpm": self.speeds, "preloads_N": self.preloads,
-            "frequencies_Hz": self.frequencies, "spacing": self.bearings[0].spacing,
-            "bearings": [one.summary() for one in self.bearings],
-            "nose": None if self.nose is None else self.nose.summary(), "cautions": self.cautions(),
-        }  # fmt: skip
 
 
 @one_thread

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
-from fmu_bearing.files import write_whole
-from fmu_bearing.results.result import check_target, written
+from fmu_bearing.results.base import write_netcdf
+from fmu_bearing.results.result import check_target
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
@@ -31,8 +31,7 @@ def save(found: StiffnessTable, path: str | os.PathLike[str]) -> Path:
     if target.suffix == ".csv":
         write_csv(target, columns(), list(_rows(found)))
         return target
-    data = dataset(found)
-    return write_whole(target, written(lambda file: data.to_netcdf(file, engine="h5netcdf"), ".nc"))
+    return write_netcdf(target, dataset(found))
 
 
 def columns() -> list[str]:

@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.results.base import Result
 from fmu_bearing.scene import Scene
 from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, pairs, shares
 
@@ -14,7 +15,7 @@ Spacing = Literal["held", "free"]
 
 
 @dataclass(frozen=True)
-class StiffnessTable:
+class StiffnessTable(Result):
     """Numbers of `BearingStiffness`, which describes them, and adds files and a picture."""
 
     scene: Scene

@@ -44,8 +44,6 @@ Speeds = Annotated[
     ),
 ]
 _FILES = ("modes.csv", "campbell.csv", "crossings.csv", "campbell.png", "shaft.png", "modes.html")
-_LARGEST = 3  # shares named in a row
-_LEAST = 0.05  # of the kinetic energy: smaller shares are left out
 
 
 @app.command()
@@ -118,71 +116,50 @@ def modes(
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:
+    from fmu_bearing.modal.modes.mode import Mode
+    from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
 
     typer.echo(
         f"{found.scene.name}: {found.scene.bearing.designation}, {found.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
-    rows = [
-        [
-            f"{row['frequency_Hz']:,.1f}", f"{100.0 * row['damping_ratio']:.2f}", row["direction"] or "-",
-            row["name"] + (f" ({row['remark']})" if row["remark"] else ""), _shares(row["participation"]),
-        ]
-        for row in found.table(highest)
-    ]  # fmt: skip
-    show("modes", ("Hz", "damping, %", "whirl", "what moves most", "kinetic energy, %"), rows)
-
-
-def _shares(participation: dict[str, float]) -> str:
-    """Return the largest shares of a mode in text."""
-    largest = [(name, share) for name, share in participation.items() if share >= _LEAST][:_LARGEST]
-    return ", ".join(f"{name} {100.0 * share:.0f}" for name, share in largest)
+    show("modes", *table(Mode, found.rows(highest)))
 
 
 def _show_crossings(diagram: "Campbell") -> None:
+    from fmu_bearing.modal.campbell.diagram import Crossing
+    from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
 
     counted = diagram.crossings(in_scene=True)
-    rows = [
-        [
-            f"{one.rpm:,.0f}", f"{one.frequency:,.0f}", one.branch.label, f"{100.0 * one.damping:.2f}",
-            one.line.name, f"{one.line.source} {one.line.surface_order or ''}".rstrip(),
-        ]
-        for one in counted
-    ]  # fmt: skip
-    columns = ("r/min", "Hz", "mode", "damping, %", "line", "made by, order")
-    if rows:
-        show("crossings within 20 dB of the largest", columns, rows)
-    typer.echo(f"{len(diagram.crossings())} crossings, {len(rows)} of them count. {diagram.verdict()}")
+    if counted:
+        show("crossings within 20 dB of the largest", *table(Crossing, counted))
+    typer.echo(f"{len(diagram.crossings())} crossings, {len(counted)} of them count. {diagram.verdict()}")
 
 
 def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict[str, Any]:
-    result: dict[str, Any] = {
-        "scene": found.scene.name, "speed_rpm": found.rpm, "modes": found.table(highest),
-        "apart": found.table(highest, apart=True), "cautions": found.cautions(),
+    result = found.summary() | {
+        "modes": found.table(highest), "apart": found.table(highest, apart=True),
     }  # fmt: skip
     if diagram is not None:
-        result |= {
-            "campbell": diagram.table(),
-            "crossings": [one.as_dict() for one in diagram.crossings()],
-            "verdict": diagram.verdict(),
-            "cautions": list(dict.fromkeys(found.cautions() + diagram.cautions())),
-        }
+        result |= diagram.summary()
+        result["cautions"] = list(dict.fromkeys(found.cautions() + diagram.cautions()))
     return result
 
 
 def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list[Path]) -> None:
     """Write tables, and for a diagram its picture and page; add each to the files."""
+    from fmu_bearing.results.base import write_rows
     from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)
-    files.append(_csv(folder / "modes.csv", [_flat(row) for row in found.table()]))
+    files.append(write_rows(folder / "modes.csv", found.records()))
     if diagram is None:
         tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
         return
-    files.append(_csv(folder / "campbell.csv", diagram.table()))
-    files.append(_csv(folder / "crossings.csv", [one.as_dict() for one in diagram.crossings()]))
+    files.append(write_rows(folder / "campbell.csv", diagram.table()))
+    files.append(write_rows(folder / "crossings.csv", diagram.crossings()))
     if available("matplotlib", "a picture", "no campbell.png", tell):
         save(diagram.picture(), folder / "campbell.png")
         files.append(folder / "campbell.png")
@@ -195,19 +172,3 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list
         from fmu_bearing.reports.modes.modes_section import modes_page
 
         files.append(modes_page(diagram, folder / "modes.html", found))
-
-
-def _flat(row: dict[str, Any]) -> dict[str, Any]:
-    return {key: _shares(value) if isinstance(value, dict) else value for key, value in row.items()}
-
-
-def _csv(path: Path, rows: list[dict[str, Any]]) -> Path:
-    from fmu_bearing.results.table import write_csv
-
-    columns = list(rows[0]) if rows else []
-    write_csv(path, columns, [[_cell(row[key]) for key in columns] for row in rows])
-    return path
-
-
-def _cell(value: Any) -> str:
-    return f"{value:.9g}" if isinstance(value, float) else str(value)

@@ -14,6 +14,7 @@ from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.modal.modes.energies import NEITHER
 from fmu_bearing.modal.modes.mode import MARGIN, MOVES, Mode
 from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
 
 WITHIN = 20.0  # dB below the largest: crossings that count
@@ -49,45 +50,40 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class Crossing:
-    """A speed at which an excitation has the frequency of a mode that it can move.
+class Crossing(Result):
+    """A speed at which an excitation has the frequency of a mode that it can move."""
 
-    Attributes
-    ----------
-    rpm, frequency, damping : float
-        r/min, Hz, damping ratio.
-    branch : Branch
-    line : Line
-    velocity : float
-        m/s: amplitude of the surface times angular frequency times Q, an estimate that ranks crossings; 0
-        where the scene does not contain the line.
-    """
+    quantities = (
+        Quantity("speed_rpm = rpm", "r/min", ",.0f"), Quantity("frequency_Hz", "Hz", ",.0f"),
+        Quantity(" = branch.label", "mode"),
+        Quantity("damping_ratio [1] = damping", "damping, %", ".2f", 100.0), "mode = branch.name",
+        "direction = branch.direction", Quantity("line = line.name", "line"), "source = line.source",
+        "surface_order [1] = line.surface_order", "in_scene = line.present",
+        Quantity("velocity_um_s", factor=1e6),
+        Quantity("", "made by, order", of=lambda c: f"{c.line.source} {c.line.surface_order or ''}".rstrip()),
+    )  # fmt: skip
 
     rpm: float
     frequency: float
     damping: float
+    """r/min, Hz, damping ratio."""
     branch: Branch
     line: Line
     velocity: float
+    """m/s: amplitude of the surface times angular frequency times Q, an estimate that ranks crossings; 0
+    where the scene does not contain the line."""
 
     @property
     def quality(self) -> float:
         """Q, 1/(2 zeta)."""
         return 0.5 / self.damping if self.damping > 0.0 else math.inf
 
-    def as_dict(self) -> dict[str, Any]:
-        """Numbers and names, for tables."""
-        return {
-            "speed_rpm": self.rpm, "frequency_Hz": self.frequency, "damping_ratio": self.damping,
-            "mode": self.branch.name, "direction": self.branch.direction, "line": self.line.name,
-            "source": self.line.source, "surface_order": self.line.surface_order,
-            "in_scene": self.line.present, "velocity_um_s": 1e6 * self.velocity,
-        }  # fmt: skip
-
 
 @dataclass(frozen=True)
-class Diagram:
+class Diagram(Result):
     """Branches, lines and crossings over speed; `Campbell` describes them, and adds the picture."""
+
+    quantities = "campbell = table", "crossings", "verdict"
 
     scene: Scene
     points: tuple[Modes, ...]
@@ -192,6 +188,10 @@ class Diagram:
             for branch in self.branches
             for rpm, frequency, damping in zip(branch.rpm, branch.frequency, branch.damping, strict=True)
         ]  # fmt: skip
+
+    def records(self) -> list[Crossing]:
+        """Return `crossings`."""
+        return self.crossings()
 
 
 def is_of_rings(mode: Mode) -> bool:

@@ -20,10 +20,10 @@ from fmu_bearing.modal.modes.mode import (
     Mode,
     grouped,
     groups_of,
-    row_of,
     weak_words,
 )
 from fmu_bearing.modal.modes.mode_shape import Shape, shape
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
 
 if TYPE_CHECKING:
@@ -33,22 +33,8 @@ STICKING = 1e-3  # of a revolution per second: slower, contacts stick
 
 
 @dataclass(frozen=True)
-class Modes:
+class Modes(Result):
     """Modes of a bearing, or of a set, at one operating point.
-
-    Attributes
-    ----------
-    scene : Scene
-    rpm : float
-        Speed (r/min).
-    modes : tuple of Mode
-        The ones that ring, by frequency; of a set the ones in which shaft, housing or rings move.
-    apart : tuple of Mode
-        Neutral and overdamped motions, which show as no peak; of a set motions of balls alone, too.
-    linearised : Linearised
-        The equations they belong to.
-    friction : bool
-        Whether contacts have friction.
 
     Examples
     --------
@@ -59,12 +45,22 @@ class Modes:
     ('inner radial', 1, True)
     """
 
+    quantities = (
+        "scene = scene.name", "speed_rpm = rpm", "modes = table",
+        Quantity("apart", of=lambda found: found.table(apart=True)), "cautions",
+    )  # fmt: skip
+
     scene: Scene
     rpm: float
+    """Speed (r/min)."""
     modes: tuple[Mode, ...]
+    """The ones that ring, by frequency; of a set the ones in which shaft, housing or rings move."""
     apart: tuple[Mode, ...]
+    """Neutral and overdamped motions, which show as no peak; of a set motions of balls alone, too."""
     linearised: Linearised
+    """The equations they belong to."""
     friction: bool = True
+    """Whether contacts have friction."""
 
     def near(self, frequency: float) -> Mode:
         """Return the mode nearest to a frequency (Hz), by ratio."""
@@ -171,7 +167,11 @@ class Modes:
         return found
 
     def table(self, highest: float = 50e3, apart: bool = False) -> list[dict[str, Any]]:
-        """Return rows: frequency (Hz), damping ratio, order, direction, name, kinetic energy, remark.
+        """Return `rows` by name: frequency (Hz), damping ratio, order, direction, kinetic energy, remark."""
+        return [one.summary() for one in self.rows(highest, apart)]
+
+    def rows(self, highest: float = 50e3, apart: bool = False) -> list[Mode]:
+        """Return the modes that a table has.
 
         Rows of balls alone that differ by their order only are one row.
 
@@ -183,15 +183,19 @@ class Modes:
             The neutral and overdamped motions instead.
         """
         chosen = [mode for mode in (self.apart if apart else self.modes) if mode.frequency <= highest]
-        rows = []
+        rows: list[Mode] = []
         alone: list[Mode] = []
         for mode in chosen:
             if mode.name.startswith("ball") and mode.order > 1 and mode.order not in self._bent:
                 alone.append(mode)
             else:
-                rows.append(row_of(mode))
+                rows.append(mode)
         rows += [grouped(group) for group in groups_of(alone)]
-        return sorted(rows, key=lambda row: row["frequency_Hz"])
+        return sorted(rows, key=lambda row: row.frequency)
+
+    def records(self) -> list[Mode]:
+        """Return `rows`."""
+        return self.rows()
 
     def modal_assurance(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
         """Return the modal assurance criterion of modes before against modes now, by kinetic energy."""

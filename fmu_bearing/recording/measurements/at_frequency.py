@@ -1,7 +1,6 @@
 """Which source makes the noise at a frequency: by component, and by the line that is strongest round it."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +10,8 @@ from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.measurements.measure import known_lines, strongest
 from fmu_bearing.recording.measurements.sound_analysis import SoundAnalysis
+from fmu_bearing.results.base import Quantity, Result
+from fmu_bearing.results.table import Table
 
 #: What a kinematic frequency arises from, by its carrier.
 _ARISES = {
@@ -24,39 +25,44 @@ _ARISES = {
 
 
 @dataclass(frozen=True)
-class NoiseAt:
-    """Who makes the noise in the third octave that holds a frequency.
+class NoiseAt(Result):
+    """Who makes the noise in the third octave that holds a frequency."""
 
-    Attributes
-    ----------
-    frequency, band : float
-        Hz: the one asked for, and the nominal centre of its third octave.
-    names : tuple of str
-        Microphones.
-    levels : dict of str to ndarray, shape (mics,)
-        Level (dB) in the third octave, in total and of each component alone.
-    line : Line, optional
-        The strongest line in the band at the microphone that is loudest there; None where none stands out.
-    nearest : KinematicLine, optional
-        The kinematic frequency nearest to that line, or to the frequency; None where the bearing is unknown.
-    excitation_end : float, optional
-        Hz: above it no surface of the scene excites the bearing.
-    """
+    quantities = (
+        "frequency_Hz", "third_octave_Hz = band", Quantity("levels_dB", of=lambda one: {
+            name: {source: row[k] for source, row in one.levels.items()} for k, name in enumerate(one.names)
+        }),
+        Quantity("line [Hz, dB]", of=lambda one: None if one.line is None else {
+            "frequency_Hz": one.line.frequency, "level_dB": one.line.level,
+            "explained_by": one.line.name, "fits": one.line.fits,
+        }),
+        Quantity("nearest [Hz]", of=lambda one: None if one.nearest is None else {
+            "frequency_Hz": one.nearest.frequency, "name": one.nearest.name,
+        }),
+        "words = sentences",
+    )  # fmt: skip
 
     frequency: float
     band: float
+    """Hz: the one asked for, and the nominal centre of its third octave."""
     names: tuple[str, ...]
+    """Microphones."""
     levels: dict[str, NDArray[np.float64]]
+    """Level (dB) in the third octave, in total and of each component alone. Shape (mics,)."""
     line: Line | None
+    """The strongest line in the band at the microphone that is loudest there; None where none stands out."""
     nearest: KinematicLine | None
+    """The kinematic frequency nearest to that line, or to the frequency; None where the bearing is unknown.
+    """
     excitation_end: float | None
+    """Hz: above it no surface of the scene excites the bearing."""
 
     @property
     def loudest(self) -> int:
         """Place of the microphone that is loudest in the band."""
         return int(np.argmax(self.levels["total"]))
 
-    def rows(self) -> tuple[list[str], list[list[str]]]:
+    def rows(self) -> Table:
         """Columns and rows of a table for people; what is below 0 dB is a dash."""
         columns = ["microphone", *(f"{name.replace('_', ' ')}, dB" for name in self.levels)]
         shown = [
@@ -100,25 +106,6 @@ class NoiseAt:
                 f"{'below' if away > 0.0 else 'above'}: {_source(self.nearest.name)}"
             )
         return found
-
-    def summary(self) -> dict[str, Any]:
-        """Return all of it for machines."""
-        return {
-            "frequency_Hz": self.frequency,
-            "third_octave_Hz": self.band,
-            "levels_dB": {
-                name: {source: float(row[k]) for source, row in self.levels.items()}
-                for k, name in enumerate(self.names)
-            },
-            "line": None if self.line is None else {
-                "frequency_Hz": self.line.frequency, "level_dB": self.line.level,
-                "explained_by": self.line.name, "fits": self.line.fits,
-            },
-            "nearest": None if self.nearest is None else {
-                "frequency_Hz": self.nearest.frequency, "name": self.nearest.name,
-            },
-            "words": self.sentences(),
-        }  # fmt: skip
 
 
 def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) -> NoiseAt:

@@ -23,8 +23,9 @@ from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.channels.sources import centre_of
 from fmu_bearing.recording.measurements import measure, tables
+from fmu_bearing.results.base import Result, write_netcdf
 from fmu_bearing.results.levels import decibels
-from fmu_bearing.results.table import markdown, write_csv
+from fmu_bearing.results.table import Table, markdown, write_csv
 
 if TYPE_CHECKING:
     import xarray
@@ -38,45 +39,31 @@ _BLOCKS = 8  # of them, one after the other
 
 
 @dataclass(frozen=True)
-class SoundAnalysis:
-    """Levels, spectra and lines at the microphones of a recording.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Microphones.
-    levels : ndarray, shape (mics, 2)
-        Equivalent level in dB and dB(A), as `ChannelHistory.levels` computes it.
-    parts : dict of str to ndarray, shape (mics,)
-        Level (dB(A)) of each component alone; empty for a recording of pressures.
-    frequency : ndarray, shape (bins,)
-        In Hz.
-    spectra : dict of str to ndarray, shape (mics, bins)
-        Levels (dB) of the total and of each component.
-    bands : ndarray, shape (bands,)
-        Centres of third octaves (Hz).
-    third_octaves : ndarray, shape (mics, bands)
-        In dB.
-    third_octave_parts : dict of str to ndarray, shape (mics, bands)
-        Those (dB) of each component alone; empty for a recording of pressures.
-    lines : list of Line
-        Strongest lines at the first microphone; empty where the bearing is not known or the speed changes.
-    positions : tuple of (x, y, z)
-        Places (m) of the microphones.
-    """
+class SoundAnalysis(Result):
+    """Levels, spectra and lines at the microphones of a recording."""
 
     names: tuple[str, ...]
+    """Microphones."""
     levels: NDArray[np.float64]
+    """Equivalent level in dB and dB(A), as `ChannelHistory.levels` computes it. Shape (mics, 2)."""
     parts: dict[str, NDArray[np.float64]]
+    """Level (dB(A)) of each component alone; empty for a recording of pressures. Shape (mics,)."""
     frequency: NDArray[np.float64]
+    """In Hz. Shape (bins,)."""
     spectra: dict[str, NDArray[np.float64]]
+    """Levels (dB) of the total and of each component. Shape (mics, bins)."""
     bands: NDArray[np.float64]
+    """Centres of third octaves (Hz). Shape (bands,)."""
     third_octaves: NDArray[np.float64]
+    """In dB. Shape (mics, bands)."""
     third_octave_parts: dict[str, NDArray[np.float64]]
+    """Those (dB) of each component alone; empty for a recording of pressures. Shape (mics, bands)."""
     lines: list[Line]
+    """Strongest lines at the first microphone; empty where the bearing is not known or the speed changes."""
     positions: tuple[Position, ...]
+    """Places (m) of the microphones."""
 
-    def rows(self) -> tuple[list[str], list[list[str]]]:
+    def rows(self) -> Table:
         """Columns and rows of a table of levels; a dash for a component that is silent."""
         rows = [
             [name, *(decibels(float(value)) for value in (z, a, *(part[k] for part in self.parts.values())))]
@@ -240,7 +227,7 @@ def write_all(
         files += _directivity(recording, found, folder, radiation_model, drawn, tell)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
     if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
-        found.to_xarray().to_netcdf(folder / "spectra.nc", engine="h5netcdf")
+        write_netcdf(folder / "spectra.nc", found.to_xarray())
         files.append("spectra.nc")
     return [folder / file for file in files]
 

@@ -14,7 +14,6 @@ from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.extras import need
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.measurements import pictures
-from fmu_bearing.recording.measurements.tables import Table
 from fmu_bearing.recording.record import DURATION, record
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.comparison_data import (
@@ -26,8 +25,9 @@ from fmu_bearing.recording.studies.comparison_data import (
     of_run,
 )
 from fmu_bearing.recording.studies.finding import SEEDS, Finding, judged
+from fmu_bearing.results.base import Result
 from fmu_bearing.results.result import ENDINGS, Run
-from fmu_bearing.results.table import write_csv
+from fmu_bearing.results.table import Table, html_table, write_csv
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
@@ -46,21 +46,15 @@ _BLANK = "-"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Comparison:
-    """Two finished runs, A and B; differences are B minus A.
-
-    Attributes
-    ----------
-    a, b : ComparisonData
-        What was measured on each: names, levels, spectra, third octaves, figures.
-    keys : dict of str to (value of A, value of B)
-        Keys in which the scenes differ, in the units of the keys; None where a scene has no such key. Empty
-        where a scene is not known.
-    """
+class Comparison(Result):
+    """Two finished runs, A and B; differences are B minus A."""
 
     a: ComparisonData
     b: ComparisonData
+    """What was measured on each: names, levels, spectra, third octaves, figures."""
     keys: dict[str, tuple[Any, Any]]
+    """Keys in which the scenes differ, in the units of the keys; None where a scene has no such key. Empty
+    where a scene is not known."""
 
     @property
     def microphones(self) -> list[str]:
@@ -253,13 +247,7 @@ class Comparison:
     def _repr_html_(self) -> str:
         lines = (f"{self!r}; {self.conditions()}; differences are B minus A", *self.doubts())
         parts = [f"<p>{html.escape(line)}</p>" for line in lines]
-        for title, (columns, rows) in self.tables().items():
-            head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
-            body = "".join(
-                "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
-            )
-            parts.append(f"<table><caption>{html.escape(title)}</caption><tr>{head}</tr>{body}</table>")
-        return "".join(parts)
+        return "".join(parts + [html_table(title, *table) for title, table in self.tables().items()])
 
     def _common_microphone(self, microphone: str | None) -> str:
         """Name of a microphone that both have."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -10,6 +9,7 @@ from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.modal.campbell.weak import weakness
 from fmu_bearing.recording.studies.comparison_data import ComparisonData
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
@@ -20,24 +20,21 @@ _LEAST = 0.1  # dB: what tables show of a level
 
 
 @dataclass(frozen=True)
-class Finding:
-    """What is known of the difference of two levels at a microphone.
+class Finding(Result):
+    """What is known of the difference of two levels at a microphone."""
 
-    Attributes
-    ----------
-    microphone : str
-    measured : float
-        B minus A, dB(A), of the runs that are compared.
-    drawn : tuple of float
-        The same of short runs, dB(A), one for each seed; empty where there are none.
-    reason : str
-        Why it is not judged; empty: it is.
-    """
+    quantities = (
+        "microphone", "measured_dBA", "drawn_dBA", Quantity("least_dB", of=lambda _: _LEAST), "is_finding",
+        "words",
+    )  # fmt: skip
 
     microphone: str
     measured: float
+    """B minus A, dB(A), of the runs that are compared."""
     drawn: tuple[float, ...] = ()
+    """The same of short runs, dB(A), one for each seed; empty where there are none."""
     reason: str = ""
+    """Why it is not judged; empty: it is."""
 
     @property
     def is_finding(self) -> bool | None:
@@ -58,13 +55,6 @@ class Finding:
             f"the same for A and B, differ by {min(self.drawn):+.1f} to {max(self.drawn):+.1f} dB(A) in "
             f"fidelity {_FIDELITY}; a finding is {_LEAST:g} dB or more and has one sign with every seed."
         )
-
-    def summary(self) -> dict[str, Any]:
-        """Return it by name, for machines."""
-        return {
-            "microphone": self.microphone, "measured_dBA": self.measured, "drawn_dBA": list(self.drawn),
-            "least_dB": _LEAST, "is_finding": self.is_finding, "words": self.words(),
-        }  # fmt: skip
 
 
 def judged(

@@ -22,6 +22,8 @@ from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_model
+from fmu_bearing.results.base import Result
+from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import ASSUMED_EXPONENTS, Imperfections
 from fmu_bearing.scene.read import with_fidelity
@@ -40,51 +42,38 @@ _DRAWS_FULL = 6  # with fidelity full: 71 %
 
 
 @dataclass(frozen=True)
-class Spread:
-    """Range of levels over seeds and the assumed surface law.
+class Spread(Result):
+    """Range of levels over seeds and the assumed surface law."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Microphones.
-    weighting : str
-        ``"A"`` or ``"Z"``.
-    levels : ndarray, shape (mics,)
-        The levels in question (dB).
-    low, high : ndarray, shape (mics,)
-        Their range over all draws.
-    seeds, exponent, amplitude : ndarray, shape (mics,)
-        Range (dB) over the seeds; change from the lower to the higher exponent p, and over a factor of 4 in
-        A_1 and the form of the balls.
-    sources : dict of str to ndarray, shape (mics,)
-        Share of the energy that each imperfection makes alone, by name.
-    line : float
-        Frequency (Hz) of the strongest line at the loudest microphone.
-    stays : tuple of int
-        In how many draws, of how many, that line stays the strongest.
-    drawn : int
-        How many other seeds were drawn.
-    doubt, weak : str
-        Why the levels in question are in doubt; which weakly damped mode made fidelity full draw the range.
-    surface : int
-        How many draws of a surface that was found make the range; 0: the law is assumed.
-    """
+    quantities = "strongest_line_Hz = line", "line_stays_in_draws [1] = stays", "doubt"
 
     names: tuple[str, ...]
+    """Microphones."""
     weighting: str
+    """``"A"`` or ``"Z"``."""
     levels: NDArray[np.float64]
+    """The levels in question (dB). Shape (mics,)."""
     low: NDArray[np.float64]
     high: NDArray[np.float64]
+    """Their range over all draws. Shape (mics,)."""
     seeds: NDArray[np.float64]
     exponent: NDArray[np.float64]
     amplitude: NDArray[np.float64]
+    """Range (dB) over the seeds; change from the lower to the higher exponent p, and over a factor of 4 in
+    A_1 and the form of the balls. Shape (mics,)."""
     sources: dict[str, NDArray[np.float64]]
+    """Share of the energy that each imperfection makes alone, by name. Shape (mics,)."""
     line: float
+    """Frequency (Hz) of the strongest line at the loudest microphone."""
     stays: tuple[int, int]
+    """In how many draws, of how many, that line stays the strongest."""
     drawn: int = SEEDS
+    """How many other seeds were drawn."""
     doubt: str = ""
     weak: str = ""
+    """Why the levels in question are in doubt; which weakly damped mode made fidelity full draw the range."""
     surface: int = 0
+    """How many draws of a surface that was found make the range; 0: the law is assumed."""
 
     @property
     def line_is_found(self) -> bool:
@@ -129,7 +118,7 @@ class Spread:
             words += f"; {source} {100.0 * self.sources[source][mic]:.0f} % of the energy"
         return words
 
-    def rows(self) -> tuple[list[str], list[list[str]]]:
+    def rows(self) -> Table:
         """Columns and rows of a table."""
         unit = "dB(A)" if self.weighting == "A" else "dB"
         columns = ["microphone", unit, "range", "seeds, dB", "what decides"]
@@ -157,9 +146,7 @@ class Spread:
                 "energy_share": {source: float(share[k]) for source, share in self.sources.items()},
             }
             for k, name in enumerate(self.names)
-        } | {
-            "strongest_line_Hz": self.line, "line_stays_in_draws": list(self.stays), "doubt": self.doubt,
-        }  # fmt: skip
+        } | super().summary()
 
 
 def spread(

@@ -11,6 +11,8 @@ from fmu_bearing.acoustics.analysis.origins import SHAFT, SOURCES, Origin, beari
 from fmu_bearing.metrology.line_fit import LineFit
 from fmu_bearing.metrology.nose import PER_REVOLUTION, Nose
 from fmu_bearing.metrology.polar_values import asynchronous, contour, fundamental, revolutions_of, synchronous
+from fmu_bearing.results.base import Quantity, Result
+from fmu_bearing.results.table import number as digits
 
 #: Directions in which motion counts, with the unit in which tables give it and its factor from SI.
 #: Fixed: of a probe that does not turn; rotating: of a tool that turns with the shaft.
@@ -30,43 +32,49 @@ _APART = 30.0
 _NAMED = 4  # lines that a remark names
 _SMALL = 0.02  # of the largest line: smaller ones are not named
 _NOTHING = 1e-13  # m: what a scene without imperfections has from rounding
+_LISTED = 12  # lines that a summary has
+_FIGURES = (
+    "asynchronous", "synchronous", "synchronous_by_line", "fundamental", "residual", "residual_by_line",
+)  # fmt: skip
+_TILT = Quantity("tilt [rad]", "tilt, urad", digits, 1e6)
 
 
 @dataclass(frozen=True)
-class Values:
-    """Error motion in one direction (m, of tilts rad).
+class Values(Result):
+    """Error motion in one direction (m, of tilts rad)."""
 
-    Attributes
-    ----------
-    direction : str
-        One of `DIRECTIONS`.
-    asynchronous : float
-        Largest width of the polar plot at any angle.
-    synchronous : float
-        Range of the mean over the revolutions, from the centre of least squares: *averaged*. Axial: with the
-        fundamental.
-    synchronous_by_line : float
-        The same of the whole orders that were fitted beside the lines of the bearings: *by line*. NaN, as all
-        such values, where the rates of the balls are not known.
-    fundamental, residual, residual_by_line : float
-        Axial: range of order 1, and what is left without it; NaN in other directions.
-    """
+    quantities = "direction", *(f"{name} [m, of tilts rad]" for name in _FIGURES)
 
     direction: str
+    """One of `DIRECTIONS`."""
     asynchronous: float
+    """Largest width of the polar plot at any angle."""
     synchronous: float
+    """Range of the mean over the revolutions, from the centre of least squares: *averaged*. Axial: with the
+    fundamental."""
     synchronous_by_line: float
+    """The same of the whole orders that were fitted beside the lines of the bearings: *by line*. NaN, as all
+    such values, where the rates of the balls are not known."""
     fundamental: float = float("nan")
     residual: float = float("nan")
     residual_by_line: float = float("nan")
+    """Axial: range of order 1, and what is left without it; NaN in other directions."""
 
 
 @dataclass(frozen=True)
-class MotionLine:
+class MotionLine(Result):
     """A line of the error motion: what makes it, and its amplitudes.
 
     ``radial`` (m) and ``tilt`` (rad) are the larger semi-axes of its ellipses, ``axial`` (m) its amplitude.
     """
+
+    quantities = (
+        Quantity("origin", of=lambda line: vars(line.origin)), Quantity(" = origin.name", "line"),
+        Quantity(" = origin.order", "order", lambda order: f"{order:.{4 if order < 100.0 else 3}f}"),
+        Quantity("radial [m]", "radial, nm", digits, 1e9), Quantity("axial [m]", "axial, nm", digits, 1e9),
+        _TILT, Quantity(" = origin.source", "source"),
+        Quantity(" = origin.bearing", "bearing", lambda bearing: str(bearing or "")),
+    )  # fmt: skip
 
     origin: Origin
     radial: float
@@ -75,11 +83,17 @@ class MotionLine:
 
 
 @dataclass(frozen=True)
-class Part:
+class Part(Result):
     """Asynchronous error motion (m, rad) that the lines of a bearing, or one of its sources, make alone.
 
     ``source`` is empty where all sources of the bearing count.
     """
+
+    quantities = (
+        Quantity("bearing [1]", "bearing"), Quantity("source", "source"),
+        Quantity("radial [m]", "radial, um", digits, 1e6), Quantity("axial [m]", "axial, um", digits, 1e6),
+        _TILT,
+    )  # fmt: skip
 
     bearing: int
     source: str
@@ -89,16 +103,17 @@ class Part:
 
 
 @dataclass(frozen=True)
-class AtSpeed:
-    """Error motion of the axis of rotation at one speed.
+class AtSpeed(Result):
+    """Error motion of the axis of rotation at one speed."""
 
-    Attributes
-    ----------
-    nose : Nose
-        The run: motion at the point, and the rates of the balls.
-    """
+    quantities = (
+        "speed_rpm = rpm", "revolutions [1]", "explained [1]", "values",
+        Quantity("lines", of=lambda one: one.lines[:_LISTED]), "per_bearing", "per_source",
+        Quantity("cage_speed_ratios [1]", of=lambda one: [rates.f_c / rates.f_r for rates in one.nose.rates]),
+    )  # fmt: skip
 
     nose: Nose
+    """The run: motion at the point, and the rates of the balls."""
 
     @property
     def rpm(self) -> float:

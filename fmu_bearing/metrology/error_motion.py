@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from fmu_bearing.files import check_folder
 from fmu_bearing.instance import number
-from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, Part
+from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, MotionLine, Part
 from fmu_bearing.metrology.nose import FEWEST, MOST, followed
 from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.modal.modes.points import given
 from fmu_bearing.progress import keeping
+from fmu_bearing.results.base import Result, table
 from fmu_bearing.results.picture_parts import save
-from fmu_bearing.results.table import number as digits, write_csv
+from fmu_bearing.results.table import Table, write_csv
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
@@ -36,27 +37,11 @@ FILES = ("error-motion.csv", "lines.csv", "bearings.csv", "sources.csv", "polar.
 _MOST_REVOLUTIONS = 2000
 _LINES = 12  # of a table on a terminal
 _LISTED = 60  # of a file
-_UM = 1e6
-_NM = 1e9
-
-Table = tuple[list[str], list[list[str]]]
 
 
 @dataclass(frozen=True)
-class ErrorMotion:
+class ErrorMotion(Result):
     """Error motion of the axis of rotation over speeds.
-
-    Attributes
-    ----------
-    scene : Scene
-    speeds : tuple of AtSpeed
-        Each with ``values`` by direction, ``lines``, ``per_bearing``, ``per_source``, ``remarks()``.
-    at : float
-        Place of the point (m): along X from the middle of a single bearing, from the nose of a set.
-    against : str
-        What motion counts from: ``outer ring`` or ``ground``.
-    doubt : str
-        Why values of fidelities rings and response are in doubt; "" where they are not.
 
     Examples
     --------
@@ -70,11 +55,17 @@ class ErrorMotion:
     ('outer ring', 20)
     """
 
+    quantities = "scene = scene.name", "at_m", "against", "speeds", "remarks"
+
     scene: Scene
     speeds: tuple[AtSpeed, ...]
+    """Each with ``values`` by direction, ``lines``, ``per_bearing``, ``per_source``, ``remarks()``."""
     at: float
+    """Place of the point (m): along X from the middle of a single bearing, from the nose of a set."""
     against: Against
+    """What motion counts from: ``outer ring`` or ``ground``."""
     doubt: str = ""
+    """Why values of fidelities rings and response are in doubt; "" where they are not."""
 
     def table(self) -> Table:
         """Columns and rows of a table: each direction at each speed; a dash where there is no such value."""
@@ -96,26 +87,16 @@ class ErrorMotion:
 
     def lines(self, count: int = _LINES) -> Table:
         """Columns and rows of the largest radial lines at each speed: order, amplitudes, source, bearing."""
-        columns = ["r/min", "line", "order", "radial, nm", "axial, nm", "tilt, urad", "source", "bearing"]
-        rows = [
-            [
-                f"{one.rpm:g}", line.origin.name, _order(line.origin.order), digits(_NM * line.radial),
-                digits(_NM * line.axial), digits(_UM * line.tilt), line.origin.source,
-                f"{line.origin.bearing}" if line.origin.bearing else "",
-            ]
-            for one in self.speeds
-            for line in one.lines[:count]
-        ]  # fmt: skip
-        return columns, rows
+        return self._over_speeds(MotionLine, lambda one: one.lines[:count])
 
     def per_bearing(self) -> Table:
         """Columns and rows: asynchronous error motion that the lines of each bearing make alone."""
-        columns, rows = self._parts(lambda one: one.per_bearing)
-        return [columns[0], columns[1], *columns[3:]], [[row[0], row[1], *row[3:]] for row in rows]
+        heads = ("bearing", "radial, um", "axial, um", "tilt, urad")
+        return self._over_speeds(Part, lambda one: one.per_bearing, heads)
 
     def per_source(self) -> Table:
         """Columns and rows: asynchronous error motion that each source of each bearing makes alone."""
-        return self._parts(lambda one: one.per_source)
+        return self._over_speeds(Part, lambda one: one.per_source)
 
     def polar(self, direction: str = "rotating") -> "Figure":
         """Return polar plots of a direction at each speed: revolutions pale, the mean contour bold.
@@ -156,31 +137,22 @@ class ErrorMotion:
         target.mkdir(parents=True, exist_ok=True)
         tables = (self.table(), self.lines(_LISTED), self.per_bearing(), self.per_source())
         files = [target / name for name in FILES[: len(tables)]]
-        for file, table in zip(files, tables, strict=True):
-            write_csv(file, *table)
+        for file, found in zip(files, tables, strict=True):
+            write_csv(file, *found)
         if picture:
             files.append(target / FILES[-1])
             save(self.polar(direction), files[-1])
         return files
 
-    def summary(self) -> dict[str, Any]:
-        """Return all values by name, for machines; SI units."""
-        return {
-            "scene": self.scene.name, "at_m": self.at, "against": self.against,
-            "speeds": [_document(one) for one in self.speeds], "remarks": self.remarks(),
-        }  # fmt: skip
-
-    def _parts(self, of: Callable[[AtSpeed], Iterable[Part]]) -> Table:
-        columns = ["r/min", "bearing", "source", "radial, um", "axial, um", "tilt, urad"]
-        rows = [
-            [
-                f"{one.rpm:g}", f"{part.bearing}", part.source, digits(_UM * part.radial),
-                digits(_UM * part.axial), digits(_UM * part.tilt),
-            ]
-            for one in self.speeds
-            for part in of(one)
-        ]  # fmt: skip
-        return columns, rows
+    def _over_speeds(
+        self,
+        kind: type[Result],
+        of: Callable[[AtSpeed], Sequence[Result]],
+        heads: Sequence[str] | None = None,
+    ) -> Table:
+        """Return columns and rows of what there is at each speed."""
+        rows = [[f"{one.rpm:g}", *row] for one in self.speeds for row in table(kind, of(one), heads)[1]]
+        return ["r/min", *table(kind, (), heads)[0]], rows
 
 
 @one_thread
@@ -323,22 +295,3 @@ def _revolutions(revolutions: int | None) -> int | None:
             f"{FEWEST} to {MOST} in which the cage turns wholly"
         )
     return int(value)
-
-
-def _order(order: float) -> str:
-    """Return an order in no more characters than a column of a terminal of 80 keeps whole."""
-    return f"{order:.4f}" if order < 100.0 else f"{order:.3f}"
-
-
-def _document(one: AtSpeed) -> dict[str, Any]:
-    """Return values at one speed by name, SI units."""
-    return {
-        "speed_rpm": one.rpm,
-        "revolutions": one.revolutions,
-        "explained": one.explained,
-        "values": [vars(found) for found in one.values],
-        "lines": [vars(line) | {"origin": vars(line.origin)} for line in one.lines[:_LINES]],
-        "per_bearing": [vars(part) for part in one.per_bearing],
-        "per_source": [vars(part) for part in one.per_source],
-        "cage_speed_ratios": [rates.f_c / rates.f_r for rates in one.nose.rates],
-    }

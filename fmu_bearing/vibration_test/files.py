@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.results.base import write_rows
 from fmu_bearing.results.picture_parts import COLOURS, OTHERS, label, save as save_picture, single
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.vibration_test.anderon import Unit
@@ -60,13 +61,7 @@ def write(
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / name for name in FILES]
     save_picture(figure, files[0])
-    rows = [
-        [one.band, f"{one.frequency:.2f}", f"{one.velocity:.4g}", f"{one.order:.4f}", one.name, one.source,
-         str(one.wave or "")]
-        for one in lines
-    ]  # fmt: skip
-    columns = ("band", "frequency, Hz", "velocity, um/s", "order", "line", "source", "wave")
-    write_csv(files[1], columns, rows)
+    write_rows(files[1], lines)
     cells = [
         [f"{row[0]:g}", *(f"{value:.4g}" for value in row[1:])] for row in zip(*spectra.values(), strict=True)
     ]

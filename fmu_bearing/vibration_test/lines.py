@@ -23,6 +23,7 @@ from fmu_bearing.acoustics.analysis.origins import (
 )
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.run.rates import by_cage
 from fmu_bearing.scene import Scene
 from fmu_bearing.vibration_test.reading import Reading, share
@@ -54,35 +55,37 @@ class OrderEnergies(NamedTuple):
     energies: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class VibrationLine:
-    """A line of the spectrum of a vibration test.
+def digits(velocity: float) -> str:
+    """Return a velocity (um/s, or Anderon) with three digits, or one after the point."""
+    if velocity < 0.05:
+        return "0.0"
+    return f"{velocity:.3g}" if velocity < 100.0 else f"{velocity:.0f}"
 
-    Attributes
-    ----------
-    frequency : float
-        In Hz.
-    velocity : float
-        Rms, um/s, mean over the places and seeds.
-    order : float
-        Frequency over the shaft's.
-    name : str
-        In kinematic frequencies, as ``2 f_i - f_r``; empty: none is near.
-    source : str
-        The imperfection that makes it; empty: none has a line there.
-    wave : int
-        Order of the wave of that source, see `OrderEnergies`; 0 without a name.
-    band : str
-        ``"L"``, ``"M"`` or ``"H"``.
-    """
+
+@dataclass(frozen=True)
+class VibrationLine(Result):
+    """A line of the spectrum of a vibration test."""
+
+    quantities = (
+        Quantity("frequency_Hz", "Hz", ".1f"), Quantity("velocity_um_s", "um/s", digits),
+        Quantity("order [1]", "order", ".2f"), Quantity("name", "line", lambda name: name or "?"),
+        Quantity("source", "source"), Quantity("wave [1]", "wave", lambda wave: str(wave or "")), "band",
+    )  # fmt: skip
 
     frequency: float
+    """In Hz."""
     velocity: float
+    """Rms, um/s, mean over the places and seeds."""
     order: float
+    """Frequency over the shaft's."""
     name: str
+    """In kinematic frequencies, as ``2 f_i - f_r``; empty: none is near."""
     source: str
+    """The imperfection that makes it; empty: none has a line there."""
     wave: int
+    """Order of the wave of that source, see `OrderEnergies`; 0 without a name."""
     band: str
+    """``"L"``, ``"M"`` or ``"H"``."""
 
 
 def frequencies(scene: Scene, found: Reading) -> KinematicFrequencies:

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.progress import keeping
+from fmu_bearing.results.base import Result, table
+from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene, SceneSource
 from fmu_bearing.vibration_test.anderon import Unit, micrometres
 from fmu_bearing.vibration_test.band import Band
@@ -18,6 +20,7 @@ from fmu_bearing.vibration_test.lines import (
     OrderEnergies,
     VibrationLine,
     by_order,
+    digits,
     frequencies,
     named_lines,
     spinning,
@@ -42,28 +45,24 @@ _HIGHEST_LIMIT = 1e4  # um/s
 
 
 @dataclass(frozen=True, eq=False)
-class Vibration:
-    """What the vibration test of a bearing reads.
+class Vibration(Result):
+    """What the vibration test of a bearing reads."""
 
-    Attributes
-    ----------
-    scene : Scene
-        Of the test, on the soft piece, with the first seed.
-    seeds : tuple of int
-        Of the surfaces.
-    readings : dict of str to tuple of Reading
-        Of each seed, by loading piece: ``"soft"``, ``"firm"``.
-    alone : dict of str to Reading
-        Of each source alone, with the first seed on the soft piece.
-    limits : tuple of float, optional
-        Of L, M and H, um/s.
-    """
+    quantities = (
+        "scene = scene.name", "speed_rpm = scene.operation.speed_rpm", "load_N = scene.mounted.preload_N",
+        "rings_bend = scene.bends", "seeds [1]", "bands = _by_band", "lines", "remarks",
+    )  # fmt: skip
 
     scene: Scene
+    """Of the test, on the soft piece, with the first seed."""
     seeds: tuple[int, ...]
+    """Of the surfaces."""
     readings: dict[Piece, tuple[Reading, ...]]
+    """Of each seed, by loading piece: ``"soft"``, ``"firm"``."""
     alone: dict[str, Reading]
+    """Of each source alone, with the first seed on the soft piece."""
     limits: tuple[float, ...] = ()
+    """Of L, M and H, um/s."""
 
     @property
     def bands(self) -> tuple[Band, ...]:
@@ -118,7 +117,7 @@ class Vibration:
         """Return the mean of each band on the soft piece, in Anderon."""
         return {one.name: one.mean / micrometres(self.scene)[one.name] for one in self.bands}
 
-    def table(self, unit: Unit = "um/s") -> tuple[list[str], list[list[str]]]:
+    def table(self, unit: Unit = "um/s") -> Table:
         """Return columns and rows for people: each loading piece, the limits, each source alone.
 
         Parameters
@@ -131,7 +130,7 @@ class Vibration:
 
         def row(words: str, values: Sequence[float | None]) -> list[str]:
             return [words, *(
-                "" if value is None else _digits(value / scale[name])
+                "" if value is None else digits(value / scale[name])
                 for name, value in zip(BANDS, values, strict=True)
             )]  # fmt: skip
 
@@ -143,7 +142,7 @@ class Vibration:
             rows.append(row(f"{piece} piece{mean}", [float(values.mean()) for values in of]))
             if several:
                 ranges = [
-                    f"{_digits(values.min() / scale[one.name])} to {_digits(values.max() / scale[one.name])}"
+                    f"{digits(values.min() / scale[one.name])} to {digits(values.max() / scale[one.name])}"
                     for one, values in zip(found, of, strict=True)
                 ]
                 rows.append([f"{piece} piece, range", *ranges])
@@ -152,58 +151,19 @@ class Vibration:
         rows += [row(f"{source} alone", [one.alone[source] for one in found]) for source in self.alone]
         return [unit, *(f"{one.name}, {one.low:g} to {one.high:g} Hz" for one in found)], rows
 
-    def lines_table(self, count: int = _LINES) -> tuple[list[str], list[list[str]]]:
+    def lines_table(self, count: int = _LINES) -> Table:
         """Return columns and rows for people: the strongest lines of each band, ``count`` at most."""
-        columns = ["Hz", "um/s", "order", "line", "source", "wave"]
-        return columns, [
-            [
-                f"{one.frequency:.1f}",
-                _digits(one.velocity),
-                f"{one.order:.2f}",
-                one.name or "?",
-                one.source,
-                str(one.wave or ""),
-            ]
-            for band in BANDS
-            for one in [line for line in self.lines if line.band == band][:count]
-        ]
+        by_band = ([line for line in self.lines if line.band == band][:count] for band in BANDS)
+        return table(VibrationLine, [line for lines in by_band for line in lines])
 
-    def summary(self) -> dict[str, Any]:
-        """Return all figures by name, for machines."""
+    def records(self) -> tuple[VibrationLine, ...]:
+        """Return `lines`."""
+        return self.lines
+
+    def _by_band(self) -> dict[str, dict[str, Any]]:
+        """Return the bands by name, with the mean in Anderon."""
         anderon = self.anderon()
-        return {
-            "scene": self.scene.name,
-            "speed_rpm": self.scene.operation.speed_rpm,
-            "load_N": self.scene.mounted.preload_N,
-            "rings_bend": self.scene.bends,
-            "seeds": list(self.seeds),
-            "bands": {
-                one.name: {
-                    "low_Hz": one.low,
-                    "high_Hz": one.high,
-                    "mean_um_s": one.mean,
-                    "mean_anderon": anderon[one.name],
-                    "soft_um_s": one.soft,
-                    "firm_um_s": one.firm,
-                    "limit_um_s": one.limit,
-                    "alone_um_s": one.alone,
-                }
-                for one in self.bands
-            },
-            "lines": [
-                {
-                    "frequency_Hz": one.frequency,
-                    "velocity_um_s": one.velocity,
-                    "order": one.order,
-                    "name": one.name,
-                    "source": one.source,
-                    "wave": one.wave,
-                    "band": one.band,
-                }
-                for one in self.lines
-            ],
-            "remarks": list(self.remarks),
-        }
+        return {one.name: one.summary() | {"mean_anderon": anderon[one.name]} for one in self.bands}
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -233,12 +193,6 @@ class Vibration:
         spectra |= {f"{piece} piece, um/s": self.spectrum(piece) for piece in PIECES}
         spectra |= {f"{name} alone, um/s": np.sqrt(one.energy) for name, one in self.alone.items()}
         return write(Path(folder), self.picture(unit), self.lines, spectra)
-
-
-def _digits(value: float | np.floating[Any]) -> str:
-    if value < 0.05:
-        return "0.0"
-    return f"{value:.3g}" if value < 100.0 else f"{value:.0f}"
 
 
 def vibration(

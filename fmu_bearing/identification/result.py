@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.free import Free
+from fmu_bearing.results.base import Quantity, Result, table
+from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene
 
 FAR = 5.0  # standard deviations: of a million values one is so far off by chance
@@ -18,29 +20,29 @@ _MOST = 6  # values named
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """One identified number.
+class Estimate(Result):
+    """One identified number."""
 
-    Attributes
-    ----------
-    free : Free
-        Key, unit, start, bounds.
-    value : float
-        In the key's unit.
-    std : float
-        Standard deviation of ln(value) where the key is logarithmic, else in the key's unit; NaN: unknown.
-    determined : bool
-        Whether the data determine it: its standard deviation is less than a factor of two, or than a quarter
-        of the width of the bounds.
-    at_bound : str
-        ``"low"``, ``"high"`` or empty.
-    """
+    quantities = (
+        Quantity(" = key", "key"), Quantity(" = free.unit", "unit"),
+        Quantity(" = free.start", "before", ".3g"),
+        Quantity("value [as unit]", "identified", ".3g"), "unit = free.unit", "before [as unit] = free.start",
+        Quantity("", "from", ".3g", of=lambda one: one.interval()[0]),
+        Quantity("", "to (2 std)", ".3g", of=lambda one: one.interval()[1]),
+        "interval [as unit]", "determined", "at_bound", Quantity(" = known", ""),
+    )  # fmt: skip
 
     free: Free
+    """Key, unit, start, bounds."""
     value: float
+    """In the key's unit."""
     std: float
+    """Standard deviation of ln(value) where the key is logarithmic, else in the key's unit; NaN: unknown."""
     determined: bool
+    """Whether the data determine it: its standard deviation is less than a factor of two, or than a quarter
+    of the width of the bounds."""
     at_bound: str = ""
+    """``"low"``, ``"high"`` or empty."""
 
     @property
     def key(self) -> str:
@@ -59,6 +61,17 @@ class Estimate:
             low, high = self.value - deviations * self.std, self.value + deviations * self.std
         return max(low, self.free.low), min(high, self.free.high)
 
+    def summary(self) -> dict[str, Any]:
+        """Return the values by name; the deviation is that of the logarithm where the key says so."""
+        return super().summary() | {"std_ln" if self.free.log else "std": self.std}
+
+    @property
+    def known(self) -> str:
+        """What limits the value, in words; empty: nothing."""
+        if not self.determined:
+            return "not determined"
+        return f"at its {self.at_bound} bound" if self.at_bound else ""
+
     @property
     def words(self) -> str:
         """Value with its uncertainty in words, as the scene's comment has it."""
@@ -73,23 +86,30 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Compared:
-    """One measured value beside the computed ones.
+class Compared(Result):
+    """One measured value beside the computed ones."""
 
-    Attributes
-    ----------
-    datum : Datum
-    before, after : float
-        Computed with the scene as it was, and with the identified values, in the scene's own fidelity, mean
-        over seeds, background added (dB).
-    spread : float
-        Standard deviation of the computed level over seeds (dB).
-    """
+    quantities = (
+        Quantity("role", "role"), Quantity("value = datum.label", "value"),
+        Quantity("measured_dB = datum.value", "measured, dB", ".1f"),
+        Quantity("std_dB = datum.std", "std", ".1f"),
+        Quantity("before_dB", "before", ".1f"), Quantity("after_dB", "after", ".1f"),
+        Quantity("off_dB", "after - measured", "+.1f", of=lambda one: one.after - one.datum.value),
+        Quantity("spread_dB", "over seeds", ".1f"),
+    )  # fmt: skip
 
     datum: Datum
     before: float
     after: float
+    """Computed with the scene as it was, and with the identified values, in the scene's own fidelity, mean
+    over seeds, background added (dB)."""
     spread: float
+    """Standard deviation of the computed level over seeds (dB)."""
+
+    @property
+    def role(self) -> str:
+        """``fit``, or ``check``: it was not fitted."""
+        return "fit" if self.datum.fit else "check"
 
     @property
     def sigma(self) -> float:
@@ -98,60 +118,47 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class Identified:
-    """Result of `identify`.
+class Identified(Result):
+    """Result of `identify`."""
 
-    Attributes
-    ----------
-    scene : Scene
-        With the identified values, in its own fidelity.
-    start : Scene
-        As it was, fidelity ``auto`` resolved.
-    estimates : tuple of Estimate
-        One per free key.
-    compared : tuple of Compared
-        One per measured value, in the order of the data.
-    jacobian : ndarray, shape (fitted values, free keys)
-        Change of each fitted level (dB) per unit of ln(value), or per width of the bounds for a key that is
-        not logarithmic.
-    covariance : ndarray, shape (free keys, free keys)
-        Of these coordinates; linearised at the solution.
-    singular_values : ndarray, shape (free keys,)
-        Of the jacobian divided by the standard deviations of the levels, largest first: inverse standard
-        deviations along `directions`.
-    directions : ndarray, shape (free keys, free keys)
-        Combinations of the coordinates, one per row.
-    residual_scale : float
-        Factor by which residuals exceed the stated standard deviations; at least 1. Covariance holds it.
-    remarks : tuple of str
-        What the data cannot distinguish, what is at a bound, what the data cannot determine.
-    fidelity : str
-        Of the search.
-    seeds : tuple of int
-        Seeds averaged over.
-    evaluations : int
-        Runs computed, without those that were kept from before.
-    complete : bool
-        False: the search was interrupted.
-    values : dict of str to float
-        Value of every key that was moved, in the scene's units.
-    """
+    quantities = (
+        "scene = scene.name", "complete", "fidelity", "seeds [1]", "runs [1] = evaluations", "rms_dB = _rms",
+        "residual_scale [1]", Quantity("values", of=lambda found: {one.key: one for one in found.estimates}),
+        "singular_values [1]", "correlation [1]", "remarks", "doubts",
+    )  # fmt: skip
 
     scene: Scene
+    """With the identified values, in its own fidelity."""
     start: Scene
+    """As it was, fidelity ``auto`` resolved."""
     estimates: tuple[Estimate, ...]
+    """One per free key."""
     compared: tuple[Compared, ...]
+    """One per measured value, in the order of the data."""
     jacobian: NDArray[np.float64]
+    """Change of each fitted level (dB) per unit of ln(value), or per width of the bounds for a key that is
+    not logarithmic. Shape (fitted values, free keys)."""
     covariance: NDArray[np.float64]
+    """Of these coordinates; linearised at the solution. Shape (free keys, free keys)."""
     singular_values: NDArray[np.float64]
+    """Of the jacobian divided by the standard deviations of the levels, largest first: inverse standard
+    deviations along `directions`. Shape (free keys,)."""
     directions: NDArray[np.float64]
+    """Combinations of the coordinates, one per row. Shape (free keys, free keys)."""
     residual_scale: float
+    """Factor by which residuals exceed the stated standard deviations; at least 1. Covariance holds it."""
     remarks: tuple[str, ...]
+    """What the data cannot distinguish, what is at a bound, what the data cannot determine."""
     fidelity: str
+    """Of the search."""
     seeds: tuple[int, ...]
+    """Seeds averaged over."""
     evaluations: int = 0
+    """Runs computed, without those that were kept from before."""
     complete: bool = True
+    """False: the search was interrupted."""
     values: dict[str, float] = field(default_factory=dict)
+    """Value of every key that was moved, in the scene's units."""
 
     @property
     def correlation(self) -> NDArray[np.float64]:
@@ -181,36 +188,15 @@ class Identified:
                 return one
         raise KeyError(f"'{key}' was not free; free: {', '.join(one.key for one in self.estimates)}")
 
-    def summary(self) -> dict[str, Any]:
-        """Return values, misfits and remarks, for machines."""
+    def records(self) -> tuple[Estimate, ...]:
+        """Return the identified values."""
+        return self.estimates
+
+    def _rms(self) -> dict[str, float]:
         return {
-            "scene": self.scene.name,
-            "complete": self.complete,
-            "fidelity": self.fidelity,
-            "seeds": self.seeds,
-            "runs": self.evaluations,
-            "rms_dB": {
-                f"{role}_{when}": self.rms(role == "fit", when == "before")
-                for role in ("fit", "check")
-                for when in ("before", "after")
-            },
-            "residual_scale": self.residual_scale,
-            "values": {
-                one.key: {
-                    "value": one.value,
-                    "unit": one.free.unit,
-                    "before": one.free.start,
-                    "std_ln" if one.free.log else "std": one.std,
-                    "interval": one.interval(),
-                    "determined": one.determined,
-                    "at_bound": one.at_bound,
-                }
-                for one in self.estimates
-            },
-            "singular_values": self.singular_values,
-            "correlation": self.correlation,
-            "remarks": self.remarks,
-            "doubts": self.doubts,
+            f"{role}_{when}": self.rms(role == "fit", when == "before")
+            for role in ("fit", "check")
+            for when in ("before", "after")
         }
 
 
@@ -255,32 +241,11 @@ def _sigma(found: Identified, fit: bool) -> float:
     return float(np.sqrt(np.mean(squares))) if squares else math.nan
 
 
-def values_table(found: Identified) -> tuple[list[str], list[list[str]]]:
+def values_table(found: Identified) -> Table:
     """Columns and rows of the identified values."""
-    rows = []
-    for one in found.estimates:
-        low, high = one.interval()
-        known = (
-            "not determined" if not one.determined else f"at its {one.at_bound} bound" if one.at_bound else ""
-        )
-        numbers = [f"{value:.3g}" for value in (one.free.start, one.value, low, high)]
-        rows.append([one.key, one.free.unit, *numbers, known])
-    return ["key", "unit", "before", "identified", "from", "to (2 std)", ""], rows
+    return table(Estimate, found.estimates)
 
 
-def levels_table(found: Sequence[Compared]) -> tuple[list[str], list[list[str]]]:
+def levels_table(found: Sequence[Compared]) -> Table:
     """Columns and rows of measured and computed levels."""
-    rows = [
-        [
-            "fit" if one.datum.fit else "check",
-            one.datum.label,
-            f"{one.datum.value:.1f}",
-            f"{one.datum.std:.1f}",
-            f"{one.before:.1f}",
-            f"{one.after:.1f}",
-            f"{one.after - one.datum.value:+.1f}",
-            f"{one.spread:.1f}",
-        ]
-        for one in found
-    ]
-    return ["role", "value", "measured, dB", "std", "before", "after", "after - measured", "over seeds"], rows
+    return table(Compared, found)

@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.accuracy.alternatives import Alternative
 from fmu_bearing.formulas import iso281
+from fmu_bearing.results.base import Quantity, Result
+from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import value_at
 
@@ -53,28 +55,31 @@ class LevelBasis(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Change:
-    """One choice and what it changes.
+class Change(Result):
+    """One choice and what it changes."""
 
-    Attributes
-    ----------
-    choice : Alternative
-        Topic, words and values of the scene.
-    before : Point
-        The operating point of the unchanged scene.
-    after : Point, optional
-        That of the changed one; None where there is none.
-    levels : ndarray, shape (seeds,)
-        Differences of the level (dB) with the same seed; empty without levels.
-    reason : str
-        Why there are no figures; empty: there are.
-    """
+    quantities = (
+        "topic = choice.topic", "change = choice.words", "values = choice.values", "level_change_dB = level",
+        Quantity("level_change_low_dB", of=lambda one: one.level_range[0]),
+        Quantity("level_change_high_dB", of=lambda one: one.level_range[1]),
+        Quantity("level_is_found", of=lambda one: one.acts("level")),
+        "life_h = _after.life", Quantity("life_ratio [1]", of=lambda one: one.ratio("life")),
+        "torque_N_mm = _after.torque", Quantity("torque_ratio [1]", of=lambda one: one.ratio("torque")),
+        "stiffness_N_um = _after.stiffness",
+        Quantity("stiffness_ratio [1]", of=lambda one: one.ratio("stiffness")),
+        "cautions", "reason",
+    )  # fmt: skip
 
     choice: Alternative
+    """Topic, words and values of the scene."""
     before: Point
+    """The operating point of the unchanged scene."""
     after: Point | None = None
+    """That of the changed one; None where there is none."""
     levels: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    """Differences of the level (dB) with the same seed; empty without levels. Shape (seeds,)."""
     reason: str = ""
+    """Why there are no figures; empty: there are."""
 
     @property
     def level(self) -> float:
@@ -87,6 +92,10 @@ class Change:
         if not self.levels.size:
             return math.nan, math.nan
         return float(self.levels.min()), float(self.levels.max())
+
+    @property
+    def _after(self) -> Point:
+        return self.after or Point(math.nan, math.nan, math.nan)
 
     def ratio(self, figure: str) -> float:
         """Return ``life``, ``torque`` or ``stiffness`` over that of the unchanged scene; NaN without."""
@@ -125,52 +134,30 @@ class Change:
             () if self.after is None else tuple(t for t in self.after.cautions if t[:_SUBJECT] not in known)
         )
 
-    def summary(self) -> dict[str, Any]:
-        """Return words and figures by name, for machines."""
-        low, high = self.level_range
-        after = self.after or Point(math.nan, math.nan, math.nan)
-        return {
-            "topic": self.choice.topic,
-            "change": self.choice.words,
-            "values": dict(self.choice.values),
-            "level_change_dB": self.level,
-            "level_change_low_dB": low,
-            "level_change_high_dB": high,
-            "level_is_found": self.acts("level"),
-            "life_h": after.life,
-            "life_ratio": self.ratio("life"),
-            "torque_N_mm": after.torque,
-            "torque_ratio": self.ratio("torque"),
-            "stiffness_N_um": after.stiffness,
-            "stiffness_ratio": self.ratio("stiffness"),
-            "cautions": list(self.cautions),
-            "reason": self.reason,
-        }
-
 
 @dataclass(frozen=True)
-class Changes:
-    """What the choices of a designer change in a scene.
+class Changes(Result):
+    """What the choices of a designer change in a scene."""
 
-    Attributes
-    ----------
-    scene : Scene
-    before : Point
-        Its operating point before any change.
-    basis : LevelBasis
-        Its level, and how levels were computed.
-    changes : tuple of Change
-        In the order of `alternatives`; those without figures are in it, with their reason.
-    no_level, no_life : str
-        Why there are none; empty: there are.
-    """
+    quantities = (
+        "scene = scene.name", "level_dB = basis.level", "life_h = before.life", "torque_N_mm = before.torque",
+        "stiffness_N_um = before.stiffness", "microphone = basis.microphone", "fidelity = basis.fidelity",
+        "radiation_model = basis.radiation_model", "settle_s = basis.settle", "duration_s = basis.duration",
+        "seeds [1] = basis.seeds", "doubt = basis.doubt", "no_level", "no_life", "no_torque",
+        "cautions = before.cautions", "near_resonance = resonances",
+        Quantity("ranked_by", of=lambda found: found.figures[0]), "changes = records",
+    )  # fmt: skip
 
     scene: Scene
     before: Point
+    """Its operating point before any change."""
     basis: LevelBasis
+    """Its level, and how levels were computed."""
     changes: tuple[Change, ...]
+    """In the order of `alternatives`; those without figures are in it, with their reason."""
     no_level: str = ""
     no_life: str = ""
+    """Why there are none; empty: there are."""
 
     def __repr__(self) -> str:
         found = len(self.changes) - len(self.refused)
@@ -202,7 +189,11 @@ class Changes:
         there = [each for each in self.changes if math.isfinite(each.gain(figure))]
         return sorted(there, key=lambda each: (not each.acts(figure), -each.gain(figure)))
 
-    def table(self) -> tuple[list[str], list[list[str]]]:
+    def records(self) -> list[Change]:
+        """Return the changes ranked by the first figure, then those without figures."""
+        return [*self.ranked(self.figures[0]), *self.refused]
+
+    def table(self) -> Table:
         """Columns and rows of a table, ranked by the first figure."""
         columns = ["change"] + (["dB(A)", "over seeds"] if "level" in self.figures else [])
         names = [name for name in ("life", "torque") if name in self.figures] + ["stiffness"]
@@ -282,31 +273,6 @@ class Changes:
         found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
         found += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
         return ", ".join([*found, f"{self.stiff} {b.stiffness:.3g} N/um"])
-
-    def summary(self) -> dict[str, Any]:
-        """Return conditions and changes, ranked by the first figure, for machines."""
-        first = self.figures[0]
-        return {
-            "scene": self.scene.name,
-            "level_dB": self.basis.level,
-            "life_h": self.before.life,
-            "torque_N_mm": self.before.torque,
-            "stiffness_N_um": self.before.stiffness,
-            "microphone": self.basis.microphone,
-            "fidelity": self.basis.fidelity,
-            "radiation_model": self.basis.radiation_model,
-            "settle_s": self.basis.settle,
-            "duration_s": self.basis.duration,
-            "seeds": list(self.basis.seeds),
-            "doubt": self.basis.doubt,
-            "no_level": self.no_level,
-            "no_life": self.no_life,
-            "no_torque": self.no_torque,
-            "cautions": list(self.before.cautions),
-            "near_resonance": self.resonances(),
-            "ranked_by": first,
-            "changes": [each.summary() for each in (*self.ranked(first), *self.refused)],
-        }
 
 
 def shown_level(change: float, digits: int = 3) -> str:

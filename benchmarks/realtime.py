@@ -19,6 +19,7 @@ import numpy as np
 
 from fmu_bearing import Scene, build_fmu, read_scene, with_fidelity
 from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.results.base import table
 from fmu_bearing.results.table import machine, markdown, write_csv
 from fmu_bearing.run import step_times
 from fmu_bearing.run.step_times import Timed
@@ -100,7 +101,7 @@ def timed(scene: Scene, partners: dict[str, Path], folder: Path, quick: bool) ->
             found.setdefault(phase, []).append((spent, time.perf_counter() - begin))
     microphones = 0 if scene.sound is None else len(scene.sound.points())
     for phase, times in found.items():
-        yield Timed(scene.fidelity.model, microphones, phase, *np.array(times).T)
+        yield Timed(scene.fidelity.model, microphones, phase, *np.array(times).T, _STEP)
 
 
 def rows(quick: bool = False) -> list[list[str]]:
@@ -121,7 +122,7 @@ def rows(quick: bool = False) -> list[list[str]]:
                 for sounding in (False, True):
                     of = with_fidelity(scene, model=fidelity)
                     of = of if sounding else of.model_copy(update={"sound": None})
-                    found += [[words, *one.cells(_STEP)] for one in timed(of, partners, folder, quick)]
+                    found += [[words, *row] for row in table(Timed, [*timed(of, partners, folder, quick)])[1]]
     return found
 
 

@@ -201,4 +201,4 @@ def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> I
             begun, begin = perf_counter(), thread_time()
             bearing.step(step)
             cpu[k], clock[k] = thread_time() - begin, perf_counter() - begun
-        yield Timed(case.fidelity, case.microphones, phase, cpu, clock)
+        yield Timed(case.fidelity, case.microphones, phase, cpu, clock, step)

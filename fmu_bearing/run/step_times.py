@@ -3,20 +3,17 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.results.table import number
+from fmu_bearing.results.base import Quantity, Result, table
+from fmu_bearing.results.table import Table, number
 from fmu_bearing.scene import Scene
 
 __all__ = ["COLUMNS", "HELD", "SHORT", "Realtime", "Timed", "name_of"]
 
-COLUMNS = (
-    "fidelity", "microphones", "phase", "steps", "mean, us", "p50", "p99", "worst", "worst over mean", "late",
-)  # fmt: skip
 #: The columns of a table for a terminal: the steps of all rows are as many.
 SHORT = ("fidelity", "microphones", "phase", "mean, us", "p50", "p99", "worst", "late")
 _AMPLE = 0.8  # of the step: what takes more has little margin
@@ -24,46 +21,51 @@ _SHORT = 1e-4  # s: internal steps are some tens of microseconds long, and a cal
 HELD = "held"
 
 
-@dataclass(frozen=True)
-class Timed:
-    """What the steps of one phase took.
+def _microseconds(value: float) -> str:
+    return f"{value:.0f}" if value >= 10.0 else f"{value:.1f}"
 
-    Attributes
-    ----------
-    fidelity : str
-    microphones : int
-        0: the sound is not computed.
-    phase : str
-    cpu : ndarray, shape (steps,)
-        Time of the processor for this thread (s): other work on the machine enters through caches alone.
-    clock : ndarray, shape (steps,)
-        Time of the clock (s).
-    """
+
+@dataclass(frozen=True)
+class Timed(Result):
+    """What the steps of one phase took."""
+
+    quantities = (
+        Quantity("fidelity", "fidelity"),
+        Quantity("microphones [1]", "microphones", lambda count: str(count or "none")),
+        Quantity("phase", "phase"),
+        Quantity("steps [1] = cpu.size", "steps"),
+        Quantity("mean_s = cpu.mean", "mean, us", _microseconds, 1e6),
+        Quantity("p50_s", "p50", _microseconds, 1e6, of=lambda one: np.quantile(one.cpu, 0.5)),
+        Quantity("p99_s", "p99", _microseconds, 1e6, of=lambda one: np.quantile(one.cpu, 0.99)),
+        Quantity("worst_s = cpu.max", "worst", _microseconds, 1e6),
+        Quantity("", "worst over mean", ".2f", of=lambda one: one.cpu.max() / one.cpu.mean()),
+        Quantity("late [1]", "late"),
+    )
 
     fidelity: str
     microphones: int
+    """0: the sound is not computed."""
     phase: str
     cpu: NDArray[np.float64]
+    """Time of the processor for this thread (s): other work on the machine enters through caches alone. Shape
+    (steps,)."""
     clock: NDArray[np.float64]
+    """Time of the clock (s). Shape (steps,)."""
+    step: float
+    """What each step simulates (s)."""
 
     @property
     def case(self) -> tuple[str, int]:
         """Fidelity and microphones."""
         return self.fidelity, self.microphones
 
-    def late(self, step: float) -> int:
-        """Return how many steps took longer on the clock than the ``step`` (s) that they simulate."""
-        return int((self.clock > step).sum())
+    def late(self) -> int:
+        """Return how many steps took longer on the clock than they simulate."""
+        return int((self.clock > self.step).sum())
 
-    def cells(self, step: float) -> list[str]:
-        """Return the row of the table."""
-        micro = 1e6 * self.cpu
-        figures = (micro.mean(), *np.quantile(micro, (0.5, 0.99)), micro.max())
-        return [
-            self.fidelity, str(self.microphones or "none"), self.phase, str(micro.size),
-            *(f"{one:.0f}" if one >= 10.0 else f"{one:.1f}" for one in figures),
-            f"{micro.max() / micro.mean():.2f}", str(self.late(step)),
-        ]  # fmt: skip
+
+#: Heads of the table.
+COLUMNS = tuple(table(Timed, ())[0])
 
 
 @dataclass(frozen=True)
@@ -98,47 +100,29 @@ class _Cost:
 
 
 @dataclass(frozen=True)
-class Realtime:
-    """Times of the steps of a scene.
+class Realtime(Result):
+    """Times of the steps of a scene."""
 
-    Attributes
-    ----------
-    scene : Scene
-    step : float
-        Communication step (s).
-    timed : tuple of Timed
-        By fidelity, without sound before with it, by phase.
-    left_out : dict
-        Reasons by fidelity, or fidelity and sound, that could not run.
-    machine : str
-    """
+    quantities = (
+        "scene = scene.name", "step_s", "machine", "steps = timed", "left_out", "advice",
+    )  # fmt: skip
 
     scene: Scene
     step: float
+    """Communication step (s)."""
     timed: tuple[Timed, ...]
+    """By fidelity, without sound before with it, by phase."""
     left_out: dict[str, str]
+    """Reasons by fidelity, or fidelity and sound, that could not run."""
     machine: str
 
-    def table(self, columns: Sequence[str] = COLUMNS) -> tuple[Sequence[str], list[list[str]]]:
-        """Return columns, of `COLUMNS`, and rows."""
-        rows = [dict(zip(COLUMNS, one.cells(self.step), strict=True)) for one in self.timed]
-        return columns, [[row[name] for name in columns] for row in rows]
+    def records(self) -> tuple[Timed, ...]:
+        """Return the phases."""
+        return self.timed
 
-    def summary(self) -> dict[str, Any]:
-        """Return all as numbers and words, SI units."""
-        rows = [
-            {
-                "fidelity": one.fidelity, "microphones": one.microphones, "phase": one.phase,
-                "steps": one.cpu.size, "mean_s": float(one.cpu.mean()),
-                "p50_s": float(np.quantile(one.cpu, 0.5)), "p99_s": float(np.quantile(one.cpu, 0.99)),
-                "worst_s": float(one.cpu.max()), "late": one.late(self.step),
-            }
-            for one in self.timed
-        ]  # fmt: skip
-        return {
-            "scene": self.scene.name, "step_s": self.step, "machine": self.machine, "steps": rows,
-            "left_out": self.left_out, "advice": self.advice(),
-        }  # fmt: skip
+    def table(self, columns: Sequence[str] = COLUMNS) -> Table:
+        """Return columns, of `COLUMNS`, and rows."""
+        return table(Timed, self.timed, columns)
 
     def advice(self) -> str:
         """Return in two or three sentences which fidelity keeps the step and what to change.
@@ -160,7 +144,7 @@ class Realtime:
             words.append("So does every other that was timed.")
         elif missed:
             words.append(f"{_capital(missed[0].name)} does not: {self._change(missed[:1], 'it')}.")
-        if late := sum(one.late(self.step) for one in self.timed if one.case == best.case):
+        if late := sum(one.late() for one in self.timed if one.case == best.case):
             words.append(
                 f"By the clock {late} of its steps came late all the same, as other work took the processor."
             )

@@ -81,17 +81,23 @@ class Crossing(Result):
 
 @dataclass(frozen=True)
 class Diagram(Result):
-    """Branches, lines and crossings over speed; `Campbell` describes them, and adds the picture."""
+    """Branches, lines and crossings over speed; `Campbell` adds the picture."""
 
     quantities = "campbell = table", "crossings", "verdict"
 
     scene: Scene
     points: tuple[Modes, ...]
+    """One per speed, in order."""
     branches: tuple[Branch, ...]
+    """Modes in which rings move, up to ``highest``."""
     lines: tuple[Line, ...]
+    """Excitations of their orders."""
     rates: Rates
+    """Kinematic frequencies by the states, not by the nominal contact angle."""
     highest: float
+    """Hz: what lies above is left out."""
     skipped: tuple[tuple[float, str], ...] = ()
+    """Speeds (r/min) without equilibrium, and why."""
 
     @property
     def rpm(self) -> NDArray[np.float64]:

@@ -31,22 +31,6 @@ _SHARES = tuple(0.1 * tenths for tenths in range(1, 15))  # of the scene's own s
 class Campbell(Diagram):
     """Branches, lines and crossings over speed.
 
-    Attributes
-    ----------
-    scene : Scene
-    points : tuple of Modes
-        One per speed, in order.
-    branches : tuple of Branch
-        Modes in which rings move, up to ``highest``.
-    lines : tuple of Line
-        Excitations of their orders.
-    rates : Rates
-        Kinematic frequencies by the states, not by the nominal contact angle.
-    highest : float
-        Hz: what lies above is left out.
-    skipped : tuple of (float, str)
-        Speeds (r/min) without equilibrium, and why.
-
     Examples
     --------
     >>> from fmu_bearing import campbell

@@ -23,34 +23,6 @@ class BearingStiffness(StiffnessTable):
     the ring are not. Cage, imperfections and sound are left out. All is in the bearing's own axes: the axes
     of the shaft, with x and tilts reversed where it carries towards -X.
 
-    Attributes
-    ----------
-    scene : Scene
-        Of the bearing alone.
-    speeds : ndarray
-        r/min, rising.
-    preloads : ndarray
-        N, rising: values of the input ``preload``, of a set of spacers or springs.
-    frequencies : ndarray
-        Hz, rising.
-    K, C : ndarray, shape (speed, preload, frequency, 5, 5)
-        N/m, N/rad, N m/rad and these times s.
-    static : ndarray, shape (speed, preload, 5, 5)
-        K for frequency to 0, always of balls that keep their distances: what the bearing has at rest.
-    orbit : ndarray, shape (speed, preload)
-        Hz: frequency of the balls' orbit, f_c.
-    spread : ndarray, shape (speed, preload)
-        Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over
-        K, at the lowest and the highest frequency; 0 for equal ball loads.
-    steady : ndarray of bool, shape (speed, preload)
-        Whether the steady state was found; else the entries hold for the state in which a run starts.
-    spacing : str
-        ``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not.
-    number, sign : int
-        From 1 at the nose; 1 where it carries force on the shaft towards +X, else -1.
-    on_shaft : bool
-        Whether it is one of a set.
-
     Examples
     --------
     >>> from fmu_bearing import stiffness

@@ -16,22 +16,39 @@ Spacing = Literal["held", "free"]
 
 @dataclass(frozen=True)
 class StiffnessTable(Result):
-    """Numbers of `BearingStiffness`, which describes them, and adds files and a picture."""
+    """Numbers of `BearingStiffness`, which adds files and a picture."""
 
     scene: Scene
+    """Of the bearing alone."""
     speeds: NDArray[np.float64]
+    """r/min, rising."""
     preloads: NDArray[np.float64]
+    """N, rising: values of the input ``preload``, of a set of spacers or springs."""
     frequencies: NDArray[np.float64]
+    """Hz, rising."""
     K: NDArray[np.float64]
+    """N/m, N/rad, N m/rad. Shape (speed, preload, frequency, 5, 5)."""
     C: NDArray[np.float64]
+    """That times s, the shape of K."""
     static: NDArray[np.float64]
+    """K for frequency to 0, always of balls that keep their distances: what the bearing has at rest. Shape
+    (speed, preload, 5, 5)."""
     orbit: NDArray[np.float64]
+    """Hz: frequency of the balls' orbit, f_c. Shape (speed, preload)."""
     spread: NDArray[np.float64]
+    """Largest distance of a single phase of a ball pitch from the mean, on the diagonal of K and C w, over K,
+    at the lowest and the highest frequency; 0 for equal ball loads. Shape (speed, preload)."""
     steady: NDArray[np.bool_]
+    """Whether the steady state was found; else the entries hold for the state in which a run starts. Shape
+    (speed, preload)."""
     spacing: Spacing = "held"
+    """``held``: balls keep their distances along the orbit, as in a cage; ``free``: they do not."""
     number: int = 1
+    """From 1 at the nose."""
     sign: int = 1
+    """1 where it carries force on the shaft towards +X, else -1."""
     on_shaft: bool = False
+    """Whether it is one of a set."""
 
     @property
     def impedance(self) -> NDArray[np.complex128]:

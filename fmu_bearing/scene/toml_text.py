@@ -4,13 +4,15 @@ import re
 import tomllib
 from typing import Any
 
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
 #: Levels of tables and brackets beyond which a file is not a scene or sweep; those have four at most.
 DEEPEST = 50
 #: Bytes of a scene's or sweep's file; the largest scene of all arrays takes a tenth, reading this a second.
 LONGEST = 1_000_000
 _PLACE = re.compile(r"\(at (?:line (\d+), column \d+|end of document)\)$")
 _HEADER = re.compile(r"\s*\[{1,2}([^\[\]]+)\]{1,2}\s*(?:#.*)?$")
-_KEY = re.compile(r"\s*([^=#]*?)\s*=")
 _QUOTED = re.compile(r'"(?:\\.|[^"\\])*"|' + r"'[^']*'|#.*")
 #: A key with a number that TOML does not have: 150,0; 1.000,5; 20,000; ,5; 50 mm; 5%.
 _NUMBER = re.compile(
@@ -18,7 +20,7 @@ _NUMBER = re.compile(
     r"(?P<rest>(?: [0-9]{3})+|\s*[^\s,\]}#0-9][^\s,\]}#]*)?(?=\s*(?:$|#|[,}]))"
 )
 _THOUSANDS = re.compile(r"(?: [0-9]{3})+")
-_INLINE = re.compile(r"Duplicate inline table key '(.*?)'")
+_PRESENT = re.compile(r'Key "(.+)" already exists')
 _TWICE = ("Cannot overwrite", "Duplicate inline table key", "Cannot declare", "Cannot mutate")
 
 
@@ -68,25 +70,27 @@ def _too_deep(lines: list[str]) -> str:
 
 
 def _twice(lines: list[str], problem: str) -> str:
-    """Say which key or table is given twice, and in which lines; empty for another error."""
+    """Say which key or table is given twice, and in which line again; empty for another error."""
     place = _PLACE.search(problem)
     if place is None or not problem.startswith(_TWICE):
         return ""
     last = int(place[1] or len(lines))
-    inline = _INLINE.search(problem)
-    if inline is not None:
-        return f"line {last}: key '{inline[1]}' is given twice in an inline table: keep one of them"
-    header = _HEADER.match(lines[last - 1])
-    if header is not None:
-        name, first = header[1].strip(), _first_header(lines, last)
-        thing = f"table [{name}]"
+    if header := _HEADER.match(lines[last - 1]):
+        thing = f"table [{header[1].strip()}]"
         remedy = "put their keys under one, or write [[ ]] for an array of tables"
     else:
-        name, first = _key_before(lines, last)
-        thing = f"key {name}" if name else "a key"
-        remedy = "keep one of them"
-    where = f", first in line {first}" if first else ""
-    return f"line {last}: {thing} is given twice{where}: {remedy}"
+        thing, remedy = f"key {_repeated(lines)}", "keep one of them"
+    return f"line {last}: {thing} is given twice: {remedy}"
+
+
+def _repeated(lines: list[str]) -> str:
+    """Return the name of the first key that is given twice, which tomllib does not say."""
+    try:
+        tomlkit.parse("\n".join(lines))
+    except (TOMLKitError, RecursionError) as problem:
+        if found := _PRESENT.match(str(problem)):
+            return found[1]
+    return "of this line"
 
 
 def _written_otherwise(lines: list[str], problem: str) -> str:
@@ -112,40 +116,3 @@ def _written_otherwise(lines: list[str], problem: str) -> str:
     thousands = f", or {given.replace(',', '')} if the comma is between thousands"
     more = thousands if re.fullmatch(r"[+-]?[0-9]{1,3}(,[0-9]{3})+", given) else ""
     return f"{start}: a decimal number has a point: write {point}{more}"
-
-
-def _first_header(lines: list[str], last: int) -> int:
-    """Return the line (from 1) of the header that line ``last`` repeats; 0: none is found."""
-    wanted = _name(lines[last - 1])
-    return next((k for k, line in enumerate(lines[: last - 1], start=1) if _name(line) == wanted), 0)
-
-
-def _name(line: str) -> str:
-    header = _HEADER.match(line)
-    return "" if header is None else re.sub(r"[\s\"']", "", header[1])
-
-
-def _key_before(lines: list[str], last: int) -> tuple[str, int]:
-    """Return the dotted key whose value ends in line ``last``, and the line that gave it first (0: unknown).
-
-    A value may be an array over several lines: it is complete where its lines are valid TOML.
-    """
-    begin = last
-    while begin > 1 and not _is_complete(lines[begin - 1 : last]):
-        begin -= 1
-    found = _KEY.match(lines[begin - 1])
-    if found is None:
-        return "", 0
-    tables = [(k, _name(line)) for k, line in enumerate(lines[: begin - 1], start=1) if _name(line)]
-    start, table = tables[-1] if tables else (0, "")
-    key = found[1].strip("\"'")
-    before = ((k, _KEY.match(lines[k - 1])) for k in range(start + 1, begin))
-    first = next((k for k, match in before if match is not None and match[1].strip("\"'") == key), 0)
-    return f"{table}.{key}".removeprefix("."), first
-
-
-def _is_complete(lines: list[str]) -> bool:
-    try:
-        return bool(tomllib.loads("\n".join(lines)))
-    except (ValueError, RecursionError):
-        return False

@@ -107,35 +107,34 @@ def test_twenty_problems_are_reported_without_a_rest():
 @pytest.mark.parametrize(
     ("old", "more", "words"),
     [
-        ("preload_N = 500.0", "preload_N = 1.0", "key mounting.preload_N is given twice, first in line {}"),
+        ("preload_N = 500.0", "preload_N = 1.0", "key preload_N is given twice"),
         (
             "preload_N = 500.0",
             "'preload_N' = [\n 1,\n 2]",
-            "key mounting.preload_N is given twice, first in line {}",
+            "key preload_N is given twice",
         ),
         (
             "[mounting]",
             "[[sound.microphone]]\n[mounting]",
-            "table [mounting] is given twice, first in line {}",
+            "table [mounting] is given twice",
         ),
         (
             "preload_N = 500.0",
             "rotor = { a = 1, a = 2 }",
-            "key 'a' is given twice in an inline table: keep one",
+            "key a is given twice: keep one",
         ),
     ],
 )
-def test_a_key_that_is_given_twice_is_named_with_both_lines(old, more, words):
+def test_a_key_that_is_given_twice_is_named_with_its_line(old, more, words):
     text = TEXT.replace(old, f"{old}\n{more}", 1)
     message = reported(text)[0]
-    line = text.splitlines().index(old) + 1
-    assert words.format(line) in message, message
-    last = line + len(more.splitlines())
+    assert words in message, message
+    last = text.splitlines().index(old) + 1 + len(more.splitlines())
     assert f"not valid TOML: line {last}: " in message
 
 
 def test_a_key_that_is_given_twice_at_the_end_of_the_file():
-    assert "line 3: key a.b is given twice, first in line 2: keep one" in reported("[a]\nb = 1\nb = 2")[0]
+    assert "line 3: key b is given twice: keep one" in reported("[a]\nb = 1\nb = 2")[0]
 
 
 @pytest.mark.parametrize(

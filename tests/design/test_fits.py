@@ -1,6 +1,5 @@
 """`fits`: five columns computed in full, two seats, sets, numbers of the design page."""
 
-import json
 import math
 
 import numpy as np
@@ -251,7 +250,7 @@ def test_a_set_of_one_is_the_single_bearing():
 
 
 def test_numbers_for_machines(steel):
-    document = json.loads(json.dumps(steel.summary()))
+    document = steel.summary()
     assert [one["take"] for one in document["columns"]] == list(TAKES)
     (mean,) = document["columns"][2]["bearings"]
     assert mean["seats"]["inner"]["interference_m"]["drawn"] == pytest.approx(2e-6)

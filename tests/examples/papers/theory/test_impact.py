@@ -21,6 +21,7 @@ from examples.papers.impact.chain import (
 from examples.papers.impact.impact_sound import impact_pressure
 from examples.papers.impact.scattering import SphereRow
 from examples.papers.impact.sphere_field import sphere_pressure
+from fmu_bearing.acoustics.radiation import sources
 from tests.oracles import radiation
 
 # What only the papers' pages use.

@@ -11,6 +11,7 @@ import numpy as np
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
+from fmu_bearing.results.base import write_netcdf
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.sweeps.figures import HOW
 from fmu_bearing.sweeps.plan import Plan
@@ -89,9 +90,7 @@ def save(data: "xarray.Dataset", folder: str | os.PathLike[str]) -> dict[str, pa
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     netcdf, table = folder / "sweep.nc", folder / "sweep.csv"
-    part = folder / ".sweep.nc.part"
-    data.to_netcdf(part, engine="h5netcdf")
-    os.replace(part, netcdf)
+    write_netcdf(netcdf, data)
     columns, rows = table_of(data)
     write_csv(table, columns, [[_text(value) for value in row] for row in rows])
     return {"netcdf": netcdf, "csv": table}

@@ -136,7 +136,8 @@ def _write(
 ) -> Writing:  # fmt: skip
     """Print values, levels and remarks, and write the files, which are returned."""
     from fmu_bearing.identification.files import misfit_words, write_all
-    from fmu_bearing.identification.result import levels_table, values_table
+    from fmu_bearing.identification.result import Compared, Estimate
+    from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
 
     refused = bool(found.doubts) and not anyway
@@ -151,8 +152,8 @@ def _write(
     if as_json:
         print_json(found.summary() | {"files": files})
     else:
-        show("Measured and computed levels", *levels_table(found.compared))
-        show("Identified values", *values_table(found))
+        show("Measured and computed levels", *table(Compared, found.compared))
+        show("Identified values", *table(Estimate, found.estimates))
         typer.echo(misfit_words(found))
         for remark in (*(() if refused else found.doubts), *found.remarks):
             typer.echo(f"* {remark}")

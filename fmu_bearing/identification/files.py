@@ -11,8 +11,9 @@ from tomlkit.items import InlineTable, Table
 from fmu_bearing.extras import available
 from fmu_bearing.files import check_file, check_folder, write_whole
 from fmu_bearing.identification.errors import IdentifyError
-from fmu_bearing.identification.result import Identified, levels_table, values_table
+from fmu_bearing.identification.result import Compared, Estimate, Identified
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.results.base import table
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.entries import anchored
@@ -119,12 +120,12 @@ def write_all(
     write_whole(path, identified_toml(found, text).encode("utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     files = [path]
-    for name, table in (
-        ("levels.csv", levels_table(found.compared)),
-        ("values.csv", values_table(found)),
+    for name, columns_and_rows in (
+        ("levels.csv", table(Compared, found.compared)),
+        ("values.csv", table(Estimate, found.estimates)),
         ("jacobian.csv", jacobian_table(found)),
     ):
-        write_csv(folder / name, *table)
+        write_csv(folder / name, *columns_and_rows)
         files.append(folder / name)
     write_whole(folder / "report.md", report(found).encode("utf-8"))
     files.append(folder / "report.md")
@@ -158,11 +159,11 @@ def report(found: Identified) -> str:
     parts = [
         f"# Identification of {found.scene.name}\n",
         misfit_words(found) + "\n",
-        markdown(*values_table(found)),
+        markdown(*table(Estimate, found.estimates)),
         "## Remarks\n",
         "".join(f"* {remark}\n" for remark in (*found.doubts, *found.remarks)) or "None.\n",
         "## Levels\n",
-        markdown(*levels_table(found.compared)),
+        markdown(*table(Compared, found.compared)),
         "## Slopes of the fitted levels\n",
         markdown(*jacobian_table(found)),
         "## Correlation\n",

@@ -1,7 +1,7 @@
 """What an identification found: values with their uncertainty, levels before and after, sentences."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.free import Free
-from fmu_bearing.results.base import Quantity, Result, table
-from fmu_bearing.results.table import Table
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
 
 FAR = 5.0  # standard deviations: of a million values one is so far off by chance
@@ -124,7 +123,7 @@ class Identified(Result):
     quantities = (
         "scene = scene.name", "complete", "fidelity", "seeds [1]", "runs [1] = evaluations", "rms_dB = _rms",
         "residual_scale [1]", Quantity("values", of=lambda found: {one.key: one for one in found.estimates}),
-        "singular_values [1]", "correlation [1]", "remarks", "doubts",
+        "levels = compared", "singular_values [1]", "correlation [1]", "remarks", "doubts",
     )  # fmt: skip
 
     scene: Scene
@@ -239,13 +238,3 @@ def _sigma(found: Identified, fit: bool) -> float:
     """Rms (dB) of the standard deviations of fitted or checked values; NaN: there are none."""
     squares = [one.sigma**2 for one in found.compared if one.datum.fit is fit]
     return float(np.sqrt(np.mean(squares))) if squares else math.nan
-
-
-def values_table(found: Identified) -> Table:
-    """Columns and rows of the identified values."""
-    return table(Estimate, found.estimates)
-
-
-def levels_table(found: Sequence[Compared]) -> Table:
-    """Columns and rows of measured and computed levels."""
-    return table(Compared, found)

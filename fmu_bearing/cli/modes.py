@@ -124,7 +124,7 @@ def _show(found: "Modes", highest: float, words: str) -> None:
         f"{found.scene.name}: {found.scene.bearing.designation}, {found.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
-    show("modes", *table(Mode, found.rows(highest)))
+    show("modes", *table(Mode, found.records(highest)))
 
 
 def _show_crossings(diagram: "Campbell") -> None:

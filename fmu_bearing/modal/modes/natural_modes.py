@@ -167,10 +167,10 @@ class Modes(Result):
         return found
 
     def table(self, highest: float = 50e3, apart: bool = False) -> list[dict[str, Any]]:
-        """Return `rows` by name: frequency (Hz), damping ratio, order, direction, kinetic energy, remark."""
-        return [one.summary() for one in self.rows(highest, apart)]
+        """Return `records` by name, with frequency (Hz), damping ratio, kinetic energy, remark."""
+        return [one.summary() for one in self.records(highest, apart)]
 
-    def rows(self, highest: float = 50e3, apart: bool = False) -> list[Mode]:
+    def records(self, highest: float = 50e3, apart: bool = False) -> list[Mode]:
         """Return the modes that a table has.
 
         Rows of balls alone that differ by their order only are one row.
@@ -192,10 +192,6 @@ class Modes(Result):
                 rows.append(mode)
         rows += [grouped(group) for group in groups_of(alone)]
         return sorted(rows, key=lambda row: row.frequency)
-
-    def records(self) -> list[Mode]:
-        """Return `rows`."""
-        return self.rows()
 
     def modal_assurance(self, before: list[Mode], now: list[Mode]) -> NDArray[np.float64]:
         """Return the modal assurance criterion of modes before against modes now, by kinetic energy."""

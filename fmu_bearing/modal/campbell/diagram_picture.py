@@ -2,7 +2,7 @@
 
 import re
 import textwrap
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,18 +10,24 @@ from numpy.typing import NDArray
 from fmu_bearing.extras import need
 from fmu_bearing.modal.campbell.diagram import Branch, Crossing, Diagram
 from fmu_bearing.modal.campbell.diagram_style import (
+    ALIKE,
     LIMITS,
     SHORT,
     UNSTABLE,
     WIDTH_WORDS,
     WIDTHS,
+    End,
     colour,
     counted,
     dot_area,
     drawn_lines,
+    end_of,
+    last_of,
     level_band,
     margin_words,
+    names_beside,
     runs,
+    spaced,
     strength,
     top,
     unstable,
@@ -43,7 +49,6 @@ _STEP = 1.32 * _FONT  # pt between the middles of names
 _SLANTED = 1.5 * _FONT  # pt along the axis between slanted names
 _BESIDE = 8  # lines that are named beside the axes, between the branches
 _DARK, _FAINT, _BAND = "#4A545E", "#CBD2D8", "#F1F6FA"
-_ALIKE = 0.03  # of the height: branches of one name that end closer share a name
 _QUALITIES = (5.0, 25.0, 100.0)
 _WRAP = 68  # characters of the text below the axes
 
@@ -162,22 +167,6 @@ def _draw_operation(ax: "Axes", campbell: Diagram) -> None:
     _put(ax, text, [(side * 5.0, float(dy)) for dy in heights for side in (-1.0, 1.0)])
 
 
-def spaced(wanted: NDArray[np.float64], least: float, low: float, high: float) -> NDArray[np.float64]:
-    """Return places nearest to the wanted ones, in rising order, ``least`` or more apart.
-
-    Pool adjacent violators (Barlow et al. 1972): neighbours too close share the mean of what they want.
-    """
-    steps = least * np.arange(wanted.size)
-    pools: list[list[float]] = []
-    for value in wanted - steps:
-        pools.append([float(value)])
-        while len(pools) > 1 and np.mean(pools[-2]) >= np.mean(pools[-1]):
-            last = pools.pop()
-            pools[-1] += last
-    flat = np.array([np.mean(pool) for pool in pools for _ in pool])
-    return np.asarray(np.clip(flat, low, max(low, high - least * (wanted.size - 1))) + steps)
-
-
 def _figure(ax: "Axes") -> "Figure":
     return cast("Figure", ax.get_figure())
 
@@ -192,15 +181,6 @@ def _width(ax: "Axes") -> float:
     return float(72.0 * _figure(ax).get_size_inches()[0] * ax.get_position().width)
 
 
-class _End(NamedTuple):
-    """What reaches the right edge: a branch or a line."""
-
-    frequency: float
-    name: str
-    way: str
-    tint: str
-
-
 def _name_beside(
     ax: "Axes", branches: "list[Branch]", curves: dict[str, NDArray[np.float64]]
 ) -> "list[Branch]":
@@ -210,28 +190,10 @@ def _name_beside(
     """
     highest, (left, right) = ax.get_ylim()[1], ax.get_xlim()
     reaching = [branch for branch in branches if _reaches(branch, right, highest)]
-    ends = [_End(branch.frequency[_last(branch)], branch.name, branch.direction, colour(branch.name))
-            for branch in reaching]  # fmt: skip
     # curves come with the strongest first
-    ends += [_End(curve[-1], name, "", _DARK) for name, curve in curves.items() if curve[-1] <= highest][
-        :_BESIDE
-    ]
-    groups: list[list[_End]] = []
-    for end in sorted(ends):
-        own = [
-            g for g in groups if g[0].name == end.name and end.frequency - g[0].frequency < _ALIKE * highest
-        ]
-        if own:
-            own[0].append(end)
-        else:
-            groups.append([end])
-    if not groups:
-        return []
-    groups.sort(key=_middle)
-    unit, span = _height(ax) / highest, right - left
-    heights = spaced(np.array([_middle(group) * unit for group in groups]), _STEP, 0.0, _height(ax)) / unit
-    for group, height in zip(groups, heights, strict=True):
-        ways = " + ".join(sorted({SHORT[end.way] for end in group if end.way}, reverse=True))
+    lines = [End(curve[-1], name, "", _DARK) for name, curve in curves.items() if curve[-1] <= highest]
+    ends, span = [*map(end_of, reaching), *lines[:_BESIDE]], right - left
+    for height, words, group in names_beside(ends, highest, _height(ax), _STEP):
         tint = group[0].tint
         for end in group:
             ax.plot(
@@ -239,24 +201,15 @@ def _name_beside(
                 color=tint, linewidth=0.8, clip_on=False, gid="tie",
             )  # fmt: skip
         ax.text(
-            right + 0.042 * span, height, f"{group[0].name} {ways}".rstrip(), color=tint, fontsize=_FONT,
-            va="center_baseline", ha="left", gid="name",
+            right + 0.042 * span, height, words, color=tint, fontsize=_FONT, va="center_baseline", ha="left",
+            gid="name",
         )  # fmt: skip
     return reaching
 
 
-def _middle(group: list[_End]) -> float:
-    return float(np.mean([end.frequency for end in group]))
-
-
-def _last(branch: Branch) -> int:
-    return int(np.argmax(np.abs(branch.rpm)))
-
-
 def _reaches(branch: Branch, right: float, highest: float) -> bool:
     """Whether a branch ends at the right edge."""
-    last = _last(branch)
-    return abs(float(branch.rpm[last])) > 0.999 * right and float(branch.frequency[last]) <= highest
+    return abs(float(branch.rpm[last_of(branch)])) > 0.999 * right and end_of(branch).frequency <= highest
 
 
 def _is_named(branch: Branch, named: "list[Branch]", highest: float) -> bool:
@@ -265,7 +218,7 @@ def _is_named(branch: Branch, named: "list[Branch]", highest: float) -> bool:
         branch is other
         or (
             branch.label == other.label
-            and abs(branch.frequency[_last(branch)] - other.frequency[_last(other)]) < _ALIKE * highest
+            and abs(end_of(branch).frequency - end_of(other).frequency) < ALIKE * highest
         )
         for other in named
     )

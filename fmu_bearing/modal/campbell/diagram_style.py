@@ -1,7 +1,7 @@
 """What a Campbell diagram shows, and how: colours, widths and dashes of branches, lines, sizes of dots."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +31,7 @@ LIMITS = (MARGIN, 0.01, 0.03, 0.1)
 WIDTHS = (0.8, 1.1, 1.7, 2.4, 3.2)
 WIDTH_WORDS = ("below 0.2 %", "below 1 %", "1 to 3 %", "3 to 10 %", "above 10 %")
 
+ALIKE = 0.03  # of the height: branches of one name that end closer share a name
 _FINE = 12  # points from one speed to the next
 _ROOM = 1.12  # of the highest frequency that is shown
 _SHARPEST = 120.0  # Q beyond which a dot grows no further
@@ -43,6 +44,15 @@ class Run(NamedTuple):
     weak: int  # place in WIDTHS
     rpm: NDArray[np.float64]
     frequency: NDArray[np.float64]
+
+
+class End(NamedTuple):
+    """What reaches the right edge: a branch or a line; Hz, name, direction, colour."""
+
+    frequency: float
+    name: str
+    way: str
+    tint: str
 
 
 def colour(name: str) -> str:
@@ -123,6 +133,59 @@ def unstable(branch: Branch) -> "NDArray[np.bool_]":
 def level_band(campbell: Diagram) -> tuple[float, float] | None:
     """Hz: the band of the scene's levels; None for a scene without sound."""
     return None if campbell.scene.sound is None else BAND
+
+
+def spaced(wanted: NDArray[np.float64], least: float, low: float, high: float) -> NDArray[np.float64]:
+    """Return places nearest to the wanted ones, in rising order, ``least`` or more apart.
+
+    Pool adjacent violators (Barlow et al. 1972): neighbours too close share the mean of what they want.
+    """
+    steps = least * np.arange(wanted.size)
+    pools: list[list[float]] = []
+    for value in wanted - steps:
+        pools.append([float(value)])
+        while len(pools) > 1 and np.mean(pools[-2]) >= np.mean(pools[-1]):
+            last = pools.pop()
+            pools[-1] += last
+    flat = np.array([np.mean(pool) for pool in pools for _ in pool])
+    return np.asarray(np.clip(flat, low, max(low, high - least * (wanted.size - 1))) + steps)
+
+
+def last_of(branch: Branch) -> int:
+    """Return the place of the largest speed of a branch."""
+    return int(np.argmax(np.abs(branch.rpm)))
+
+
+def end_of(branch: Branch) -> End:
+    """Return where a branch ends."""
+    frequency = float(branch.frequency[last_of(branch)])
+    return End(frequency, branch.name, branch.direction, colour(branch.name))
+
+
+def names_beside(
+    ends: Sequence[End], highest: float, height: float, least: float
+) -> Iterator[tuple[float, str, list[End]]]:
+    """Yield where a name is beside the axes (Hz), its words, and the ends that share it.
+
+    Both directions of a mode share a name where they end close together. Names are in the order of the ends,
+    and ``least`` apart, in the unit of the axes' ``height``, which ends at ``highest`` (Hz).
+    """
+    groups: list[list[End]] = []
+    for end in sorted(ends):
+        own = (
+            g for g in groups if g[0].name == end.name and end.frequency - g[0].frequency < ALIKE * highest
+        )
+        group = next(own, None)
+        if group is None:
+            groups.append([end])
+        else:
+            group.append(end)
+    middles = [float(np.mean([end.frequency for end in group])) for group in groups]
+    order = np.argsort(middles, kind="stable")
+    places = spaced(np.array(middles)[order] * height / highest, least, 0.0, height) * highest / height
+    for k, place in zip(order, places, strict=True):
+        ways = " + ".join(sorted({SHORT[end.way] for end in groups[k] if end.way}, reverse=True))
+        yield float(place), f"{groups[k][0].name} {ways}".rstrip(), groups[k]
 
 
 def strength(velocity: float, largest: float) -> float:

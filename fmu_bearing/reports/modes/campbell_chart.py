@@ -5,18 +5,18 @@ from typing import Any
 import numpy as np
 
 from fmu_bearing.modal.campbell.diagram import Branch, Crossing
-from fmu_bearing.modal.campbell.diagram_picture import spaced
 from fmu_bearing.modal.campbell.diagram_style import (
     DASHES,
-    SHORT,
     UNSTABLE,
     WIDTHS,
     colour,
     counted,
     dot_area,
     drawn_lines,
+    end_of,
     level_band,
     margin_words,
+    names_beside,
     quality_words,
     runs,
     strength,
@@ -31,7 +31,6 @@ from fmu_bearing.reports.page.blocks import Chart, Table, small
 KEY = "campbell"
 _HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and the margins of its axes
 _NAME = 15.0  # px between the middles of names
-_TOGETHER = 0.03  # of the height: branches of one name that end closer share a name
 _LEAST = 0.05  # of the kinetic energy: smaller shares are left out
 _MOST = 4  # shares named
 _LONG = 30  # rows of an open table
@@ -191,37 +190,15 @@ def _draw_operation(drawn: Any, found: Campbell) -> list[dict[str, Any]]:
 
 def _names(found: Campbell, highest: float) -> list[dict[str, Any]]:
     """Names of the branches beside the axes, apart from each other, in the order of their ends."""
-    groups: list[list[Branch]] = []
-    for branch in sorted((one for one in found.branches if _end(one) <= highest), key=_end):
-        own = [
-            g for g in groups if g[0].name == branch.name and _end(branch) - _end(g[0]) < _TOGETHER * highest
-        ]
-        if own:
-            own[0].append(branch)
-        else:
-            groups.append([branch])
-    if not groups:
-        return []
-    height = _HEIGHT - _TOP - _BOTTOM
-    groups.sort(key=lambda group: float(np.mean([_end(one) for one in group])))
-    wanted = np.array([float(np.mean([_end(one) for one in group])) for group in groups]) / highest * height
-    places = spaced(wanted, _NAME, 0.0, float(height))
+    ends = [end for end in map(end_of, found.branches) if end.frequency <= highest]
     return [
         {
-            "text": f"{group[0].name} {_ways(group)}".rstrip(), "x": 1.0, "xref": "paper", "xanchor": "left",
-            "xshift": 6, "y": float(place) / height, "yref": "paper", "yanchor": "middle", "showarrow": False,
-            "font": {"size": 12, "color": colour(group[0].name)},
+            "text": words, "x": 1.0, "xref": "paper", "xanchor": "left", "xshift": 6,
+            "y": place / highest, "yref": "paper", "yanchor": "middle", "showarrow": False,
+            "font": {"size": 12, "color": group[0].tint},
         }
-        for group, place in zip(groups, places, strict=True)
+        for place, words, group in names_beside(ends, highest, _HEIGHT - _TOP - _BOTTOM, _NAME)
     ]  # fmt: skip
-
-
-def _end(branch: Branch) -> float:
-    return float(branch.frequency[int(np.argmax(np.abs(branch.rpm)))])
-
-
-def _ways(group: list[Branch]) -> str:
-    return " + ".join(sorted({SHORT[one.direction] for one in group if one.direction}, reverse=True))
 
 
 def mode_table(point: Modes, highest: float, words: str = "") -> Table:

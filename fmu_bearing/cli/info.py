@@ -10,7 +10,7 @@ import typer
 from fmu_bearing.cli.base import Refusal, app, print_json, refusals, tell
 from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
 from fmu_bearing.cli.settings import at_speed, source_of
-from fmu_bearing.scene.words import conditions_words, materials_words
+from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words
 
 if TYPE_CHECKING:
     from fmu_bearing.design.fits import Column
@@ -152,8 +152,8 @@ def _show_set(found: "Statics") -> None:
 
     scene = found.scene
     _show_heading(
-        f"{scene.name}: {len(found.bearings)} x {scene.bearing.designation}, {found.arrangement}, "
-        f"{materials_words(scene)}; {scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
+        f"{scene.name}: {bearings_words(scene)}, {materials_words(scene)}; "
+        f"{scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
     show("bearings: load; largest ball load, angle, pressure", *table(BearingLoad, found.bearings))

@@ -34,20 +34,11 @@ from fmu_bearing.cli.options import (
 )
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_file
-from fmu_bearing.scene import read_scene
-from fmu_bearing.scene.exclusions import require
 
 Source = Annotated[
     Path, typer.Argument(metavar="SCENE|RUN.npz", help="Scene file (TOML), or a recording of a run (.npz).")
 ]
 Page = Annotated[Path, target("HTML file to write.")]
-
-
-def _check_keep(path: Path, source: Path) -> None:
-    """Refuse a name under which the run cannot be kept, and a report without one."""
-    if source.suffix == ".toml":
-        require(read_scene(source), "run report")
-    check_file(path, ".npz", "a run")
 
 
 @app.command()
@@ -88,7 +79,7 @@ def report(
         speeds = None if run_up is None else span(run_up, source)
         check_new(force, output, keep)
         if keep is not None:  # refused before the run
-            _check_keep(keep, source)
+            check_file(keep, ".npz", "a run")
         from fmu_bearing.reports import make  # loads slowly, and no other command has use for it
 
         chosen = source_of(source, settings, fidelity)

@@ -21,6 +21,7 @@ from fmu_bearing.scene.origins import Origin, origins
 from fmu_bearing.scene.own_bearing import Dimensions, balls_of
 from fmu_bearing.scene.scene import scene_name
 from fmu_bearing.scene.template import FITTED, MATERIALS
+from fmu_bearing.scene.words import bearings_words
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -386,12 +387,6 @@ def _remark(one: Origin) -> str:
     return f"assumed: {one.remark}" if one.remark else "assumed"
 
 
-def _subject(found: Scene) -> str:
-    """Return the bearing's designation; of a set their number and arrangement, too."""
-    members, designation = found.assembly.members, found.bearing.designation
-    return f"{len(members)} x {designation}, {found.assembly.arrangement}" if members else designation
-
-
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return fidelity, method, sound and sizes of a scene, in words."""
     from fmu_bearing.prepare.still import longest_internal_step
@@ -420,7 +415,7 @@ def _sizes(found: Scene) -> dict[str, Any]:
     if found.sound is not None:
         sound = f"{found.sound.radiation_model}, {found.sound.radiator}, {len(found.microphones)} microphones"
     return {
-        "scene": f"{found.name}: {_subject(found)}, {found.operation.speed_rpm:g} r/min",
+        "scene": f"{found.name}: {bearings_words(found)}, {found.operation.speed_rpm:g} r/min",
         "fidelity": words,
         "balls": f"{model.n_balls}, traction strips {fidelity.traction_strips}",
         "sound": sound,

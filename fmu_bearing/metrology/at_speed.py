@@ -20,6 +20,8 @@ DIRECTIONS = {
     "fixed y": ("um", 1e6), "fixed z": ("um", 1e6), "rotating": ("um", 1e6), "axial": ("um", 1e6),
     "tilt about y": ("urad", 1e6), "tilt about z": ("urad", 1e6), "tilt rotating": ("urad", 1e6),
 }  # fmt: skip
+#: Radius of the base circle of a polar plot over the largest deviation.
+BASE = 2.0
 _COLUMN = {"fixed y": 1, "fixed z": 2, "axial": 0, "tilt about y": 3, "tilt about z": 4}
 _TURNING = {"rotating": (1, 2), "tilt rotating": (3, 4)}
 #: Lines of bearings are fitted to this order, whole orders to the other: what turns with the shaft makes
@@ -254,11 +256,20 @@ class AtSpeed(Result):
             synchronous(mean, 2), synchronous(fitted, 2),
         )  # fmt: skip
 
-    def polar(self, direction: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return revolutions and mean contour about the circle of least squares, for a plot."""
-        mean = self.mean_contour(direction)
+    def polar(
+        self, direction: str
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], float]:
+        """Return angles (rad), revolutions and mean contour as radii, and the radius of their base circle.
+
+        The unit is that of `DIRECTIONS`. Deviations from the base circle, which is of least squares, have a
+        scale; its radius is free, and clear of the middle.
+        """
+        mean, factor = self.mean_contour(direction), DIRECTIONS[direction][1]
         centred = contour(mean, 2 if direction != "axial" else 1)
-        return self.signal(direction) - (mean - centred), centred
+        rows = factor * (self.signal(direction) - (mean - centred))
+        base = BASE * max(float(np.abs(rows).max()), 1e-15 * factor)
+        angle = np.sign(self.rpm) * 2.0 * np.pi * np.arange(1, mean.size + 1) / mean.size
+        return angle, base + rows, base + factor * centred, base
 
     def _part(self, bearing: int, source: str) -> Part:
         """Return what the lines of a bearing make, of one source or ("") of all."""

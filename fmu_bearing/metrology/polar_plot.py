@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
+from fmu_bearing.metrology.at_speed import BASE, DIRECTIONS, AtSpeed
 from fmu_bearing.results.picture_parts import COLOURS, empty
 
 if TYPE_CHECKING:
@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 _MOST = 6  # speeds that are drawn: of more, six evenly among them
 _BESIDE = 3  # plots in a row
-_BASE = 2.0  # radius of the base circle over the largest deviation: the contour stays clear of the middle
 _TICKS = 2  # to either side of the base circle
 
 
@@ -36,13 +35,11 @@ def polar_plot(speeds: Sequence[AtSpeed], direction: str) -> "Figure":
 
 def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
     unit, factor = DIRECTIONS[direction]
-    rows, mean = one.polar(direction)
-    largest = factor * max(float(np.abs(rows).max()), 1e-15)
+    angle, rows, mean, base = one.polar(direction)
+    largest = base / BASE
     step = _round_below(largest / _TICKS)
-    base = _BASE * largest
-    angle = np.sign(one.rpm) * 2.0 * np.pi * np.arange(1, rows.shape[1] + 1) / rows.shape[1]
-    ax.plot(np.tile(angle, len(rows)), base + factor * rows.ravel(), color="0.6", linewidth=0.4, alpha=0.5)
-    ax.plot(_closed(angle), base + factor * _closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
+    ax.plot(np.tile(angle, len(rows)), rows.ravel(), color="0.6", linewidth=0.4, alpha=0.5)
+    ax.plot(_closed(angle), _closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
     around = np.linspace(0.0, 2.0 * np.pi, 181)
     ax.plot(around, np.full_like(around, base), color="0.2", linewidth=0.8, linestyle="--")
     ax.set_theta_zero_location("N")

@@ -3,10 +3,9 @@
 ============  ===========================================================================
 ``page``      parts of a section, their style, and the page from its sections
 ``data``      what the sections read: the run, the recording, levels at the microphones
-``sections``  summary, verdicts, choices, motion, loads, friction
+``sections``  summary, verdicts, choices, shaft, motion, loads, friction
 ``sound``     levels, spectra, waterfall, directivity, sounds to play
 ``modes``     Campbell diagram, tables of modes, moving shapes; a page of their own
-``set_page``  the page about a set of bearings on one shaft: statics, a short run
 ``make``      `report`: from a run or a recording to the page
 ============  ===========================================================================
 """

@@ -23,6 +23,7 @@ from fmu_bearing.reports.modes.modes_section import section as what_vibrates
 from fmu_bearing.reports.page.blocks import CUT, Absent, Section
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections import (
+    arrangement,
     ball_contacts,
     conditions,
     error_motion,
@@ -33,11 +34,10 @@ from fmu_bearing.reports.sections import (
 from fmu_bearing.reports.sections.seats import seats
 from fmu_bearing.reports.sections.verdict_table import judged, overall_of
 from fmu_bearing.reports.sections.what_to_change import section as what_to_change
-from fmu_bearing.reports.set_page import set_page
 from fmu_bearing.reports.sound import directivity_balloon, levels_and_spectra, playback, waterfall
 from fmu_bearing.run.choose import resolve
-from fmu_bearing.scene import Scene, SceneSource, read_scene, scene_of
-from fmu_bearing.scene.exclusions import refusal, require
+from fmu_bearing.scene import SceneSource, read_scene, scene_of
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.origins import origins, with_surface
 from fmu_bearing.scene.surface import Surface
 from fmu_bearing.scene.surface_file import read_surface
@@ -65,8 +65,8 @@ class Report:
     figures : dict
         The figures at the top of the page, by name with unit.
     warnings : list of str
-    recording : Recording, optional
-        The recording that the page shows; None for a set of bearings, whose report is made of statics.
+    recording : Recording
+        The recording that the page shows.
     verdict : str
         The gravest of all verdicts; empty where there is no scene to judge.
     """
@@ -76,7 +76,7 @@ class Report:
     sections: dict[str, str]
     figures: dict[str, float]
     warnings: list[str]
-    recording: Recording | None
+    recording: Recording
     verdict: str
 
 
@@ -172,15 +172,6 @@ def make(
     path = check_file(output, ".html", "a report")
     rough = surface if surface is None or isinstance(surface, Surface) else read_surface(surface)
     _check(duration, settle, radius, run_up, run_up_time)
-    given = _set_of(source)
-    if given is not None:
-        require(given, "report")
-        runs: dict[str, tuple[object, object]] = {
-            "run_up": (run_up, None), "radiation_model": (radiation_model, None), "changes": (changes, None),
-            "duration": (duration, DURATION), "settle": (settle, SETTLE), "radius": (radius, RADIUS),
-            "run_up_time": (run_up_time, RUN_UP), "surface": (surface, None),
-        }  # fmt: skip
-        return _of_set(given, path, speed, title, tell, runs, source)
     left: list[str] = []  # what Ctrl-C leaves out
     subject = _subject(source, duration, settle, speed, radiation_model, radius, rough, tell, progress, left)
     unkept = None
@@ -203,20 +194,25 @@ def make(
             sure = _spread(subject, microphones, rough, tell)
     shown = summary.tiles(subject, microphones, sure)
     verdicts = judged(subject)
-    overall = None if verdicts is None else overall_of(verdicts.found)
+    cards, figures = summary.cards(subject, () if verdicts is None else verdicts.found)
+    overall = None if verdicts is None else overall_of(verdicts.found, subject.several)
     scene = subject.recording.scene
     heading = title or ("Recording" if scene is None else scene.name)
     tell("writing the page")
     text = render(
         heading, conditions.source_words(subject), subject.source, sections, shown,
         summary.sentences(subject, microphones, sure), notes, None if verdicts is None else verdicts.table,
-        overall=overall,
+        overall=overall, cards=cards, kind=f"{'Spindle' if subject.several else 'Bearing'} report",
     )  # fmt: skip
-    made = _written(
-        text, left, path, {section.key: section.missing for section in sections},
-        {tile["key"]: tile["value"] for tile in shown}, notes, subject.recording,
+    data = text.encode("utf-8")
+    rescued(partial(write_whole, data=data), path)
+    made = Report(
+        path, len(data), {section.key: section.missing for section in sections},
+        {tile["key"]: tile["value"] for tile in shown} | figures, notes, subject.recording,
         "" if overall is None else overall.judgement,
     )  # fmt: skip
+    if left:
+        raise Stopped(made, ", ".join(left))
     if unkept is not None:
         raise unkept
     return made
@@ -229,16 +225,6 @@ def _leaving(left: list[str], what: str) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         left.append(what)
-
-
-def _written(text: str, left: list[str], path: pathlib.Path, *more: Any) -> Report:
-    """Write the page and return the report; `Stopped` with it where something was left out."""
-    data = text.encode("utf-8")
-    rescued(partial(write_whole, data=data), path)
-    made = Report(path, len(data), *more)
-    if left:
-        raise Stopped(made, ", ".join(left))
-    return made
 
 
 def _check(
@@ -270,6 +256,7 @@ def _subject(
     if isinstance(source, Recording):
         return _taken(source, "a recording in memory", radiation_model, radius, speed)
     given = scene_of(source)
+    require(given, "report")
     given = given if surface is None else surface.scene(given)
     if given.fidelity.model == "auto":
         tell("fidelity auto: finding the cheapest within the scene's accuracy")
@@ -295,34 +282,6 @@ def _subject(
     return Subject(recording, recording.radiation_model, origin, text, whence, notes, radius)
 
 
-def _set_of(source: Source) -> Scene | None:
-    """Return the scene of a set of bearings; None for all else."""
-    if isinstance(source, Recording):
-        return None
-    if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
-        return None
-    scene = scene_of(source)
-    return scene if scene.assembly.members else None
-
-
-def _of_set(
-    scene: Scene, path: pathlib.Path, speed: float | None, title: str, tell: Tell,
-    runs: dict[str, tuple[object, object]], source: Source,
-) -> Report:  # fmt: skip
-    """Write the page about a set; ``runs``: options that need a run, each with its default."""
-    text, whence = "", []
-    if isinstance(source, str | os.PathLike):
-        text, whence = pathlib.Path(source).read_text("utf-8-sig"), origins(pathlib.Path(source))
-    for name, (value, default) in runs.items():
-        if value != default:
-            raise ValueError(f"{name}: {refusal(scene, 'run report')}")
-    if speed is not None:
-        scene = scene.replace({"operation.speed_rpm": speed / RPM})
-    left: list[str] = []
-    page = set_page(scene, title, tell, whence, text, left)
-    return _written(page.text, left, path, page.sections, page.figures, page.warnings, None, page.verdict)
-
-
 def _spread(
     subject: Subject, microphones: Microphones | None, surface: Surface | None, tell: Tell
 ) -> Spread | None:
@@ -344,9 +303,9 @@ def _spread(
 def _taken(
     recording: Recording, origin: str, radiation_model: str | None, radius: float, speed: float | None
 ) -> Subject:
-    """Take a recording; ``ValueError`` for an option that needs another run, and for one of a set."""
+    """Take a recording; ``ValueError`` for an option that needs another run."""
     if recording.scene is not None:
-        require(recording.scene, "run report")
+        require(recording.scene, "report")
     if speed is not None:
         raise ValueError(
             "the speed of a recording cannot be changed: give the scene to run it at another one"
@@ -406,6 +365,10 @@ def _sections(
 
     plan: list[tuple[str, str, Callable[[], Section]]] = [
         ("conditions", "Operating point", lambda: conditions.conditions(subject)),
+        ("fits", "Fits of the rings", lambda: seats(subject)),
+        ("arrangement", "Arrangement", lambda: arrangement.arrangement(subject)),
+        ("axial", "Axial load", lambda: arrangement.axial(subject)),
+        ("warmth", "Preload and warmth", lambda: arrangement.warmth(subject)),
         ("levels", "Levels and sources", with_sound(lambda h: levels_and_spectra.levels(subject, h))),
         ("changes", "What to change", lambda: what_to_change(subject, tell, changes)),
         ("modes", "Modes", lambda: what_vibrates(subject)),
@@ -420,16 +383,13 @@ def _sections(
         ("friction", "Friction and heat", lambda: friction.friction(subject)),
         ("assumptions", "Assumptions and choices", lambda: conditions.assumptions(subject)),
     ]
-    fitted = subject.recording.scene
-    if fitted is not None and fitted.fit is not None:
-        turning = fitted.replace({"operation.speed_rpm": subject.speed / RPM})
-        plan.insert(
-            1, ("fits", "Fits of the rings", lambda: Section("fits", "Fits of the rings", seats(turning)))
-        )
+    scene = subject.recording.scene
+    asked = dict.fromkeys(("arrangement", "axial", "warmth"), subject.several)
+    asked |= {"fits": scene is not None and scene.fit is not None, "changes": changes is not False}
     found: list[Section] = []
     stopped = False
     for key, title, make_one in plan:
-        if key == "changes" and changes is False:
+        if not asked.get(key, True):
             continue
         if stopped or (left or reason == CUT) and key in _SLOW:
             found.append(Section(key, title, (), CUT))

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import P, Q, R, S, Y
-from fmu_bearing.instance import Instance
 
 
 class Readable(Protocol):
@@ -46,8 +45,8 @@ class Watch:
         self._cage: list[NDArray[np.float64]] = []
         self._reader: Reader | None = None
 
-    def __call__(self, bearing: Instance) -> None:
-        """Read the present state."""
+    def __call__(self, bearing: Readable) -> None:
+        """Read the present state of a bearing, of a set that of one of its parts."""
         if self._reader is None:
             self._reader = Reader(bearing)
         self._balls.append(self._reader.read(bearing))

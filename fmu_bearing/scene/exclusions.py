@@ -30,7 +30,6 @@ Subject = Literal[
     "plane",
     "recording",
     "report",
-    "run report",
     "sensitivity",
     "shaft",
     "short runs",
@@ -202,12 +201,6 @@ PAPER_RUNS = Exclusion(
 
 #: The table, from sets to sound. Of two rows for one subject the first that holds is named.
 EXCLUSIONS = (
-    Exclusion(
-        _SET,
-        {"run report": "a report of a run"},
-        "its report is made from statics, with a short run of its own for the sound",
-        "give the scene itself, without options of a run",
-    ),
     Exclusion(
         _SET,
         {"against": "error motion against an outer ring"},

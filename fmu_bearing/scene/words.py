@@ -12,6 +12,12 @@ def _named() -> tuple[tuple[str, Material], ...]:
     return tuple((name, Material.model_validate(values)) for name, values in catalogue("materials").items())
 
 
+def bearings_words(scene: Scene) -> str:
+    """Return the bearing's designation; of a set their number and arrangement, too: ``2 x 7003C, DB (O)``."""
+    members, designation = scene.assembly.members, scene.bearing.designation
+    return f"{len(members)} x {designation}, {scene.assembly.arrangement}" if members else designation
+
+
 def material_name(material: Material) -> str:
     """Return the name of a material in the catalogue, else its Young's modulus."""
     found = (name for name, known in _named() if known == material)

@@ -240,14 +240,16 @@ def test_the_report_of_a_set_has_the_sections_that_are_finished(run, tmp_path, m
     def pressed(*given):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("fmu_bearing.reports.set_page._axial", pressed)
-    page = tmp_path / "page.html"
-    done = run("report", EXAMPLES.parent / "spindle_set" / "7003C-DB.toml", "--json", "-o", page)
+    monkeypatch.setattr("fmu_bearing.reports.sections.arrangement.axial", pressed)
+    page, scene = tmp_path / "page.html", EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
+    words = ("--fidelity", "response", "--duration", "0.05", "--settle", "0", "--json")
+    done = run("report", scene, *words, "-o", page)
     assert done.exit_code == 130, done.output
-    assert [key for key, reason in done.data["missing"].items() if reason] == [
-        "axial", "warmth", "levels", "error-motion"
-    ]  # fmt: skip
-    assert "missing: axial, warmth, levels, error-motion\n" in done.stderr and page.is_file()
+    sections = list(done.data["sections"])
+    missing = sections[sections.index("axial") :]
+    assert "arrangement" not in done.data["missing"] and len(missing) == 15
+    assert [key for key, why in done.data["missing"].items() if why.startswith("interrupted")] == missing
+    assert f"missing: {', '.join(missing)}\n" in done.stderr and page.is_file()
 
 
 def test_files_follow_the_users_mask(run, silent_file, tmp_path):

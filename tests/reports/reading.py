@@ -8,6 +8,17 @@ from html.parser import HTMLParser
 
 import numpy as np
 
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.recording.recording import Recording
+from fmu_bearing.reports.data.subject import Subject
+
+
+def not_run(scene):
+    """What sections read that need no run: a scene at its speed, for 1 s, without variables."""
+    speed = np.full(2, scene.operation.speed_rpm * RPM)
+    recording = Recording(scene, "compact", 51_200.0, 0.0, 51_200, np.array([0.0, 1.0]), speed)
+    return Subject(recording, "compact")
+
 
 def numbers(value):
     """An array out of a figure, as the page packs it or as a list."""

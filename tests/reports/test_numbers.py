@@ -157,9 +157,10 @@ def test_friction_shares_are_the_variables(full, full_page):
 def test_the_range_of_the_torque_is_the_settled_one(full, full_page):
     """At the mean speed of the run, to the three digits that are shown."""
     found = torque_range(full.scene.replace({"operation.speed_rpm": float(np.mean(full.speed)) / RPM}))
-    rows = {row[0]: row for row in full_page.tables["Friction and heat, means over the recording"]}
-    for cell, one in zip(rows["range of the settled torque"][1:], found.shown[0], strict=False):
-        assert [float(value) for value in cell.split(" to ")] == pytest.approx(list(one), rel=5e-3)
+    rows = dict(full_page.tables["Friction and heat of the settled bearings, without waviness"])
+    for unit, one in zip(("N mm", "W"), found.shown[0], strict=True):
+        shown = [float(rows[f"its range: {end}, {unit}"]) for end in ("low", "high")]
+        assert shown == pytest.approx(list(one), rel=5e-3)
     _, *inputs = full_page.tables[f"F{CAPTION[1:]}"]
     assert [row[:3] for row in inputs] == [row[:3] for row in found.table()[1]]
 

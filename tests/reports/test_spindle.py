@@ -1,4 +1,7 @@
-"""The page about a set of bearings: sections, figures, what it refuses."""
+"""The report of a set of bearings: a run of the whole, each bearing's part in it, what statics add."""
+
+import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,98 +13,190 @@ from fmu_bearing.cli import app
 from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.torque_range import CAPTION
 from fmu_bearing.design.verdict import overall
-from fmu_bearing.design.verdicts import verdicts
+from fmu_bearing.design.verdicts import side_by_side, verdicts
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.metrology.at_speed import AtSpeed
 from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.metrology.nose import resampled
-from fmu_bearing.progress import silent
+from fmu_bearing.recording.measurements.measure import planes
 from fmu_bearing.recording.record import record
-from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.spread import spread
 from fmu_bearing.reports import make
+from fmu_bearing.reports.data.observed_run import STEP
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.modes import modes_section
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.set_page import _warmth
-from fmu_bearing.reports.sound import set_sound
+from fmu_bearing.reports.page.blocks import Absent
+from fmu_bearing.reports.sections.arrangement import axial, warmth
+from fmu_bearing.run.balls import RACES, name_of
 from fmu_bearing.run.simulate import simulate
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.words import materials_words
-from tests.conftest import ROOT
-from tests.reports.reading import Page
+from tests.conftest import ROOT, SHARES
+from tests.reports.reading import Page, not_run, numbers
 from tests.spindle.sets import scene, tables
 
 PAIR = ROOT / "examples" / "spindle_set" / "7003C-DB.toml"
+QBC = PAIR.with_name("7003C-QBC.toml")
+SECTIONS = [
+    "conditions", "arrangement", "axial", "warmth", "levels", "modes", "spectra", "audio", "waterfall",
+    "directivity", "velocities", "orbits", "error-motion", "contacts", "friction", "assumptions",
+]  # fmt: skip
+SILENT = ["levels", "spectra", "audio", "waterfall"]
 
 
-def test_page_of_a_pair_has_all_sections_and_the_figures_of_statics(tmp_path):
-    made = make(PAIR, tmp_path / "pair.html")
-    assert list(made.sections) == [
-        "verdicts",
-        "conditions",
-        "arrangement",
-        "balls",
-        "heat",
-        "axial",
-        "warmth",
-        "levels",
-        "error-motion",
-        "assumptions",
-    ]
-    # it has no microphones, and so no run
-    assert [key for key, why in made.sections.items() if why] == ["levels", "error-motion"]
-    assert "no microphones" in made.sections["error-motion"] and "command" in made.sections["error-motion"]
-    assert made.recording is None
-    text = made.path.read_text(encoding="utf-8")
-    assert "DB (O)" in text and "bearing 2" in text and made.size == len(text.encode())
-    found = statics(PAIR)
+def brief_page(source, path, **options):
+    """A report with three speeds of its modes and without changes."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(modes_section, "_SHARES", SHARES)
+        made = make(source, path, changes=False, **options)
+    return made, Page(made.path)
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory):
+    """Report and page of the example pair, which has no microphones, with a run of fidelity full."""
+    return brief_page(PAIR, tmp_path_factory.mktemp("pair") / "pair.html", duration=0.1, settle=0.02)
+
+
+def test_the_page_of_a_pair_has_all_sections_and_the_figures_of_statics(pair):
+    made, page = pair
+    assert list(made.sections) == SECTIONS
+    assert [key for key, why in made.sections.items() if why] == SILENT
+    assert all("no microphones" in made.sections[key] for key in SILENT)
+    assert "2 x 7003C, DB (O) at 15,000 r/min, preload 150 N" in page.text and "Spindle report" in page.text
+    point = operating_point(PAIR)
+    found = point.statics
+    assert made.figures["axial_stiffness"] == pytest.approx(1e-6 * found.axial_stiffness)
     assert made.figures["nose_stiffness"] == pytest.approx(1e-6 * found.nose_stiffness)
     assert made.figures["lift_off_N"] == pytest.approx(min(abs(x.load) for x in found.lift_off.values()))
-    point = operating_point(PAIR)
     assert made.figures["life_h"] == pytest.approx(point.life)
-    assert made.figures["heat_W"] == pytest.approx(point.heat.total)
-    _, *rows = Page(made.path).tables["Friction and heat of the settled bearings, without waviness"]
+    _, *rows = page.tables["Friction and heat of the settled bearings, without waviness"]
     assert rows == heat_table(point.bearings, point.torque_range)[1]
-    _, *rows = Page(made.path).tables[f"F{CAPTION[1:]}"]
+    _, *rows = page.tables[f"F{CAPTION[1:]}"]
     assert rows == point.torque_range.table()[1]
-    assert any(line.startswith("bearing 1: contact pressure") for line in made.warnings)
+    assert len(page.tables["What each bearing carries, in the axes of the shaft"]) == 3
+    assert {"arrangement", "axial", "warmth", "campbell"} <= set(page.figures)
+    assert set(page.ids) and len(set(page.ids)) == len(page.ids) and made.size < 3e6
 
 
-def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_bearing(tmp_path):
-    """Cards hold the operating point's own figures; the overall verdict is the gravest of the library's."""
-    made = make(PAIR, tmp_path / "pair.html")
-    point = operating_point(PAIR)
-    found = verdicts(point)
-    gravest = next(one for one in ("change", "watch", "good") if any(v.judgement == one for v in found))
-    assert made.verdict == overall(found) == gravest == "watch"
-    page = Page(made.path)
-    summary = page.sections["summary"]
-    judged = [one for one in found if one.judgement != "not judged"]
-    assert f"Overall verdict: {gravest}; of {len(judged)} figures with a limit" in summary
-    assert (
-        summary.index("Overall verdict") < summary.index("preload of bearing 1") < summary.index("Bearing 1 ")
-    )
+def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_bearing(pair):
+    """Figures of a card are of the run, else of the operating point; verdicts take the run's extremes."""
+    made, page = pair
+    point, kept = operating_point(PAIR), Subject(made.recording, "compact").output
+    summary, bearings = page.sections["summary"], []
     for number, one in enumerate(point.bearings, start=1):
-        own = {
-            key.split(".")[1]: v for key, v in made.figures.items() if key.startswith(f"bearing[{number}]")
+        own = f"bearing[{number}]."
+        extremes = {
+            race: {
+                "pressure_max": kept(f"{own}contact.{race}.pressure_max").max(),
+                "shoulder_margin": kept(f"{own}contact.{race}.shoulder_margin").min(),
+            }
+            for race in RACES
         }
+        contacts = {race: one.contacts[race] | extremes[race] for race in RACES}
+        film = kept(f"{own}film.lambda_min").min()
+        bearings.append(replace(one, contacts=contacts, film=film))
+        torque = kept(f"{own}friction_torque").mean()
         radial = 0.5 * (one.stiffness[1, 1] + one.stiffness[2, 2])
-        assert own == pytest.approx({
+        shown = {key.removeprefix(own): value for key, value in made.figures.items() if key.startswith(own)}
+        assert shown == pytest.approx({
+            "torque_N_mm": 1e3 * torque, "loss_W": torque * 15e3 * RPM,
+            "pressure_GPa": 1e-9 * max(extremes[race]["pressure_max"] for race in RACES), "lambda": film,
             "axial_N": one.axial, "radial_N": one.radial,
-            "preload_N": point.statics.preloads["running"][number - 1],
-            "pressure_GPa": 1e-9 * max(one.contacts[ring]["pressure_max"] for ring in ("inner", "outer")),
-            "heat_W": one.heat.total, "axial_stiffness": 1e-6 * one.stiffness[0, 0],
-            "radial_stiffness": 1e-6 * radial, "life_h": one.life,
+            "preload_at_speed_N": point.statics.preloads["running"][number - 1],
+            "axial_stiffness": 1e-6 * one.stiffness[0, 0], "radial_stiffness": 1e-6 * radial,
+            "life_h": one.life,
         }, rel=1e-9)  # fmt: skip
+        assert f"{one.axial:.1f} N" in summary and f"{1e-6 * radial:.1f} N/um" in summary
+    found = verdicts(replace(point, bearings=tuple(bearings)))
+    assert made.verdict == overall(found)
+    judged = [one for one in found if one.judgement != "not judged"]
+    assert f"Overall verdict: {made.verdict}; of {len(judged)} figures with a limit" in summary
+    for number in (1, 2):
         assert f"Bearing {number} {overall(v for v in found if v.bearing == number)}" in summary
-        for text in (f"{one.axial:.1f} N", f"{one.heat.total:.1f} W", f"{1e-6 * radial:.1f} N/um"):
-            assert text in summary
-    assert made.size < 2.2e6 and len(page.libraries) == 1
+    assert summary.index("Overall verdict") < summary.index("shaft speed") < summary.index("Bearing 1 ")
+    (table,) = [rows for caption, rows in page.tables.items() if caption.startswith("Verdicts at 15,000")]
+    assert table[0] == ["", "bearing 1", "bearing 2", "all together", "limit", "source of the limit"]
+    for row, same in zip(table[1:], side_by_side(found), strict=False):
+        assert row[1:3] == ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
+    whole = [row[3] for row in table[1:] if row[3]]
+    assert whole == [f"{one.text} ({one.judgement})" for one in found if one.bearing is None]
+
+
+def test_quantities_of_bearing_and_shaft_are_those_of_the_run(pair):
+    """One run by `simulate` at the same points, from which each section has what it shows."""
+    made, page = pair
+    names = ["shaft.nose.velocity.z", "bearing[2].inner_ring.velocity.z", "bearing[2].friction_torque"]
+    names += ["friction_torque", "heat.oil", "bearing[2].contact.outer.load_max"]
+    run = simulate(PAIR, 0.12, step=STEP, outputs=names, progress=False)
+    kept = run.time >= 0.02 - 1e-9
+    found = {name: run[name][kept] for name in names}
+    bodies = [row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"][1:]]
+    rings = [f"{body} of bearing {k}" for k in (1, 2) for body in ("inner ring", "cage")]
+    assert bodies == ["nose of the shaft", *rings]  # outer rings in a housing at rest do not move
+    for key, body in (("shaft.nose", "shaft.nose"), ("bearing[2].inner_ring", "bearing[2].inner_ring")):
+        traces = [t for t in page.traces("velocity-time", body=key) if t["name"].startswith("z")]
+        shown = np.concatenate([numbers(trace["y"]) for trace in traces])
+        assert shown == pytest.approx(1e3 * found[f"{body}.velocity.z"][: len(shown)], rel=2e-5, abs=1e-7)
+        assert page.traces("velocity-spectrum", body=key)
+    assert {t["meta"]["orbit"] for t in page.traces("orbits")} == {
+        "shaft.nose", "bearing[1].inner_ring", "bearing[1].cage",
+    }  # fmt: skip
+    assert {t["meta"]["orbit"] for t in page.traces("orbits-3")} == {
+        "bearing[2].inner_ring", "bearing[2].cage",
+    }  # fmt: skip
+    rows = {row[0]: row for row in page.tables["Friction and heat, means over the recording"]}
+    torque = 1e3 * found["friction_torque"].mean()
+    assert float(rows["torque taken from the shaft"][1]) == pytest.approx(torque, abs=6e-4)
+    torque = 1e3 * found["bearing[2].friction_torque"].mean()
+    assert float(rows["of it by bearing 2"][1]) == pytest.approx(torque, abs=6e-4)
+    assert float(rows["heat to oil and balls"][2]) == pytest.approx(found["heat.oil"].mean(), abs=6e-4)
+    contacts = page.tables["Contacts over the recording, bearing 2"]
+    (largest,) = [row for row in contacts if row[0] == "largest load of a ball"]
+    assert float(largest[7]) == pytest.approx(found["bearing[2].contact.outer.load_max"].max(), rel=6e-4)
+
+
+def test_balls_of_each_bearing_add_up_to_it(pair):
+    made, page = pair
+    outputs = made.recording.outputs
+    for number in (1, 2):
+        own, balls = f"bearing[{number}].", range(1, made.recording.scene.bearing.ball_count + 1)
+        for race in RACES:
+            load = np.array([outputs[own + name_of(j, "load", race)] for j in balls])
+            assert load.mean(0) == pytest.approx(outputs[f"{own}contact.{race}.load_mean"], rel=1e-12)
+            assert load.max(0) == pytest.approx(outputs[f"{own}contact.{race}.load_max"], rel=1e-12)
+        (trace,) = [
+            one
+            for one in page.traces("contacts-balls", bearing=f"bearing {number}", what="load")
+            if one["name"] == "outer race"
+        ]
+        kept = Subject(made.recording, "compact").mean
+        wanted = [kept(own + name_of(j, "load", "outer")) for j in balls]
+        assert numbers(trace["y"]) == pytest.approx(wanted, rel=2e-5)
+        assert trace["visible"] == (number == 1)
+
+
+@pytest.mark.heavy  # runs of four bearings
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+def test_a_set_of_four_has_its_run_in_every_fidelity(fidelity, tmp_path):
+    made, page = brief_page(
+        with_fidelity(QBC, model=fidelity), tmp_path / "qbc.html", duration=0.1, settle=0.02
+    )
+    assert list(made.sections) == SECTIONS
+    assert [key for key, why in made.sections.items() if why] == SILENT
+    bodies = [row[0] for row in page.tables["Velocity of the centres about its mean, mm/s"]]
+    assert sum(body.startswith("cage of bearing") for body in bodies) == (4 if fidelity == "full" else 0)
+    for k in range(1, 5):
+        assert page.traces("contacts-around", bearing=f"bearing {k}", what="angle")
+        assert f"Contacts over the recording, bearing {k}" in page.tables
+    again = make(made.recording, tmp_path / "again.html", changes=False)
+    assert again.figures == pytest.approx(made.figures)
 
 
 @pytest.mark.heavy  # statics and two runs
-def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
-    """Levels of pressures, levels of parts at the end, and the loudest microphone on the first screen."""
-    monkeypatch.setattr(set_sound, "DURATION", 0.06)
-    monkeypatch.setattr(set_sound, "SETTLE", 0.02)
+def test_the_sound_of_a_set_is_that_of_a_run(tmp_path):
+    """Levels of pressures, of bearings alone, over directions, and the loudest one on the first screen."""
     places = [
         {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0},
         {"name": "P2", "x_mm": -100.0, "y_mm": 0.0, "z_mm": 0.0},
@@ -110,18 +205,11 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
         "sound": {"radiation_model": "compact", "microphone": places},
         "imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.0},
     })  # fmt: skip
-    made = make(given, tmp_path / "set.html")
-    page = Page(made.path)
-    assert [key for key, why in made.sections.items() if not why][-4:] == [
-        "levels",
-        "spectra",
-        "audio",
-        "assumptions",
-    ]
+    made, page = brief_page(given, tmp_path / "set.html", duration=0.06, settle=0.02, radius=0.5)
     # 0.06 s are 15 revolutions
+    assert [key for key, why in made.sections.items() if why] == ["error-motion"]
     assert "error motion needs 20" in made.sections["error-motion"]
-    assert "the command error-motion does" in made.sections["error-motion"]
-    kept = record(given, 0.06, settle=0.02, step=Recording.PRESSURE_STEP, progress=False, warn=False)
+    kept = record(given, 0.06, settle=0.02, step=STEP, progress=False, warn=False)
     head, *rows = page.tables["Equivalent levels re 20 uPa"]
     for weighting, column in (("Z", "Leq, dB"), ("A", "LAeq, dB(A)")):
         wanted = kept.levels(weighting=weighting)
@@ -142,11 +230,15 @@ def test_the_sound_of_a_set_is_that_of_a_run(tmp_path, monkeypatch):
     assert "values that the papers leave open" in page.sections["assumptions"]
     assert materials_words(given) in page.sections["conditions"]
     # units and names for people in the verdicts
-    labels = [row[0] for row in page.tables["Verdicts on each bearing from its own loads"][1:]]
-    assert "pressure, GPa" in labels and "n d_m, 1e6 mm r/min" in labels
+    (table,) = [rows for caption, rows in page.tables.items() if caption.startswith("Verdicts at")]
+    assert {"pressure, GPa", "n d_m, 1e6 mm r/min"} <= {row[0] for row in table}
+    # directions are counted from the middle of the bearings, as those of the function
+    for plane, found in planes(kept, 0.5, count=36, weighting="A").items():
+        (trace,) = [t for t in page.traces("planes", band="A-weighted") if t["name"].startswith(plane)]
+        assert numbers(trace["r"])[::9] == pytest.approx([*found.levels[::9], found.levels[0]], abs=0.05)
     # outer rings in a housing at rest make no sound
     assert {row[head.index("outer ring, dB(A)")] for row in rows} == {"-"}
-    assert len(page.sounds) == 2 and made.size < 2.5e6
+    assert len(page.sounds) == 2 and made.size < 3e6
 
 
 def page_loudest(recording):
@@ -155,22 +247,18 @@ def page_loudest(recording):
 
 
 @pytest.mark.heavy  # statics and two runs
-def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path, monkeypatch):
+def test_the_error_motion_of_a_set_is_that_of_its_nose(tmp_path):
     """The section has the figures that the functions of `error_motion` find on a run of the same points."""
-    monkeypatch.setattr(set_sound, "DURATION", 0.087625)
-    monkeypatch.setattr(set_sound, "SETTLE", 0.0155)  # 21 whole revolutions to the 25th
-    microphone = {"name": "P1", "x_mm": 60.0, "y_mm": 105.0, "z_mm": 0.0}
     given = with_fidelity(Scene.from_dict(tables(rpm=15e3) | {
-        "sound": {"radiation_model": "compact", "microphone": [microphone]},
         "imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.0},
     }), model="rings")  # fmt: skip
-    made = make(given, tmp_path / "set.html")
-    page = Page(made.path)
-    assert made.sections["error-motion"] == "" and made.size < 2.6e6
+    # 21 whole revolutions to the 25th
+    made, page = brief_page(given, tmp_path / "set.html", duration=0.087625, settle=0.0155)
+    assert made.sections["error-motion"] == ""
     names = [f"shaft.nose.{name}" for name in ("displacement.x", "displacement.y", "displacement.z")]
     names += ["shaft.nose.tilt.y", "shaft.nose.tilt.z"]
     watch = AxisWatch()
-    run = simulate(given, 0.103, step=Recording.PRESSURE_STEP, outputs=names, progress=False, watch=watch)
+    run = simulate(given, 0.103, step=STEP, outputs=names, progress=False, watch=watch)
     kept = run.time >= 0.0155
     motion = np.column_stack([run[name] for name in names])
     one = AtSpeed(resampled(given, run.time[kept], motion[kept], watch.rates[kept]))
@@ -199,45 +287,33 @@ def test_nine_bearings_have_nine_curves():
     assert {one["dash"] for one in lines[:7]} == {"solid"} and lines[7]["dash"] == "dash"
 
 
-def test_page_of_a_tandem_says_what_it_lacks(tmp_path):
-    given = scene("++", (40.0, 70.0), None, 5e3, load={"force_x_N": 300.0})
-    made = make(given, tmp_path / "tandem.html")
-    assert made.sections["warmth"] == "a set that carries one way has no preload"
-    assert made.sections["axial"] == "no axial load unloads a bearing of this set"
+def test_page_of_a_tandem_says_what_it_lacks():
+    given = not_run(scene("++", (40.0, 70.0), None, 5e3, load={"force_x_N": 300.0}))
+    with pytest.raises(Absent, match="^a set that carries one way has no preload$"):
+        warmth(given)
+    with pytest.raises(Absent, match="^no axial load unloads a bearing of this set$"):
+        axial(given)
 
 
-def test_speed_is_taken_and_runs_are_refused(tmp_path):
-    made = make(PAIR, tmp_path / "fast.html", speed=1000.0)
-    assert "9,549 r/min" in made.path.read_text(encoding="utf-8")
-    with pytest.raises(ValueError, match="^run_up: 7003C-DB: cannot have a report of a run"):
-        make(PAIR, tmp_path / "no.html", run_up=(500.0, 1000.0))
-    kept = ["report", str(PAIR), "-o", str(tmp_path / "p.html"), "--keep", str(tmp_path / "r.npz")]
-    shown = CliRunner().invoke(app, kept)
-    assert (
-        shown.exit_code != 0
-        and "cannot have a report of a run: its report is made from statics"
-        in shown.output.replace("\n", " ")
-    )
-    assert not (tmp_path / "p.html").exists()
-
-
-@pytest.mark.parametrize(
-    "option",
-    [{"changes": True}, {"duration": 1.0}, {"settle": 0.2}, {"radius": 2.0}, {"run_up_time": 2.0}],
-)
-def test_options_of_a_run_are_refused(tmp_path, option):
-    (name,) = option
-    with pytest.raises(
-        ValueError, match=f"^{name}: 7003C-DB: cannot have a report of a run: its report is made from statics"
-    ):
-        make(PAIR, tmp_path / "no.html", **option)
-    assert not (tmp_path / "no.html").exists()
+@pytest.mark.usefixtures("brief")
+def test_options_of_a_run_act_and_the_run_is_kept(tmp_path):
+    """Speed, settings, run-up and the kept run, as of a single bearing; statics are at the speed, too."""
+    page, kept = tmp_path / "p.html", tmp_path / "r.npz"
+    words = ["report", PAIR, "-o", page, "--keep", kept, "--fidelity", "rings", "--speed", 9000, "--json"]
+    words += ["--duration", 0.05, "--settle", 0.02, "--run-up", "8000:9000", "--run-up-time", 0.1]
+    shown = CliRunner().invoke(app, [*map(str, words), "--no-changes"])
+    assert shown.exit_code == 0, shown.output
+    reported = json.loads(shown.stdout)
+    assert reported["figures"]["speed_rpm"] == pytest.approx(9000.0)
+    slower = operating_point(read_scene(PAIR).replace({"operation.speed_rpm": 9000.0}))
+    assert reported["figures"]["life_h"] == pytest.approx(slower.life, rel=1e-6)
+    again = make(kept, tmp_path / "again.html", changes=False)
+    assert again.figures == pytest.approx(reported["figures"])
 
 
 def test_inner_rings_of_their_own_temperature_become_warmer_too():
     given = scene(bearings=[{"inner_ring_temperature_degC": 45.0}, {}])
-    found = statics(given)
-    curves = {one.name: one.y for one in _warmth(given, found, silent).figure.data}
+    curves = {one.name: one.y for one in warmth(not_run(given)).blocks[0].figure.data}
     warmer = given.replace(
         {"operation.inner_ring_temperature_degC": given.operation.inner_ring_temperature_degC + 20.0}
         | {"spindle.bearing[1].inner_ring_temperature_degC": 65.0}
@@ -248,7 +324,7 @@ def test_inner_rings_of_their_own_temperature_become_warmer_too():
     assert curves["inner rings warmer"][-1] > 1.2 * curves["inner rings warmer"][0]
 
 
-def test_a_page_lacks_temperatures_that_no_scene_may_have(tmp_path):
+def test_a_page_lacks_temperatures_that_no_scene_may_have():
     given = scene(changes={"operation.inner_ring_temperature_degC": 185.0})
-    made = make(given, tmp_path / "hot.html")
-    assert "allowed: -40 to 199" in made.sections["warmth"]
+    with pytest.raises(Absent, match="allowed: -40 to 199"):
+        warmth(not_run(given))

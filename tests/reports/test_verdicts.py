@@ -82,7 +82,7 @@ def test_a_recording_without_scene_has_none(subject):
     recording = subject.recording
     scene, recording.scene = recording.scene, None
     try:
-        assert judged(subject) is None
+        assert judged(Subject(recording, "compact")) is None
     finally:
         recording.scene = scene
 

@@ -7,7 +7,6 @@ import pytest
 from typer.testing import CliRunner
 
 from fmu_bearing import (
-    Recording,
     campbell,
     changes,
     compare,
@@ -78,7 +77,6 @@ HOUSING = {"sound.radiator": "housing"}
 #: For each row, in its order: a scene it holds for, one like it that it does not hold for, and who refuses,
 #: by subject: a function of scene and folder, or values of the scene.
 DOORS = (
-    (pair(), SINGLE, {"run report": lambda scene, folder: make(scene, folder / "a.html", changes=True)}),
     (pair(), SINGLE, {"against": lambda scene, folder: error_motion(scene, against="outer ring")}),
     (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
     (sounding("compact", pair()), sounding("compact", pair(**SPRINGS)), {"housing": HOUSING}),
@@ -158,9 +156,9 @@ def test_statics_and_modes_of_another_models_shaft_are_refused(use):
 
 
 def test_a_refusal_names_the_scene_what_why_and_the_way_out():
-    assert refusal(pair(), "run report") == (
-        "7003C-DB: cannot have a report of a run: its report is made from statics, with a short run of its "
-        "own for the sound; give the scene itself, without options of a run"
+    assert refusal(pair(), "against") == (
+        "7003C-DB: cannot have error motion against an outer ring: it has several, and its nose moves "
+        "against the ground; leave `against` out, or give `ground`"
     )
 
 
@@ -177,17 +175,6 @@ def test_a_port_is_refused_at_once_where_auto_would_have_to_be_probed(tmp_path, 
     for use in (lambda: record(given, 1e-3), lambda: compare(given, given)):
         with pytest.raises(SceneError, match="another model moves the shaft"):
             use()
-
-
-def test_the_report_of_a_recorded_run_of_a_set_is_refused(tmp_path):
-    """Its pressures can be taken from an FMU."""
-    given = sounding("compact", pair())
-    file = tmp_path / "run.csv"
-    rows = [f"{k / 51200.0},{1e-3 * (k % 7)}" for k in range(4096)]
-    file.write_text("\n".join(["time,mic[1].pressure", *rows]))
-    kept = Recording.from_fmu(file, given, settle=0.0)
-    with pytest.raises(SceneError, match="^7003C-DB: cannot have a report of a run"):
-        make(kept, tmp_path / "a.html")
 
 
 @pytest.mark.parametrize("scene", [BENT, read_scene(PORT)], ids=["bending", "port"])

@@ -2,23 +2,25 @@
 
 import warnings
 
-from fmu_bearing.engine.layout import SD, Z
+from fmu_bearing.engine.layout import SD, SP, Z
 from fmu_bearing.instance import Instance
-from fmu_bearing.interface.outputs import internals, outputs
+from fmu_bearing.interface.table import variables
 from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.balls import Watch
 from fmu_bearing.scene import Scene
+from fmu_bearing.steady.rest import Part, parts
 
 #: Communication step (s): every second sound sample. At 20,000 r/min each ball that passes gets 11 points.
 STEP = 2.0 / SD.RATE
+_KEPT = {*Z.BEARING_OUTPUTS, *SP.OUTPUTS, *SP.BEARING_OUTPUTS}
 
 
 def variables_of(scene: Scene) -> tuple[str, ...]:
-    """Names of all variables of a run without microphones, except the balls' velocities."""
-    table = [*outputs(scene), *internals(scene)]
-    return tuple(v.name for v in table if v.array == "z" and v.index < Z.BALLS)
+    """Names of the variables of a run but those of microphones, of single balls and of bending."""
+    table = variables(scene, 0.0)
+    return tuple(v.name for v in table if v.array == "z" and v.name.rpartition("].")[2] in _KEPT)
 
 
 def observed(
@@ -46,8 +48,8 @@ def observed(
     Returns
     -------
     recording : Recording
-        Contacts of the balls are among its outputs under the names of `balls.name_of`, and what error
-        motion needs under those of `AxisWatch`.
+        Contacts of the balls are among its outputs under the names of `balls.name_of`, of a set behind
+        ``bearing[1].`` and so on, and what error motion needs under those of `AxisWatch`.
     warnings : list of str
         Warnings of the run.
 
@@ -58,11 +60,14 @@ def observed(
     Stopped
         On Ctrl-C, as ``record``, with both as ``found``.
     """
-    watch, axis = Watch(), AxisWatch()
+    axis, watches = AxisWatch(), list[tuple[Watch, Part]]()
 
-    def both(bearing: Instance) -> None:
-        watch(bearing)
-        axis(bearing)
+    def both(instance: Instance) -> None:
+        axis(instance)
+        if not watches:
+            watches.extend((Watch(), part) for part in parts(instance))
+        for watch, part in watches:
+            watch(part)
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -74,7 +79,9 @@ def observed(
             )  # fmt: skip
         except Stopped as stop:
             recording, missing = stop.found, stop.missing
-    recording.outputs.update(watch.outputs() | axis.outputs(scene))
+    recording.outputs.update(axis.outputs(scene))
+    for one, (watch, _) in zip(scene.bearings(), watches, strict=True):
+        recording.outputs.update({one.prefix + name: values for name, values in watch.outputs().items()})
     found = recording, list(dict.fromkeys(str(each.message) for each in caught))
     if missing:
         raise Stopped(found, missing)

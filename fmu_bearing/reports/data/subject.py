@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.design.operating_point import OperatingPoint, operating_point
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.instance import EngineError
 from fmu_bearing.recording.record import Recording
 from fmu_bearing.reports.page.blocks import Absent
 from fmu_bearing.scene import Scene
@@ -51,6 +54,32 @@ class Subject:
         return self.recording.scene
 
     @property
+    def several(self) -> bool:
+        """Whether the scene is of bearings on a shaft."""
+        return self.recording.scene is not None and bool(self.recording.scene.assembly.members)
+
+    @property
+    def prefixes(self) -> dict[str, str]:
+        """Prefixes of the variables of each bearing by words for it; of a single bearing both are empty."""
+        if not self.several:
+            return {"": ""}
+        return {f"bearing {one.number}": one.prefix for one in self.scene.bearings()}
+
+    @property
+    def at_speed(self) -> Scene:
+        """The scene at the mean speed of the run; `Absent` without."""
+        return self.scene.replace({"operation.speed_rpm": self.speed / RPM})
+
+    @cached_property
+    def point(self) -> OperatingPoint:
+        """Operating point at the mean speed, of perfect bearings; `Absent` without scene or equilibrium."""
+        scene = self.at_speed
+        try:
+            return operating_point(scene)
+        except EngineError as problem:
+            raise Absent(str(problem)) from None
+
+    @property
     def fidelity(self) -> str:
         """Fidelity; empty without scene."""
         return "" if self.recording.scene is None else self.recording.scene.fidelity.model
@@ -85,6 +114,12 @@ class Subject:
                 f'outputs=("{name}", ...)'
             )
         return np.asarray(self.recording.outputs[name][self.within])
+
+    def whole(self, name: str) -> NDArray[np.float64]:
+        """Variable of all bearings together: as it was kept, else the sum over them."""
+        if self.has(name) or not self.several:
+            return self.output(name)
+        return np.sum([self.output(prefix + name) for prefix in self.prefixes.values()], axis=0)
 
     def mean(self, name: str) -> float:
         """Mean of a variable over the recording."""

@@ -35,8 +35,7 @@ def section(subject: Subject) -> Section:
     Absent
         Without a scene, or where there is no equilibrium at that speed.
     """
-    rpm = subject.speed / RPM
-    scene = subject.scene.replace({"operation.speed_rpm": rpm})
+    scene, rpm = subject.at_speed, subject.speed / RPM
     try:
         blocks = _at_rest(scene) if abs(rpm) < _STILL else _over_speed(scene, rpm)
     except ValueError as problem:

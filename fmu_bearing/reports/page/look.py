@@ -8,6 +8,7 @@ from fmu_bearing.results.picture_parts import COLOURS, coincident, series as dra
 #: Colours of things that are no component of sound.
 FURTHER = {
     "x": "#0072B2", "y": "#D55E00", "z": "#009E73", "inner": "#0072B2", "outer": "#D55E00",
+    "nose": "#0072B2", "housing": "#D55E00",
     "first": "#E69F00", "second": "#56B4E9", "grey": "#7F7F7F", "mark": "#8C6D1F",
 }  # fmt: skip
 #: The same on a dark ground; figures are made with the light ones, the page exchanges them.
@@ -37,8 +38,9 @@ _FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 
 
 
 def colour(name: str) -> str:
-    """Colour of a component, body, axis or race."""
-    return COLOURS.get(name) or FURTHER[name]
+    """Colour of a component, body (``bearing[1].cage`` as ``cage``), axis or race."""
+    own = name.rpartition(".")[2]
+    return COLOURS.get(own) or FURTHER[own]
 
 
 def faint(name: str, alpha: float = 0.18) -> str:
@@ -64,8 +66,11 @@ def _plotly(style: dict[str, Any]) -> dict[str, Any]:
 
 
 def words(name: str) -> str:
-    """Name of a component in words."""
-    return "all together" if name == "total" else name.replace("_", " ")
+    """Name of a component or body in words: ``bearing[1].inner_ring``, inner ring of bearing 1."""
+    owner, _, own = name.rpartition(".")
+    text = "all together" if own == "total" else own.replace("_", " ")
+    owner = owner.replace("[", " ").removesuffix("]").replace("shaft", "the shaft")
+    return f"{text} of {owner}" if owner else text
 
 
 def styles() -> dict[str, Any]:

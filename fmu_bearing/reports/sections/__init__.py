@@ -5,7 +5,7 @@
 ``verdict_table``     limits that are kept or passed, on the first screen
 ``assumptions``       which values are assumed
 ``conditions``        operating point, kinematic frequencies, choices
-``set_conditions``    of a set: operating point, assumptions, range of its level
+``arrangement``       of a set: the shaft, loads of its bearings, axial load, preload over temperatures
 ``what_to_change``    choices ranked by level, life and torque
 ``ring_motion``       velocities, orbits
 ``error_motion``      error motion of the axis of rotation: values, lines, sources

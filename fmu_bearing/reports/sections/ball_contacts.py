@@ -1,17 +1,17 @@
 """Loads and angles of the balls around the circle, and the figures derived from them."""
 
+import itertools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.design.operating_point import operating_point
-from fmu_bearing.engine.constants import RPM
-from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.curves import curve, curve_words
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import (
+    Absent,
     Block,
     Chart,
     Choice,
@@ -40,10 +40,11 @@ _EMPTY = ["", "", ""]
 
 
 def contacts(subject: Subject) -> Section:
-    """Show loads and angles around the circle and ball by ball."""
-    subject.output("contact.inner.load_mean")  # says what is missing
+    """Show loads and angles around the circle and ball by ball, of one bearing at a time."""
+    first = next(iter(subject.prefixes.values()))
+    subject.output(f"{first}contact.inner.load_mean")  # says what is missing
     blocks: list[Block] = []
-    balls = _ball_count(subject)
+    balls = _ball_count(subject, first)
     if balls:
         blocks += [_around(subject, balls), _ball_by_ball(subject, balls)]
     else:
@@ -56,20 +57,31 @@ def contacts(subject: Subject) -> Section:
             )
         )
         blocks.append(_over_time(subject))
-    blocks.append(_table(subject))
+    blocks += [_table(subject, number) for number in range(len(subject.prefixes))]
     return Section("contacts", "Contacts", blocks)
 
 
-def _ball_count(subject: Subject) -> int:
+def _ball_count(subject: Subject, prefix: str) -> int:
     count = 0
-    while subject.has(name_of(count + 1, "load", "inner")):
+    while subject.has(prefix + name_of(count + 1, "load", "inner")):
         count += 1
     return count
 
 
-def _of_balls(subject: Subject, balls: int, what: str, race: str = "") -> NDArray[np.float64]:
-    """Values of each ball over time, shape (balls, points)."""
-    return np.array([subject.output(name_of(j + 1, what, race)) for j in range(balls)])
+def _of_balls(subject: Subject, prefix: str, balls: int, what: str, race: str = "") -> NDArray[np.float64]:
+    """Values of each ball of a bearing over time, shape (balls, points)."""
+    return np.array([subject.output(prefix + name_of(j + 1, what, race)) for j in range(balls)])
+
+
+def _each(subject: Subject) -> Iterator[tuple[str, str, dict[str, str], bool]]:
+    """Yield prefix, what is shown, ``meta`` of its traces and whether it is shown at first."""
+    for number, (words, prefix) in enumerate(subject.prefixes.items()):
+        for what in _WHAT:
+            yield prefix, what, {"what": what, "bearing": words}, number == 0 and what == "load"
+
+
+def _whose(subject: Subject) -> Choice:
+    return Choice("bearing", "Of", [Option(words, words) for words in subject.prefixes])
 
 
 def by_place(
@@ -93,13 +105,15 @@ def by_place(
 
 def _around(subject: Subject, balls: int) -> Chart:
     figure = look.polar(560)
-    azimuth = _of_balls(subject, balls, "azimuth")
-    for what, (_, unit, factor) in _WHAT.items():
+    loads = []
+    for prefix, what, meta, shown in _each(subject):
+        azimuth = _of_balls(subject, prefix, balls, "azimuth")
+        _, unit, factor = _WHAT[what]
         for race in RACES:
-            values = factor * _of_balls(subject, balls, what, race)
+            values = factor * _of_balls(subject, prefix, balls, what, race)
+            loads += [values] if what == "load" and race == "outer" else []
             middles, (mean, low, high) = by_place(azimuth, values)
-            angle = np.degrees(np.append(middles, middles[:1]))
-            meta, shown, tint = {"what": what}, what == "load", look.colour(race)
+            angle, tint = np.degrees(np.append(middles, middles[:1])), look.colour(race)
             round_trip = np.concatenate([angle, angle[::-1]])
             band = np.concatenate([high, high[:1], low[:1], low[::-1]])
             figure.add_scatterpolar(
@@ -120,15 +134,14 @@ def _around(subject: Subject, balls: int) -> Chart:
                 hovertemplate=f"ball %{{text}}: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip
     figure.data = sorted(figure.data, key=lambda trace: trace.fill != "toself")  # bands behind all lines
-    load = _of_balls(subject, balls, "load", "outer")
     return Chart(
         "contacts-around",
         "Around the circle",
         figure,
         f"Polar chart of contact load and angle of {balls} balls over their place on the circle, inner and "
         f"outer race; "
-        f"loads at the outer race run from {load.min():.1f} to {load.max():.1f} N.",
-        (_what_to_show(),),
+        f"loads at the outer race run from {np.min(loads):.1f} to {np.max(loads):.1f} N.",
+        (_whose(subject), _what_to_show()),
         note="Seen from +X, 12 o'clock on top, positive rotation anticlockwise. Line: mean of all balls "
         "that pass a place; "
         "band: smallest to largest; numbers: balls at the end of the recording. Elastic loads, without "
@@ -144,16 +157,16 @@ def _what_to_show() -> Choice:
 def _ball_by_ball(subject: Subject, balls: int) -> Chart:
     figure = look.figure(height=360, barmode="group")
     numbers = list(range(1, balls + 1))
-    units = {}
-    for what, (words, unit, factor) in _WHAT.items():
-        units[what] = f"{words}, {unit}"
+    units = {what: f"{words}, {unit}" for what, (words, unit, _) in _WHAT.items()}
+    for prefix, what, meta, shown in _each(subject):
+        _, unit, factor = _WHAT[what]
         for race in RACES:
-            values = factor * _of_balls(subject, balls, what, race)
+            values = factor * _of_balls(subject, prefix, balls, what, race)
             mean = values.mean(axis=1)
             figure.add_scatter(
                 x=np.array(numbers) + (-0.12 if race == "inner" else 0.12), y=small(mean), mode="markers",
-                name=f"{race} race", marker={"color": look.colour(race), "size": 9}, meta={"what": what},
-                visible=what == "load", customdata=np.array(numbers),
+                name=f"{race} race", marker={"color": look.colour(race), "size": 9}, meta=meta,
+                visible=shown, customdata=np.array(numbers),
                 error_y={
                     "type": "data", "symmetric": False, "array": small(values.max(axis=1) - mean),
                     "arrayminus": small(mean - values.min(axis=1)), "color": look.colour(race),
@@ -173,20 +186,21 @@ def _ball_by_ball(subject: Subject, balls: int) -> Chart:
         "Ball by ball",
         figure,
         f"Mean contact load and angle of each of {balls} balls at both races, with the range over time.",
-        (Choice("what", "Show", options),),
+        (_whose(subject), Choice("what", "Show", options)),
         note="Mean over the recording; bars reach from the smallest to the largest value.",
     )
 
 
 def _over_time(subject: Subject) -> Chart:
-    figure = look.figure(height=340)
-    for race in RACES:
-        for what, dash in (("load_mean", "solid"), ("load_max", "dot")):
-            if not subject.has(f"contact.{race}.{what}"):
-                continue
+    figure, first = look.figure(height=340), next(iter(subject.prefixes))
+    for race, (what, dash), (words, prefix) in itertools.product(
+        RACES, (("load_mean", "solid"), ("load_max", "dot")), subject.prefixes.items()
+    ):
+        if subject.has(f"{prefix}contact.{race}.{what}"):
             name = f"{race} race, {'mean' if what == 'load_mean' else 'largest'}"
-            for part in curve(subject, subject.output(f"contact.{race}.{what}"), name):
-                figure.add_scatter(**part, line={"color": look.colour(race), "width": 1.2, "dash": dash})
+            for part in curve(subject, subject.output(f"{prefix}contact.{race}.{what}"), name):
+                line = {"color": look.colour(race), "width": 1.2, "dash": dash}
+                figure.add_scatter(**part, line=line, meta={"bearing": words}, visible=words == first)
     figure.update_layout(
         xaxis=look.axis("time after initialisation, s"), yaxis=look.axis("load of a ball, N")
     )
@@ -195,46 +209,45 @@ def _over_time(subject: Subject) -> Chart:
         "Loads over time",
         figure,
         "Mean load of the balls at both races over time.",
+        (_whose(subject),),
         note=curve_words(subject),
     )
 
 
-def _table(subject: Subject) -> Table:
-    rows = []
+def _table(subject: Subject, number: int) -> Table:
+    words, prefix = list(subject.prefixes.items())[number]
+    caption, rows = f"Contacts over the recording{words and ', '}{words}", []
     for name, words, factor, unit in _FIGURES:
         cells = []
         for race in RACES:
-            if not subject.has(f"contact.{race}.{name}"):
+            if not subject.has(f"{prefix}contact.{race}.{name}"):
                 break
-            values = factor * subject.output(f"contact.{race}.{name}")
+            values = factor * subject.output(f"{prefix}contact.{race}.{name}")
             cells += [f"{values.mean():.4g}", f"{values.min():.4g}", f"{values.max():.4g}"]
         else:
             rows.append([words, unit, *cells])
     name, words = _FILM
-    if subject.has(name):
-        values = subject.output(name)
+    if subject.has(prefix + name):
+        values = subject.output(prefix + name)
         shown = [f"{value:.4g}" for value in (values.mean(), values.min(), values.max())]
         rows.append([words, "", *shown, *_EMPTY])
-    rows += [[*row, "", "", *_EMPTY] for row in _stiffness(subject)]
+    rows += [[*row, "", "", *_EMPTY] for row in _stiffness(subject, number)]
     columns = ["", "unit", *(f"{race}, {what}" for race in RACES for what in ("mean", "least", "largest"))]
     return Table(
-        "Contacts over the recording",
+        caption,
         columns,
         rows,
         note="Figures of the whole bearing are in the first three columns. Stiffness: perfect "
         "bearing at the mean speed, for frequency to 0, as `info` has it.",
+        folded=number > 0,
     )
 
 
-def _stiffness(subject: Subject) -> list[list[str]]:
+def _stiffness(subject: Subject, number: int) -> list[list[str]]:
     """Rows of the stiffness at rest: words, unit, value; none without scene or equilibrium."""
-    scene = subject.recording.scene
-    if scene is None:
-        return []
     try:
-        point = operating_point(scene.replace({"operation.speed_rpm": subject.speed / RPM}))
-    except EngineError:
+        found = subject.point.bearings[number].stiffness
+    except Absent:
         return []
-    found = point.bearings[0].stiffness
     sizes = (("axial", found[0, 0]), ("radial", 0.5 * (found[1, 1] + found[2, 2])))
     return [[f"{way} stiffness at rest", "N/um", f"{1e-6 * size:.4g}"] for way, size in sizes]

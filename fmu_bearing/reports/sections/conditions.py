@@ -9,6 +9,8 @@ from fmu_bearing.reports.page.blocks import Absent, Block, Folded, Section, Tabl
 from fmu_bearing.reports.sections.assumptions import assumed_table
 from fmu_bearing.reports.sections.kinematic_marks import OTHER_NAMES
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import set_of
+from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words
 
 _FIDELITIES = {
     "full": "all bodies move: rings, cage and every ball, with sliding, film, pockets and lands",
@@ -49,21 +51,14 @@ def conditions(subject: Subject) -> Section:
 
 def _operation(subject: Subject) -> Table:
     scene = subject.scene
-    b, m, o = scene.bearing, scene.mounted, scene.operation
-    rpm = subject.speed / RPM
-    imperfections = scene.imperfections
+    b, rpm, imperfections = scene.bearing, subject.speed / RPM, scene.imperfections
     rows = [
-        ["bearing", f"{b.designation}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} mm, "
-        f"{b.ball_count} balls "
-         f"of {b.ball_diameter_mm:g} mm, contact angle {b.contact_angle_deg:g} deg"],
+        ["bearing", f"{bearings_words(scene)}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} "
+         f"mm, {b.ball_count} balls of {b.ball_diameter_mm:g} mm, contact angle {b.contact_angle_deg:g} deg"],
+        ["materials", materials_words(scene)],
         ["shaft speed", f"{rpm:,.0f} r/min" + _variation(subject)],
-        ["preload", f"{m.preload_N:g} N along the axis, by "
-        f"{'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
-        ["radial load on the inner ring", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
-        ["misalignment", f"about y {m.misalignment_y_mrad:g} mrad, about z {m.misalignment_z_mrad:g} mrad"],
-        ["temperatures", f"oil {o.oil_temperature_degC:g}, inner ring {o.inner_ring_temperature_degC:g}, "
-         f"outer ring {o.outer_ring_temperature_degC:g} degC"],
-        ["pedestal stiffness", f"{1e-6 * m.pedestal_stiffness_N_m:.4g} N/um"],
+        *(_on_shaft(scene) if subject.several else _mounted(scene)),
+        ["lubrication and temperatures", conditions_words(scene)],
         ["cage", "none" if b.cage is None else f"{b.cage.width_mm:g} mm wide, pockets of "
         f"{b.cage.pocket_diameter_mm:g} mm"],
         ["imperfections", "none: a perfect bearing" if imperfections is None else
@@ -76,6 +71,34 @@ def _operation(subject: Subject) -> Table:
         ["sound", _sound(subject)],
     ]  # fmt: skip
     return Table("Operating point and method", ["", ""], rows)
+
+
+def _mounted(scene: Scene) -> list[list[str]]:
+    """Return what loads and holds a single bearing."""
+    m = scene.mounted
+    return [
+        ["preload", f"{m.preload_N:g} N along the axis, by "
+        f"{'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
+        ["radial load on the inner ring", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
+        ["misalignment", f"about y {m.misalignment_y_mrad:g} mrad, about z {m.misalignment_z_mrad:g} mrad"],
+        ["pedestal stiffness", f"{1e-6 * m.pedestal_stiffness_N_m:.4g} N/um"],
+    ]  # fmt: skip
+
+
+def _on_shaft(scene: Scene) -> list[list[str]]:
+    """Return what loads and holds the shaft of a set."""
+    spindle, preload = set_of(scene), scene.assembly.preload
+    load, housing = spindle.load, spindle.housing
+    pedestal = "at rest"
+    if housing.pedestal_stiffness_N_m is not None:
+        pedestal = f"pedestal stiffness {1e-6 * housing.pedestal_stiffness_N_m:.4g} N/um"
+    return [
+        ["preload", "none" if preload is None else f"{scene.assembly.preload_N:g} N, by {preload.kind}s"],
+        ["load on the shaft", f"x {load.force_x_N:g} N, y {load.force_y_N:g} N, z {load.force_z_N:g} N, "
+         f"{load.position_mm:g} mm from the nose"],
+        ["shaft", "bends" if spindle.shaft.flexible else "rigid"],
+        ["housing", pedestal],
+    ]  # fmt: skip
 
 
 def _variation(subject: Subject) -> str:
@@ -100,30 +123,29 @@ def _sound(subject: Subject) -> str:
 
 
 def _kinematics(subject: Subject) -> Table:
-    kinematics = subject.kinematics
-    rows = []
+    recording, kinematics = subject.recording, subject.kinematics
+    each, whirls, rows = recording.bearing_kinematics(), recording.whirls(), []
     for name, value in kinematics._asdict().items():
         order = f"{value / kinematics.f_r:.4f}" if kinematics.f_r else ""
-        rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], f"{value:.2f}", order])
-    rows += [
-        ["f_w", "", "turns of the cage about the middle of the inner ring", f"{whirl:.2f}", ""]
-        for whirl in subject.recording.whirls()
-        if not math.isnan(whirl)
-    ]
-    recording = subject.recording
+        cells = [f"{getattr(one, name):.2f}" for one in each]
+        rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], *cells, order])
+    if not all(map(math.isnan, whirls)):
+        cells = ["" if math.isnan(whirl) else f"{whirl:.2f}" for whirl in whirls]
+        rows.append(["f_w", "", "turns of the cage about the middle of the inner ring", *cells, ""])
+    columns = [f"{words}{words and ', '}frequency, Hz" for words in subject.prefixes]
     if not recording.turning_known:
-        kept = subject.has("contact.outer.angle_mean")
+        kept = any(subject.has(f"{prefix}contact.outer.angle_mean") for prefix in subject.prefixes.values())
         angle = "the mean of the computed contact angles" if kept else "the nominal contact angle"
         note = f"Rolling without sliding at {angle}: the run kept no rates of cage and balls."
     else:
         note = "As cage and balls turned in the mean of the run."
-        if kinematics.f_r and subject.fidelity == "full" and subject.has("cage.speed_ratio"):
-            turned = subject.mean("cage.speed_ratio")
-            slip = 100.0 * (turned * kinematics.f_r / kinematics.f_c - 1.0)
-            note += f" The cage turned at {turned:.5f} of the shaft's speed, {slip:+.2f} % from the balls."
-    return Table(
-        "Kinematic frequencies", ["", "also called", "counts", "frequency, Hz", "order"], rows, note=note
-    )
+        for one, (words, prefix) in zip(each, subject.prefixes.items(), strict=True):
+            if one.f_r and subject.fidelity == "full" and subject.has(f"{prefix}cage.speed_ratio"):
+                turned = subject.mean(f"{prefix}cage.speed_ratio")
+                slip = 100.0 * (turned * one.f_r / one.f_c - 1.0)
+                note += f" The cage{words and f' of {words}'} turned at {turned:.5f} of the shaft's speed, "
+                note += f"{slip:+.2f} % from the balls."
+    return Table("Kinematic frequencies", ["", "also called", "counts", *columns, "order"], rows, note=note)
 
 
 def assumptions(subject: Subject) -> Section:
@@ -146,7 +168,7 @@ def _choices(subject: Subject) -> Table:
         ["fidelity", scene.fidelity.model, _FIDELITIES.get(scene.fidelity.model, "")],
         ["radiation", subject.radiation_model, _MODELS.get(subject.radiation_model, "")],
         ["forces left out", ", ".join(off) or "none", "fidelity.terms"],
-        ["rings", "bending" if scene.bends else "rigid", "mounting.flexure"],
+        ["rings", "bending" if scene.bends else "rigid", f"{scene.assembly.table}.flexure"],
         ["oil", scene.lubricant.viscosity_law, f"viscosity {scene.lubricant.viscosity_Pa_s:g} Pa s at 20 "
         f"degC; "
          f"traction law {scene.lubricant.traction_law}"],
@@ -169,4 +191,4 @@ def source_words(subject: Subject) -> str:
     except Absent:
         return "a recording without scene"
     speed = f"{subject.speed / RPM:,.0f} r/min"
-    return f"{scene.bearing.designation} at {speed}, preload {scene.mounted.preload_N:g} N"
+    return f"{bearings_words(scene)} at {speed}, preload {scene.assembly.preload_N:g} N"

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.constants import RPM
-from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
+from fmu_bearing.metrology.at_speed import AtSpeed
 from fmu_bearing.metrology.axis_watch import OUTER_TILTS
 from fmu_bearing.metrology.error_motion import BOUND, ErrorMotion
 from fmu_bearing.metrology.nose import resampled
@@ -19,7 +18,6 @@ _SHOWN = ("fixed y", "fixed z", "rotating", "axial")
 _DRAWN = 20  # revolutions of a plot
 _EVERY = 2  # points of a revolution are drawn
 _STEADY = 1e-3  # of the speed: more is a run-up
-_BASE = 2.0  # radius of the base circle over the largest deviation
 _FITTED = 4  # bearings: the lines of more take the fit minutes, and memory
 _AXES = "xyz"
 _OF_RUN = 2  # columns of `ErrorMotion.table` that say which run it was
@@ -44,7 +42,7 @@ def error_motion(subject: Subject) -> Section:
     columns, rows = found.table()
     fitted = bool(one.nose.rates)
     chosen = [k for k, name in enumerate(columns) if k >= _OF_RUN and (fitted or "by line" not in name)]
-    tilts = bool(subject.scene.assembly.members) or subject.has(*OUTER_TILTS)
+    tilts = subject.several or subject.has(*OUTER_TILTS)
     table = Table(
         f"Error motion {what} over {one.revolutions} revolutions",
         [columns[k] for k in chosen],
@@ -82,7 +80,7 @@ def _sources(found: ErrorMotion) -> list[Block]:
         )
     ]
     parts = [("source", found.per_source())]
-    if found.scene.assembly.members:
+    if found.against == "ground":
         parts.insert(0, ("bearing", found.per_bearing()))
     for name, (heads, cells) in parts:
         caption = f"Asynchronous error motion that the lines of each {name} make alone"
@@ -92,30 +90,26 @@ def _sources(found: ErrorMotion) -> list[Block]:
 
 def _read(subject: Subject) -> ErrorMotion:
     """Return the error motion of the run; `Absent` where it does not allow that."""
-    scene = subject.scene
-    several = scene.assembly.shaft is not None
-    if several:
-        moving = scene.assembly.moving
-        motion = _columns(subject, moving)
-        motion = np.hstack([motion, _tilts(subject, (f"{moving}.tilt.y", f"{moving}.tilt.z"))])
-    else:
-        motion = np.hstack(
-            [_columns(subject, "inner_ring") - _columns(subject, "outer_ring"), _between(subject)]
-        )
+    moving = subject.scene.assembly.moving
+    motion, tilts = _columns(subject, moving), np.zeros((len(subject.time), 2))
+    if subject.several or subject.has(*OUTER_TILTS):
+        tilts += _tilts(subject, (f"{moving}.tilt.y", f"{moving}.tilt.z"))
+    if not subject.several:
+        motion -= _columns(subject, "outer_ring")
+        tilts -= _tilts(subject, OUTER_TILTS) if subject.has(*OUTER_TILTS) else 0.0
     if not np.isfinite(subject.turn):
         raise Absent("the shaft does not turn")
     if np.ptp(subject.recording.speed) > _STEADY * abs(subject.speed):
         raise Absent("the speed changes, so that no revolution repeats another")
-    scene = scene.replace({"operation.speed_rpm": subject.speed / RPM})
-    rates = None
+    scene, rates = subject.at_speed, None
     if len(scene.bearings()) <= _FITTED:
         rates = rates_of(subject.recording.outputs, scene)
     try:
-        nose = resampled(scene, subject.time, motion, None if rates is None else rates[subject.within])
+        watched = None if rates is None else rates[subject.within]
+        nose = resampled(scene, subject.time, np.hstack([motion, tilts]), watched)
     except ValueError as reason:
-        way = "" if not several else "; the run of a set's report cannot, and the command error-motion does"
-        raise Absent(f"{reason}{way}") from None
-    return ErrorMotion(scene, (AtSpeed(nose),), 0.0, "ground" if several else "outer ring")
+        raise Absent(str(reason)) from None
+    return ErrorMotion(scene, (AtSpeed(nose),), 0.0, "ground" if subject.several else "outer ring")
 
 
 def _columns(subject: Subject, body: str) -> NDArray[np.float64]:
@@ -128,30 +122,17 @@ def _tilts(subject: Subject, names: Sequence[str]) -> NDArray[np.float64]:
     return np.column_stack([subject.output(name) for name in names])
 
 
-def _between(subject: Subject) -> NDArray[np.float64]:
-    """Return the tilt of the inner ring against the outer one; zeros where it was not kept."""
-    if not subject.has(*OUTER_TILTS):
-        return np.zeros((len(subject.time), 2))
-    return _tilts(subject, ("inner_ring.tilt.y", "inner_ring.tilt.z")) - _tilts(subject, OUTER_TILTS)
-
-
 def _polar(one: AtSpeed) -> Chart:
     """Draw some revolutions pale and the mean contour bold on a base circle."""
     figure = look.figure(height=460, showlegend=False)
-    angle = np.sign(one.rpm) * 2.0 * np.pi * np.arange(1, 1 + one.signal(_SHOWN[0]).shape[1])
-    angle /= len(angle)
     largest = 0.0
-    drawn = {direction: one.polar(direction) for direction in _SHOWN}
-    for direction, (rows, mean) in drawn.items():
-        factor = DIRECTIONS[direction][1]
-        base = _BASE * factor * max(float(np.abs(rows).max()), 1e-15)
+    for direction in _SHOWN:
+        angle, rows, mean, base = one.polar(direction)
         largest = max(largest, 1.5 * base)
-        pale = base + factor * rows[:_DRAWN].ravel()[::_EVERY]
         turned = np.tile(angle, min(len(rows), _DRAWN))[::_EVERY]
-        bold, around = base + factor * np.append(mean, mean[:1]), np.append(angle, angle[:1])
         for radius, at, colour, width in (
-            (pale, turned, look.colour("grey"), 0.6),
-            (bold, around, look.colour("inner_ring"), 2.4),
+            (rows[:_DRAWN].ravel()[::_EVERY], turned, look.colour("grey"), 0.6),
+            (np.append(mean, mean[:1]), np.append(angle, angle[:1]), look.colour("inner_ring"), 2.4),
         ):
             figure.add_scatter(
                 x=small(-radius * np.sin(at)), y=small(radius * np.cos(at)), mode="lines",

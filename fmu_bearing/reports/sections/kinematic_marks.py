@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, small
@@ -75,8 +74,3 @@ def label(name: str) -> str:
     """Both names of a kinematic frequency."""
     other = OTHER_NAMES[name]
     return f"{name} ({other})" if other else name
-
-
-def named(kinematics: KinematicFrequencies) -> dict[str, float]:
-    """Frequencies (Hz) by `label`."""
-    return {label(name): value for name, value in kinematics._asdict().items()}

@@ -30,18 +30,26 @@ BANDS = ((50.0, 300.0), (300.0, 1800.0), (1800.0, 10_000.0))
 _LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
 _LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
 _CELLS = 160  # of an orbit's picture to either side: two pixels each
+_IN_A_ROW = 3
 _ORBIT_TURNS = 5.0
 _GREY = [[0.0, "rgba(127,127,127,0)"], [1.0 / 255.0, "rgba(127,127,127,0.2)"], [1.0, "rgba(127,127,127,0.9)"]]
 
 
-def bodies_of(subject: Subject) -> list[str]:
-    """Bodies whose motion the recording holds."""
-    names = ["inner_ring", "outer_ring", "cage"]
-    found = [name for name in names if subject.has(f"{name}.velocity.x")]
+def bodies_of(subject: Subject, motion: str = "velocity") -> list[str]:
+    """Bodies whose velocity, or displacement, the recording holds, of a set those that move; as in names."""
+    bodies = ["inner_ring", "outer_ring", "cage"]
+    if subject.fidelity in ("rings", "response"):
+        bodies.remove("cage")
+    names = [prefix + body for prefix in subject.prefixes.values() for body in bodies]
+    found = [name for name in ("shaft.nose", "housing", *names) if subject.has(f"{name}.{motion}.x")]
     if not found:
-        subject.output("inner_ring.velocity.x")  # says what is missing
-    if "cage" in found and subject.fidelity in ("rings", "response"):
-        found.remove("cage")
+        subject.output(f"{names[0]}.{motion}.x")  # says what is missing
+    if subject.several:  # outer rings in a housing at rest
+        found = [
+            name for name in found if any(np.ptp(subject.output(f"{name}.{motion}.{axis}")) for axis in AXES)
+        ]
+    if not found:
+        raise Absent("nothing moves")
     return found
 
 
@@ -53,19 +61,20 @@ def velocities(subject: Subject) -> Section:
         blocks += [_over_frequency(subject, bodies), _band_table(subject, bodies)]
     except Absent as reason:
         blocks.append(Words(f"No spectra of velocity: {reason}.", "absent"))
-    if "cage" not in bodies:
-        blocks.append(Words(no_cage(subject), "note"))
-    return Section("velocities", "Velocities", blocks)
+    return Section("velocities", "Velocities", blocks + _no_cage(subject, bodies))
 
 
-def no_cage(subject: Subject) -> str:
-    """Why the cage does not move here."""
+def _no_cage(subject: Subject, bodies: list[str]) -> list[Block]:
+    """Why the cage does not move here; nothing where it does."""
+    if any(body.endswith("cage") for body in bodies):
+        return []
+    words = "The scene has no cage, or its motion was not kept."
     if subject.fidelity in ("rings", "response"):
-        return (
+        words = (
             f"With fidelity {subject.fidelity}, the cage turns with the balls, its centre does not move, and "
             "each ball sits where its contacts balance. Fidelity full computes the motion of cage and balls."
         )
-    return "The scene has no cage, or its motion was not kept."
+    return [Words(words, "note")]
 
 
 def _over_time(subject: Subject, bodies: list[str]) -> Chart:
@@ -196,35 +205,25 @@ def _band_table(subject: Subject, bodies: list[str]) -> Table:
         rows,
         note="The bands of ISO 15242-1 (low, medium, high); speed and mounting here are the scene's, not "
         "the standard's.",
+        folded=len(bodies) > 3,
     )
 
 
 def orbits(subject: Subject) -> Section:
-    """Orbits of the ring centres and of the cage in the bearing plane."""
-    charts: list[Block] = [_orbits(subject)]
-    if not _has_cage(subject):
-        charts.append(Words(no_cage(subject), "note"))
-    return Section("orbits", "Orbits", charts)
+    """Orbits of the centres in the bearing plane, three in a row."""
+    bodies = bodies_of(subject, "displacement")
+    charts: list[Block] = [
+        _orbits(subject, bodies[k : k + _IN_A_ROW], k) for k in range(0, len(bodies), _IN_A_ROW)
+    ]
+    return Section("orbits", "Orbits", charts + _no_cage(subject, bodies))
 
 
-def _has_cage(subject: Subject) -> bool:
-    return subject.has("cage.displacement.y") and subject.fidelity not in ("rings", "response")
-
-
-def _paths(subject: Subject) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Places (um) of the centres in the bearing plane, about their mean."""
-    found = {}
-    for body in ("inner_ring", "outer_ring"):
-        y, z = (1e6 * subject.output(f"{body}.displacement.{axis}") for axis in "yz")
-        found[body] = (y - y.mean(), z - z.mean())
-    if _has_cage(subject):
-        y, z = (1e6 * subject.output(f"cage.displacement.{axis}") for axis in "yz")
-        found["cage"] = (y - y.mean(), z - z.mean())
-    return found
-
-
-def _orbits(subject: Subject) -> Chart:
-    found = _paths(subject)
+def _orbits(subject: Subject, bodies: list[str], first: int) -> Chart:
+    """Draw orbits side by side; ``first``: number of the first one, from 0."""
+    found: dict[str, list[NDArray[np.float64]]] = {}
+    for body in bodies:
+        both = [1e6 * subject.output(f"{body}.displacement.{axis}") for axis in "yz"]
+        found[body] = [values - values.mean() for values in both]
     count = len(found)
     figure = look.figure(height=340, showlegend=False)
     turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
@@ -270,7 +269,7 @@ def _orbits(subject: Subject) -> Chart:
         )  # fmt: skip
     figure.layout.meta = {"narrow": narrow}
     return Chart(
-        "orbits",
+        f"orbits-{first}" if first else "orbits",
         "Orbits of the centres in the bearing plane, about their mean",
         figure,
         "Paths of the centres of "

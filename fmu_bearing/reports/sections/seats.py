@@ -3,24 +3,24 @@
 from fmu_bearing.design.fit_table import STATE_COLUMNS, fit_rows, head, state_rows
 from fmu_bearing.design.fits import fits
 from fmu_bearing.instance import EngineError
-from fmu_bearing.reports.page.blocks import Absent, Block, Table
-from fmu_bearing.scene import Scene
+from fmu_bearing.reports.data.subject import Subject
+from fmu_bearing.reports.page.blocks import Absent, Block, Section, Table
 
 
-def seats(scene: Scene) -> list[Block]:
-    """Return two tables per bearing of a scene with fits, at its speed."""
+def seats(subject: Subject) -> Section:
+    """Show two tables per bearing of a scene with fits, at the speed of the run."""
     try:
-        found = fits(scene)
+        found = fits(subject.at_speed)
     except EngineError as problem:
         raise Absent(f"no equilibrium at a limit of the fits: {problem}") from None
     assert found.scene.fit is not None
     take = found.scene.fit.take
     blocks: list[Block] = []
     for one in found.column(take).bearings:
-        name = f"bearing {one.number}: " if found.scene.assembly.members else ""
+        name = f"bearing {one.number}: " if subject.several else ""
         words = f"{name}{found.words(one.number)}"
         blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(one), stacked=True))
         note = " ".join(f"{line[0].upper()}{line[1:]}." for line in found.remarks)
         caption = f"Fits over their tolerances, {words}; each column is computed in full"
         blocks.append(Table(caption, head(found), fit_rows(found, one.number), note=note, folded=True))
-    return blocks
+    return Section("fits", "Fits of the rings", blocks)

@@ -1,20 +1,16 @@
 """The verdicts on the first screen: the overall one, and the table of all."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fmu_bearing.design.operating_point import RINGS, OperatingPoint, operating_point
+from fmu_bearing.design.operating_point import RINGS, OperatingPoint
 from fmu_bearing.design.verdict import Verdict, overall
-from fmu_bearing.design.verdicts import verdicts
+from fmu_bearing.design.verdicts import cautions, shared_label, side_by_side, verdicts
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.subject import Subject
-from fmu_bearing.reports.page.blocks import Overall, Table
-
-_COLUMNS = ("", "value", "verdict", "limit", "source of the limit")
-
+from fmu_bearing.reports.page.blocks import Absent, Overall, Table
 
 #: What the run itself is judged by, where it was kept: its extremes, as the figures above the table.
 _EXTREMES = {"pressure_max": np.max, "shoulder_margin": np.min}
@@ -52,41 +48,56 @@ def judged(subject: Subject) -> Judged | None:
     Pressure, film and shoulder are judged by the run's extremes, all else at the scene's loads and the mean
     speed.
     """
-    scene = subject.recording.scene
-    if scene is None:
-        return None
-    rpm = subject.speed / RPM
     try:
-        point = operating_point(scene.replace({"operation.speed_rpm": rpm}))
-    except EngineError:
+        point, ran = _of_run(subject.point, subject)
+    except Absent:
         return None
-    point, ran = _of_run(point, subject)
-    found = verdicts(point)
+    found, several = verdicts(point), subject.several
+    state = "perfect bearings in their steady state" if several else "perfect bearing in its steady state"
+    caption = f"Verdicts at {subject.speed / RPM:,.0f} r/min: {ran}{state}"
+    columns, rows = _side_by_side(found, list(subject.prefixes)) if several else _one_by_one(found)
+    return Judged(found, Table(caption, columns, rows, note=_note(point, found), stacked=True))
+
+
+def _one_by_one(found: Iterable[Verdict]) -> tuple[list[str], list[list[str]]]:
+    """Return columns and a row per verdict."""
     rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
-    caption = f"Verdicts at {rpm:,.0f} r/min: {ran}perfect bearing in its steady state"
-    return Judged(found, Table(caption, _COLUMNS, rows, note=_note(point, found), stacked=True))
+    return ["", "value", "verdict", "limit", "source of the limit"], rows
+
+
+def _side_by_side(found: Sequence[Verdict], bearings: list[str]) -> tuple[list[str], list[list[str]]]:
+    """Return columns and a row per figure, with its verdict on each bearing, or on all together."""
+    whole: list[list[Verdict | None]] = [
+        [*(None for _ in bearings), one] for one in found if one.bearing is None
+    ]
+    rows = []
+    for same in [*([*each, None] for each in side_by_side(found)), *whole]:
+        first = next(one for one in same if one is not None)
+        cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
+        rows.append([shared_label(first), *cells, first.limit, first.source])
+    return ["", *bearings, "all together", "limit", "source of the limit"], rows
 
 
 def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, str]:
     """Return the point with what the run reached, and words that say so; empty: the run kept none of it."""
-    (bearing,) = point.bearings
-    contacts = {ring: dict(bearing.contacts[ring]) for ring in RINGS}
-    film, kept = bearing.film, False
-    for ring in RINGS:
-        for key, extreme in _EXTREMES.items():
-            name = f"contact.{ring}.{key}"
-            if subject.has(name):
-                contacts[ring][key] = float(extreme(subject.output(name)))
-                kept = True
-    if subject.has("film.lambda_min"):
-        film, kept = float(subject.output("film.lambda_min").min()), True
+    bearings, kept = [], False
+    for bearing, prefix in zip(point.bearings, subject.prefixes.values(), strict=True):
+        contacts, film = {ring: dict(bearing.contacts[ring]) for ring in RINGS}, bearing.film
+        for ring in RINGS:
+            for key, extreme in _EXTREMES.items():
+                name = f"{prefix}contact.{ring}.{key}"
+                if subject.has(name):
+                    contacts[ring][key] = float(extreme(subject.output(name)))
+                    kept = True
+        if subject.has(f"{prefix}film.lambda_min"):
+            film, kept = float(subject.output(f"{prefix}film.lambda_min").min()), True
+        bearings.append(replace(bearing, contacts=contacts, film=film))
     words = "pressure, film and shoulder at the run's extremes; all else of the " if kept else ""
-    return replace(point, bearings=(replace(bearing, contacts=contacts, film=film),)), words
+    return replace(point, bearings=tuple(bearings)), words
 
 
 def _note(point: OperatingPoint, found: tuple[Verdict, ...]) -> str:
     """Say what to do: about the state itself, then about what is judged, the gravest first."""
-    advice = list(point.remarks)
-    advice += [one.advice for judgement in ("change", "watch") for one in found if one.judgement == judgement]
-    words = " ".join(f"{line[0].upper()}{line[1:]}." for line in advice if line)
+    advice = cautions(point, sorted(found, key=lambda one: one.judgement != "change"))
+    words = " ".join(f"{line[0].upper()}{line[1:]}." for line in advice)
     return words or "None of these limits is exceeded."

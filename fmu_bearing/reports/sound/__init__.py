@@ -4,5 +4,4 @@
 ``waterfall``             levels over frequency and time, or speed
 ``directivity_balloon``   level over direction
 ``playback``              sounds to play
-``set_sound``             the same of a set of bearings, by a short run
 """

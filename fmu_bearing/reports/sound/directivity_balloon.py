@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.directivity import circle_points
 from fmu_bearing.acoustics.filters.weighting import a_weighting_db, level
+from fmu_bearing.recording.channels.sources import centre_of
 from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
@@ -72,13 +73,11 @@ def sphere(subject: Subject) -> Sphere:
     polar = np.linspace(0.0, math.pi, _LATITUDES)
     azimuth = 2.0 * math.pi * np.arange(_AROUND) / _AROUND
     bare = Sphere(polar, azimuth, {})
-    points = subject.radius * bare.directions()
-    inner = points[1:-1].reshape(-1, 3)
-    ends = subject.radius * np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    points = subject.radius * bare.directions() + [centre_of(recording.scene), 0.0, 0.0]
+    # one point at each end of the axis
+    places = [points[0, 0], points[-1, 0], *points[1:-1].reshape(-1, 3)]
     try:
-        frequency, squares = recording.mean_squares(
-            [*ends, *inner], subject.radiation_model, _resolution(subject)
-        )
+        frequency, squares = recording.mean_squares(places, subject.radiation_model, _resolution(subject))
     except ValueError as problem:
         raise Absent(str(problem)) from None
     found = {}

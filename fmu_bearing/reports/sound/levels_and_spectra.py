@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.lines import Line, strongest_lines
 from fmu_bearing.acoustics.analysis.third_octave import spread
+from fmu_bearing.acoustics.filters.weighting import level as level_of
 from fmu_bearing.recording.measurements.measure import BEYOND, strongest
 from fmu_bearing.recording.measurements.pictures import band_place
 from fmu_bearing.recording.measurements.tables import lines_table
@@ -48,6 +49,8 @@ def levels(subject: Subject, microphones: Microphones) -> Section:
         blocks.append(_ranking(microphones))
     else:
         blocks.append(Words("There are no components, because only pressures were recorded.", "absent"))
+    if subject.several and subject.recording.history.size:
+        blocks.append(_by_bearing(subject, microphones))
     total = len(subject.recording.microphones)
     if total > len(microphones.names):
         blocks.append(Words(f"The first {len(microphones.names)} of {total} microphones.", "note"))
@@ -80,6 +83,20 @@ def _level_table(microphones: Microphones) -> Table:
         f"not sum to the total. A dash: silent.",
         folded=len(rows) > 8,
     )
+
+
+def _by_bearing(subject: Subject, microphones: Microphones) -> Table:
+    """Return the level of each bearing alone."""
+    recording = subject.recording
+    parts = recording.partial(microphones.positions, subject.radiation_model, by="bearing").values()
+    levels = np.array([level_of(recording.mean_square(part, "A")) for part in parts])
+    rows = [[name, *map(decibels, levels[:, k])] for k, name in enumerate(microphones.names)]
+    heads = [f"bearing {number + 1}, dB(A)" for number in range(len(levels))]
+    return Table(
+        "Levels of each bearing alone", ["microphone", *heads], rows, folded=len(rows) > 8,
+        note="Over the same time as the levels above. Pressures add with their phases. A dash: silent. What "
+        "moves with several bearings, as a housing, counts for the first.",
+    )  # fmt: skip
 
 
 def _ranking(microphones: Microphones) -> Chart:

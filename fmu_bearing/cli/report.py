@@ -63,7 +63,7 @@ def report(
         bool | None,
         typer.Option(
             "--changes/--no-changes",
-            help="Whether it says what to change; default: yes, without levels where rings bend.",
+            help="Whether it says what to change; default: yes, without levels where rings bend and of sets.",
         ),
     ] = None,
     surface: SurfaceFile = None,

@@ -140,7 +140,7 @@ def make(
         Heading; default: the scene's name.
     changes : bool, optional
         Whether the page says what to change; default: yes, but without levels where rings bend, because
-        their runs take 40 s.
+        their runs take 40 s, and of a set, 10 s for each bearing.
     surface : Surface or path, optional
         A surface that was found from a vibration test, or its file: a scene takes its median law, and the
         range of the level its draws.

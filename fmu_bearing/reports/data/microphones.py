@@ -11,6 +11,7 @@ from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency, third
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent
+from fmu_bearing.results.levels import ROUNDING
 
 #: Microphones with spectra and sound of their own, and those in tables.
 SHOWN, LISTED = 4, 48
@@ -46,11 +47,11 @@ class Microphones:
         """Samples per second."""
         return self.subject.recording.rate
 
-    @property
+    @cached_property
     def components(self) -> list[str]:
-        """``"total"``, then the components that are not silent."""
-        loud = [name for name, part in self.parts.items() if np.any(part)]
-        return ["total", *loud]
+        """``"total"``, then the components that are not silent but for rounding."""
+        squares = {name: np.mean(part**2, axis=1) for name, part in self.parts.items()}
+        return ["total", *(name for name, values in squares.items() if level(values).max() >= ROUNDING)]
 
     @cached_property
     def shown(self) -> list[int]:

@@ -31,6 +31,7 @@ _LOWEST, _HIGHEST = 20.0, 10_000.0  # Hz
 _LONGEST_STEP = 45e-6  # s: what lies above 12 kHz, and would fold back to 10, hardly moves a ring
 _CELLS = 160  # of an orbit's picture to either side: two pixels each
 _IN_A_ROW = 3
+_DECADES = 5.0  # of a spectrum
 _ORBIT_TURNS = 5.0
 _GREY = [[0.0, "rgba(127,127,127,0)"], [1.0 / 255.0, "rgba(127,127,127,0.2)"], [1.0, "rgba(127,127,127,0.9)"]]
 
@@ -114,7 +115,7 @@ def _rms_table(subject: Subject, bodies: list[str]) -> Table:
         rms = [float(np.std(part)) for part in parts]
         peak = max(float(np.max(np.abs(part - part.mean()))) for part in parts)
         whole = float(np.sqrt(np.sum(np.square(rms))))
-        rows.append([look.words(body), *(f"{value:.3f}" for value in rms), f"{whole:.3f}", f"{peak:.3f}"])
+        rows.append([look.words(body), *(f"{value:.4g}" for value in (*rms, whole, peak))])
     return Table(
         "Velocity of the centres about its mean, mm/s",
         ["body", "rms x", "rms y", "rms z", "rms, all axes", "largest of one axis"],
@@ -150,8 +151,9 @@ def _finest(subject: Subject, wanted: float) -> float:
 def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
     figure = look.figure(height=420)
     resolution = _finest(subject, 5.0)
-    top = 0.0
+    options = []
     for body in bodies:
+        top = 0.0
         for axis in AXES:
             frequency, rms = velocity_spectrum(subject, f"{body}.velocity.{axis}", resolution)
             top = max(top, float(1e3 * rms.max()))
@@ -162,8 +164,9 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
                 line={"color": look.colour(axis), "width": 1.2},
                 hovertemplate="%{x:.0f} Hz: %{y:.3g} mm/s<extra>" + axis + "</extra>",
             )  # fmt: skip
+        decades = float(np.log10(top)) if top > 0.0 else 0.0
+        options.append(Option(look.words(body), body, {"yaxis.range": [decades - _DECADES, decades + 0.5]}))
     mark_kinematics(figure, subject)
-    decades = np.log10(top) if top > 0.0 else 0.0
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST]),
         yaxis=look.axis(
@@ -171,7 +174,7 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
             type="log",
             dtick=1,
             exponentformat="power",
-            range=[decades - 5.0, decades + 0.5],
+            range=options[0].layout["yaxis.range"],
         ),
     )
     return Chart(
@@ -179,7 +182,7 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         "Velocity of the centres over frequency",
         figure,
         f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
-        (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), reach(_HIGHEST)),
+        (Choice("body", "Body", options), reach(_HIGHEST)),
         note=f"Velocities read {1e-3 * _sampled(subject):.4g} thousand times a second; {resolution:.3g} Hz "
         "between lines, flat-top window: lines read true. Click a legend entry to show or hide it."
         + end_words(subject),
@@ -265,7 +268,7 @@ def _orbits(subject: Subject, bodies: list[str], first: int) -> Chart:
         })  # fmt: skip
         figure.add_annotation(
             text=look.words(body), x=0.5 * (begin + end), y=1.02, xref="paper", yref="paper", showarrow=False,
-            yanchor="bottom", font={"size": 14},
+            xanchor="center", yanchor="bottom", font={"size": 14},
         )  # fmt: skip
     figure.layout.meta = {"narrow": narrow}
     return Chart(

@@ -30,11 +30,12 @@ _BETTER, _WORSE = "inner", "outer"  # colours
 _ROW, _AROUND = 40, 100  # px: a row with its text above the bar, and what surrounds the rows
 _LIFTED = 15  # px of a text above the middle of its bar
 _BENDS = "rings that bend need fidelity full, which takes about 40 s; --changes computes them"
+_SEVERAL = "those of a set take about 10 s for each bearing; --changes computes them"
 _MANY = 2.0  # ratio from which on a life is given as so many times as long
 
 
 def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section:
-    """Return the section; ``levels``: whether they are computed (None: unless the rings bend).
+    """Return the section; ``levels``: whether they are computed (None: of one bearing with rigid rings).
 
     Raises
     ------
@@ -43,12 +44,12 @@ def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section
     """
     try:
         scene = at_speed(subject.recording)
-        wanted = levels if levels is not None else not scene.bends
+        wanted = levels if levels is not None else not (scene.bends or subject.several)
         found = changes(scene, levels=wanted, radiation_model=subject.radiation_model, tell=tell)
     except ValueError as problem:
         raise Absent(str(problem)) from None
     if levels is None and not wanted:
-        found = replace(found, no_level=_BENDS)
+        found = replace(found, no_level=_BENDS if scene.bends else _SEVERAL)
     return shown(found)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
 from fmu_bearing.scene import Scene, read_scene, si
 
@@ -66,13 +67,9 @@ class Case:
         return silent(self.scene, self.folder, **fidelity)
 
     def arrays(self, scene: Scene, **parameters: float) -> Arrays:
-        """Bearing of a scene at the case's speed and load; an example scene at its own temperatures."""
-        bearing = Arrays(scene, self.rpm, load_y=self.load_y, **parameters)
-        if self.folder == EXAMPLES:
-            at = si(scene.operation)
-            warm = (at.oil_temperature, at.inner_ring_temperature, at.outer_ring_temperature)
-            bearing.u[U.OIL_T : U.OUTER_T + 1] = warm
-        return bearing
+        """Bearing of a scene at the case's speed and load."""
+        inputs = {U.SPEED: self.rpm * RPM, U.LOAD_Y: self.load_y, U.LOAD_Z: 0.0}
+        return Arrays.of(scene, **parameters).at(inputs)
 
     def bearing(self, **parameters: float) -> Arrays:
         """Initialised bearing, run for ``WARM_UP`` unless the start itself is looked at."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from benchmarks.cases import WARM_UP, Case, Solver
 from benchmarks.table import Row
 from fmu_bearing.accuracy.reference import Reference, reference_from, relative_error
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.engine.layout import P
 from fmu_bearing.run.metrics import SAMPLE, ring_rms
 from fmu_bearing.run.paces import speed
@@ -59,7 +59,7 @@ class Full:
             try:
                 if self.error(setting) <= LIMIT:
                     found[setting] = self.speed(setting, budget / 8, 2)[1]
-            except Refused:
+            except EngineError:
                 continue
         return max(found, key=lambda setting: found[setting]) if found else None
 
@@ -70,7 +70,7 @@ class Full:
         try:
             row.error = self.error(setting)
             row.wall, row.cpu = self.speed(setting, budget, repeats)
-        except Refused as problem:
+        except EngineError as problem:
             row.remark = f"refused: {problem}"
         return row
 
@@ -112,7 +112,7 @@ def fidelity_row(case: Case, solver: Solver, start: Arrays, budget: float, repea
         row.error = relative_error(own[:few], finer.rings(case.window, SAMPLE))
         row.remark = f"rms from full: inner {apart[0]:+.1%}, outer {apart[1]:+.1%}"
         row.wall, row.cpu = speed(bearing, budget, repeats, 1.0)
-    except Refused as problem:
+    except EngineError as problem:
         row.remark = f"refused: {problem}"
     return row
 

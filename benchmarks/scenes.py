@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.cases import EXAMPLES, GATES
-from fmu_bearing.arrays import Refused
+from fmu_bearing.arrays import EngineError
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import Figures, Measured, measure
@@ -104,7 +104,7 @@ def rows_of(case: Case, budget: float, warm_up: float = WARM_UP, window: float =
     rows = []
     for setting in SETTINGS:
         found: Measured | None = None
-        with suppress(Refused):
+        with suppress(EngineError):
             found = measure(setting.scene(scene), sounds, warm_up, window, budget=budget)
         rows.append(cells(case, setting, found, truth))
     return rows

@@ -5,9 +5,10 @@ import time
 import numpy as np
 
 from benchmarks.cases import silent
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.compiled import call, ready
-from fmu_bearing.engine.layout import C, F, P, S, Y
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import C, F, P, S, U, Y
 from fmu_bearing.run.paces import speed
 
 COLUMNS = ("scene", "variant", "right-hand side, us", "of all terms", "sim/CPU", "times all terms")
@@ -38,7 +39,7 @@ def evaluation(bearing: Arrays, times: int = 4000) -> float:
 def variants(name: str):
     """Yield name, scene and changed parameters of everything that can be left out."""
     scene = silent(name)
-    base = Arrays(scene, 0.0).p
+    base = Arrays.of(scene).p
     yield "all terms, 5 strips", scene, {}
     for words, place in SWITCHES.items():
         if base[getattr(P, place)] != 0.0:
@@ -63,12 +64,12 @@ def rows(name: str, rpm: float, budget: float, repeats: int) -> list[list[str]]:
     bearings: dict[str, Arrays] = {}
     refused: dict[str, str] = {}
     for words, scene, changed in variants(name):
-        bearing = Arrays(scene, rpm, **changed)
+        bearing = Arrays.of(scene, **changed).at({U.SPEED: rpm * RPM})
         try:
             bearing.init()
             bearing.run(0.02, 1e-3)
             bearings[words] = bearing
-        except Refused as problem:
+        except EngineError as problem:
             refused[words] = str(problem)
     cost = dict.fromkeys(bearings, float("inf"))
     fast = dict.fromkeys(bearings, 0.0)

@@ -20,10 +20,10 @@ Data flow in one direction::
 ``acoustics``       transfer functions from motion to microphones, filters, analysis
 ``interface``       the table of variables
 ``prepare``         from a scene to the numbers of the engine: contacts, masses, imperfections
+``arrays``          a bearing as flat arrays, for loops that read and restore the state
 ``cautions``        warnings about the state that a bearing has reached
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
-``arrays``          a bearing as flat arrays, for loops that read and restore the state
 ``results``         values of variables over time: tables, files, spectra, pictures
 ``modal``           small motions: natural modes, Campbell diagram
 ``run``             a scene or an FMU run over inputs; fidelity ``auto``

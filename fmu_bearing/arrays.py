@@ -1,4 +1,4 @@
-"""A bearing, or a set, as flat arrays, for loops that save and restore the state."""
+"""A bearing, or a set, as flat arrays: made, initialised, stepped, saved and restored; refusals in words."""
 
 from collections.abc import Mapping
 from typing import Self
@@ -7,105 +7,124 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.compiled import Calls
-from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import SP, P, Q, S, U, Y
-from fmu_bearing.engine.status import OK
-from fmu_bearing.instance import reasons
+from fmu_bearing.engine.status import (
+    BAD_INPUT,
+    BAD_STEP,
+    NO_START,
+    NOT_CONVERGED,
+    OK,
+    OTHER_FIDELITY,
+    RIGID_ONLY,
+    TOO_SOFT,
+)
 from fmu_bearing.interface.table import input_values
 from fmu_bearing.prepare.lengths import lengths, parts_of
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.scene import Scene
+from fmu_bearing.scene import Scene, exclusions
+from fmu_bearing.scene.imperfections import RACES
 
 #: Places in ``y`` of the six ring velocities: inner x, y, z, outer x, y, z.
 RINGS = np.array([Y.V0, Y.V0 + 1, Y.V0 + 2, *(Y.V0 + Q.OUTER + k for k in range(3))])
 
+#: Messages for the status codes of the engine.
+REASONS = {
+    NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
+    "change inputs by less at a time, or over more steps; where steps are refused at inputs that were good "
+    "before, nothing leads on from this state: put an earlier one back (fmi2SetFMUstate), or begin again "
+    "(fmi2Reset, reset())",
+    BAD_INPUT: "an input is not finite or outside its range",
+    BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload, less radial load "
+    "or a stiffer pedestal",
+    RIGID_ONLY: exclusions.BENDING.words(),
+    OTHER_FIDELITY: "its numbers were prepared for another fidelity: a set in response, or with rings "
+    "on pedestals of their own, has numbers for one; bearings on another model's shaft have fidelity full "
+    "only; prepare the scene in the fidelity wanted (with_fidelity)",
+    TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
+    "give a stiffer pedestal or less radial load",
+}
+# of a set these words differ: loads are those on its shaft
+_OF_SETS = {
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less load "
+    "on the shaft, and only in directions that a bearing carries, or a stiffer pedestal where there is one",
+    TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
+    "give a stiffer pedestal or less load on the shaft",
+}
 
-class Refused(RuntimeError):
-    """The engine returned a status other than OK."""
+
+_WAVES_HIGH = 5.0  # um: as much as loads of some hundred newtons press a contact together
+_WAVY = (
+    "; the waviness of its races rises by up to {:.3g} um, more than contacts are pressed together: some um. "
+    "Give less (imperfections: amplitudes, waviness_exponent, harmonics), or check its unit"
+)
+
+
+def reasons(p: NDArray[np.float64]) -> dict[int, str]:
+    """Return what the status codes of the engine mean for the parameters of a bearing, or of a set."""
+    found = REASONS | _OF_SETS if SP.has_shaft(p) else REASONS
+    first, values = int(p[P.AT_WAVES]), len(RACES) * 2 * int(p[P.WAVE_INTERVALS])  # heights and slopes
+    highest = 1e6 * float(np.abs(p[first : first + values : 2]).max()) if p[P.WAVINESS] else 0.0
+    return found | {NO_START: found[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else found
+
+
+class EngineError(ValueError):
+    """The engine refused; the bearing is as it was before the call."""
 
 
 class Arrays:
-    """Parameters, inputs, state, outputs and work space of one bearing.
+    """Parameters, inputs, state, outputs and work space of one bearing, or of a set.
 
     Parameters
     ----------
-    scene : Scene
-    rpm : float
-        Shaft speed (r/min), held.
-    load_y, load_z : float
-        Radial load on the inner ring (N).
-    sound : ndarray, optional
-        The scene's sound block (``prepare.sound.sound_block``); default: no sound.
-    parameters : float
-        Values for places of ``p`` by their names in ``layout.p``, for example ``TOLERANCE=1e-5``.
+    p, u : ndarray
+        Parameters (`prepare.model.pack`) and inputs, kept as they are.
     """
 
-    def __init__(
-        self, scene: Scene, rpm: float, load_y: float = 0.0, load_z: float = 0.0,
-        sound: NDArray[np.float64] | None = None, **parameters: float,
-    ) -> None:  # fmt: skip
-        self.p: NDArray[np.float64] = pack(scene, np.empty(0) if sound is None else sound)
-        for name, value in parameters.items():
-            self.p[getattr(P, name)] = value
-        self.u = np.zeros(len(U.INPUTS))
-        self.u[U.SPEED] = rpm * RPM
-        self.u[U.PRELOAD] = scene.mounted.preload_N
-        self.u[U.PEDESTAL] = scene.mounted.pedestal_stiffness_N_m
-        self.u[U.LOAD_Y], self.u[U.LOAD_Z] = load_y, load_z
-        self.u[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
-        self._allocate()
-
-    def _allocate(self) -> None:
-        """Make state, outputs and work space, and bind all arrays."""
-        sizes = lengths(self.p)
+    def __init__(self, p: NDArray[np.float64], u: NDArray[np.float64]) -> None:
+        self.p, self.u = p, u
+        sizes = lengths(p)
         self.s, self.z, self.w = (np.zeros(n) for n in (sizes.state, sizes.outputs, sizes.work))
-        self._freeze()
-
-    def _freeze(self) -> None:
-        """Bind the arrays to the compiled entries; they stay where they are."""
-        self.p.setflags(write=False)
-        self._calls = Calls(self.p, self.u, self.s, self.z, self.w)
+        #: The compiled entries, bound to the arrays: these stay where they are.
+        self.calls = Calls(self.p, self.u, self.s, self.z, self.w)
 
     @classmethod
     def of(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
-        """Return the arrays of a scene, of a set too, at its own speed, loads and temperatures.
+        """Return the arrays of a scene at its own speed, loads and temperatures.
 
         ``sounds``: the sound block of each bearing (``prepare.sound.sound_blocks``); default: no sound.
+        ``parameters``: values for places of ``p`` by their names in ``layout.p``, as ``TOLERANCE=1e-5``.
         """
-        made = cls.__new__(cls)
-        made.p = pack(scene, *(sounds or [np.empty(0)]))
-        for name, value in parameters.items():
-            made.p[getattr(P, name)] = value
-        made.u = input_values(scene)
-        made._allocate()
-        return made
+        return cls(_fixed(pack(scene, *(sounds or [np.empty(0)])), parameters), input_values(scene))
+
+    def at(self, inputs: Mapping[int, float]) -> Self:
+        """Return these arrays with inputs set, by their places in ``u``, SI units."""
+        for place, value in inputs.items():
+            self.u[place] = value
+        return self
 
     @classmethod
     def started(cls, scene: Scene, inputs: Mapping[int, float], *sounds: NDArray[np.float64]) -> Self:
-        """Return the arrays of a scene, initialised at its inputs or at those given by their places in ``u``.
-
-        SI units; ``sounds`` as for `of`; ``Refused`` where there is no equilibrium.
-        """
-        made = cls.of(scene, *sounds)
-        for place, value in inputs.items():
-            made.u[place] = value
+        """Return the arrays of a scene as `of` does, initialised; ``EngineError`` where that is refused."""
+        made = cls.of(scene, *sounds).at(inputs)
         made.init()
         return made
 
     def init(self) -> None:
-        """Quasi-static state at the inputs; ``Refused`` if there is none."""
-        status = self._calls.init(0.0)
+        """Quasi-static state at the inputs; ``EngineError`` if there is none."""
+        status = self.calls.init(0.0)
         if status != OK:
-            raise Refused(f"initialisation: {self._reason(status)}")
+            raise EngineError(f"initialisation: {self.reason(status)}")
 
     def step(self, h: float) -> None:
-        """Advance by ``h`` (s); ``Refused`` if the engine does."""
+        """Advance by ``h`` (s); ``EngineError`` if the engine refuses."""
         begin = self.s[S.TIME]
-        status = self._calls.step(h)
+        status = self.calls.step(h)
         if status != OK:
-            raise Refused(f"step to {begin + h:.6g} s: {self._reason(status)}")
+            raise EngineError(f"step to {begin + h:.6g} s: {self.reason(status)}")
 
-    def _reason(self, status: int) -> str:
+    def reason(self, status: int) -> str:
+        """Return what a status code of the engine means for this bearing, or this set."""
         return reasons(self.p)[status]
 
     def run(self, duration: float, h: float) -> None:
@@ -141,14 +160,18 @@ class Arrays:
 
     def with_parameters(self, **parameters: float) -> "Arrays":
         """Copy with other parameters and the same inputs and state; it works on its own arrays."""
-        other = object.__new__(Arrays)
-        other.p = self.p.copy()
-        for name, value in parameters.items():
-            other.p[getattr(P, name)] = value
-        other.u, other.s, other.z, other.w = (a.copy() for a in (self.u, self.s, self.z, self.w))
-        other._freeze()
+        other = Arrays(_fixed(self.p.copy(), parameters), self.u.copy())
+        other.s[:], other.z[:] = self.s, self.z
         # Newton's memory belongs to the old parameters: no factors, a first step that suits the new bound
         for _, part in parts_of(other.p):
             other.s[part][[S.FACTOR_STEP, S.JACOBIAN_TIME]] = 0.0, -1e300
         other.s[S.STEP] = min(other.s[S.STEP], other.p[P.MAX_STEP])
         return other
+
+
+def _fixed(p: NDArray[np.float64], values: Mapping[str, float]) -> NDArray[np.float64]:
+    """Return parameters with values by their names in ``layout.p``; from then on they stay."""
+    for name, value in values.items():
+        p[getattr(P, name)] = value
+    p.setflags(write=False)
+    return p

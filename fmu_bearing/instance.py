@@ -10,58 +10,17 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.cautions import cautions
-from fmu_bearing.compiled import Calls, call
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.layout import SP, P, S
-from fmu_bearing.engine.status import (
-    BAD_INPUT,
-    BAD_STEP,
-    NO_START,
-    NOT_CONVERGED,
-    OK,
-    OTHER_FIDELITY,
-    RIGID_ONLY,
-    TOO_SOFT,
-)
+from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.set_inputs import led_inputs
 from fmu_bearing.interface.set_outputs import first_output
 from fmu_bearing.prepare.model import Model
-from fmu_bearing.scene import exclusions
-from fmu_bearing.scene.imperfections import RACES
 
-#: Messages for the status codes of the engine.
-REASONS = {
-    NOT_CONVERGED: "the equations could not be solved: even the shortest internal steps failed; "
-    "change inputs by less at a time, or over more steps; where steps are refused at inputs that were good "
-    "before, nothing leads on from this state: put an earlier one back (fmi2SetFMUstate), or begin again "
-    "(fmi2Reset, reset())",
-    BAD_INPUT: "an input is not finite or outside its range",
-    BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
-    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload, less radial load "
-    "or a stiffer pedestal",
-    RIGID_ONLY: exclusions.BENDING.words(),
-    OTHER_FIDELITY: "its numbers were prepared for another fidelity: a set in response, or with rings "
-    "on pedestals of their own, has numbers for one; bearings on another model's shaft have fidelity full "
-    "only; prepare the scene in the fidelity wanted (with_fidelity)",
-    TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
-    "give a stiffer pedestal or less radial load",
-}
-# of a set these words differ: loads are those on its shaft
-_OF_SETS = {
-    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload or less load "
-    "on the shaft, and only in directions that a bearing carries, or a stiffer pedestal where there is one",
-    TOO_SOFT: "the loads push an outer ring or the housing sideways by more than 0.3 of the pitch radius; "
-    "give a stiffer pedestal or less load on the shaft",
-}
-
-
-_WAVES_HIGH = 5.0  # um: as much as loads of some hundred newtons press a contact together
-_WAVY = (
-    "; the waviness of its races rises by up to {:.3g} um, more than contacts are pressed together: some um. "
-    "Give less (imperfections: amplitudes, waviness_exponent, harmonics), or check its unit"
-)
 _LONGEST_TEXT = 57  # of a value that is repeated in a message
 # Steps of rings and response after which the state is copied: a copy takes longer than a step of response.
 # A refused step repeats those since. A step of full takes longer than a copy.
@@ -93,18 +52,6 @@ def check(variable: Variable, value: float) -> None:
         raise ValueError(f"{variable.name} = {value} is refused: allowed are {low:g} to {high:g}{unit}")
 
 
-def reasons(p: NDArray[np.float64]) -> dict[int, str]:
-    """Return what the status codes of the engine mean for the parameters of a bearing, or of a set."""
-    found = REASONS | _OF_SETS if SP.has_shaft(p) else REASONS
-    first, values = int(p[P.AT_WAVES]), len(RACES) * 2 * int(p[P.WAVE_INTERVALS])  # heights and slopes
-    highest = 1e6 * float(np.abs(p[first : first + values : 2]).max()) if p[P.WAVINESS] else 0.0
-    return found | {NO_START: found[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else found
-
-
-class EngineError(ValueError):
-    """The engine refused; the instance is as it was before the call."""
-
-
 class Instance:
     """A bearing that can be stepped.
 
@@ -130,19 +77,16 @@ class Instance:
         self.model = model
         self.tell = tell or (lambda text: warnings.warn(text, stacklevel=4))
         self.by_name = {variable.name: variable for variable in model.variables}
-        self._cautions, self._reasons = cautions(model, growth), reasons(model.parameters)
+        self._cautions = cautions(model, growth)
         self.reset()
 
     def reset(self) -> None:
         """Back to the state of a fresh instance."""
-        model = self.model
-        self.p: NDArray[np.float64] = model.parameters.copy()
-        sizes = model.lengths
-        self.u: NDArray[np.float64] = model.inputs
-        self.z: NDArray[np.float64] = np.zeros(sizes.outputs)
-        self._state: NDArray[np.float64] = np.zeros(sizes.state)
-        self._calls = Calls(self.p, self.u, self._state, self.z, np.zeros(sizes.work))
-        self._kept = np.zeros(sizes.state)  # where the steps noted since began: size (s) and inputs of each
+        self._arrays = Arrays(self.model.parameters.copy(), self.model.inputs)
+        self.p, self.u, self.z = self._arrays.p, self._arrays.u, self._arrays.z
+        self._state, self._calls = self._arrays.s, self._arrays.calls
+        # where the steps noted since began: size (s) and inputs of each
+        self._kept: NDArray[np.float64] = np.zeros(self._state.size)
         self._keep = self._calls.copier(self._state, self._kept)
         self._put_back = self._calls.copier(self._kept, self._state)
         self._since: list[tuple[float, NDArray[np.float64]]] = []
@@ -172,6 +116,10 @@ class Instance:
                     "and build the FMU again"
                 ) from None
             raise KeyError(f"this bearing has no variable '{name}'") from None
+
+    def names(self, *causalities: str) -> list[str]:
+        """Return the names of variables of some causalities, in the order of the table."""
+        return [name for name, one in self.by_name.items() if one.causality in causalities]
 
     def set(self, name: str, value: float) -> None:
         """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""
@@ -227,7 +175,9 @@ class Instance:
         self._since.clear()
         status = self._calls.init(float(time))
         if status != OK:
-            raise EngineError(f"initialisation at t = {time} s: {self._reasons[status]}; {self._inputs()}")
+            raise EngineError(
+                f"initialisation at t = {time} s: {self._arrays.reason(status)}; {self._inputs()}"
+            )
         self.initialised = True
         self._due = self._cautions
         self._warn()
@@ -258,7 +208,7 @@ class Instance:
             self._go_back()
             raise EngineError(
                 f"step of {h} s from t = {self.time:.9g} s (reached {reached:.9g} s): "
-                f"{self._reasons[status]}; {self._inputs()}"
+                f"{self._arrays.reason(status)}; {self._inputs()}"
             )
         self._warn()
 
@@ -291,17 +241,16 @@ class Instance:
         if not places or not self.initialised:
             why = "the bearings must be initialised" if places else "no other model owns the shaft"
             raise EngineError(f"there are no derivatives at a port: {why}")
-        lengths = self.model.lengths
         count = int(self.p[int(self.p[P.SET]) + SP.BEARINGS])
         first = first_output(self.model.scene, count) + SP.Z_PORT
         columns = []
         for place in places:
             change = np.zeros(2 * self.u.size)
             change[: self.u.size], change[self.u.size + place] = self.u, 1.0
-            z, work = np.zeros(lengths.outputs), np.zeros(lengths.work)
+            z, work = np.zeros(self.z.size), np.zeros(self._arrays.w.size)
             status = call("derivative", self.p, change, np.tile(self._state, 2), z, work, number("step h", h))
             if status != OK:
-                raise EngineError(f"derivatives at the port over {h} s: {self._reasons[status]}")
+                raise EngineError(f"derivatives at the port over {h} s: {self._arrays.reason(status)}")
             columns.append(z[first : first + SP.PLANE])
         both = np.array(columns).T
         return both[:, : SP.PLANE], both[:, SP.PLANE :]

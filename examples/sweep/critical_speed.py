@@ -69,7 +69,7 @@ def critical_speed(scene: Scene, stiffness: float, speeds: Array, balls: Array) 
     ``balls`` at ``speeds``) between them. Tilting, coupled to it by the contact angle, changes the mode by
     less than 0.01 % here; damping and gyroscopic moments are left out.
     """
-    p = Arrays(scene, 0.0).p
+    p = Arrays.of(scene).p
     mass = np.diag(p[[P.INNER_MASS, P.OUTER_MASS]])
     rpm = float(speeds[0])
     for _ in range(20):

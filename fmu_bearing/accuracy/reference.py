@@ -22,7 +22,6 @@ from fmu_bearing.compiled import call, ready
 from fmu_bearing.engine.choices import ESDIRK4, RK4
 from fmu_bearing.engine.layout import SP, C, S, Y
 from fmu_bearing.engine.reference.runge_kutta import ROWS, SIZE
-from fmu_bearing.scene import Scene
 
 
 def explicit_rings(
@@ -123,17 +122,3 @@ def reference_from(
     other, implicit = implicit_rings(bearing, duration, sample, implicit_step, implicit_tolerance)
     times = sample * np.arange(1.0, len(exact) + 1.0, dtype=np.float64)
     return Reference(times, exact, relative_error(other, exact), explicit / duration, implicit / duration)
-
-
-def reference(
-    scene: Scene, rpm: float, duration: float, *, warm_up: float = 0.05, load_y: float = 0.0,
-    load_z: float = 0.0, **options: float,
-) -> Reference:  # fmt: skip
-    """Run a scene at ``rpm`` for ``warm_up`` (s) from its steady state, then take the reference.
-
-    ``options``: as :func:`reference_from`.
-    """
-    bearing = Arrays(scene, rpm, load_y, load_z)
-    bearing.init()
-    bearing.run(warm_up, 1e-3)
-    return reference_from(bearing, duration, **options)

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.arrays import Refused
 from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.progress import keeping
@@ -248,7 +247,7 @@ def sensitivity(
 
     Raises
     ------
-    Refused
+    EngineError
         If the engine refuses the unchanged scene.
     SceneError
         For bearings on another model's shaft.
@@ -283,7 +282,7 @@ def sensitivity(
                 continue
             try:
                 figures = measure(other, _sound(other, blocks), warm_up, window).figures
-            except (Refused, ValueError) as problem:
+            except ValueError as problem:
                 rows.append(Row(key, value, moved, remark=str(problem)))
                 continue
             rows.append(Row(key, value, moved, changes(figures, base)))

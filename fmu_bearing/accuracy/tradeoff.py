@@ -16,7 +16,7 @@ from dataclasses import astuple, dataclass, field, replace
 import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import Sounds
 from fmu_bearing.progress import keeping
@@ -190,7 +190,7 @@ def tradeoff(
 
     Raises
     ------
-    Refused
+    EngineError
         If the engine refuses the reference.
     SceneError
         For bearings on another model's shaft.
@@ -204,7 +204,7 @@ def tradeoff(
     truth = measure(REFERENCE.scene(scene), sounds.at(REFERENCE.fidelity), warm_up, window)
     agreement = np.nan
     if WITNESS.carries(scene):
-        with suppress(Refused):
+        with suppress(EngineError):
             witness = measure(WITNESS.scene(scene), np.empty(0), warm_up, window)
             agreement = relative_error(truth.rings, witness.rings)
     rows: list[Row] = []
@@ -222,7 +222,7 @@ def tradeoff(
                 run = measure(
                     setting.scene(scene), sounds.at(setting.fidelity), warm_up, window, budget=budget
                 )
-            except Refused as problem:
+            except EngineError as problem:
                 rows.append(Row(setting, remark=f"refused: {problem}"))
                 continue
             error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan

@@ -143,11 +143,10 @@ def _caution(message: Warning | str, category: type[Warning], *place: Any) -> No
 
 def _refused() -> tuple[type[Exception], ...]:
     """Return the exceptions that count as refusals. They are imported only after an error."""
-    from fmu_bearing.arrays import Refused
     from fmu_bearing.compiled.errors import BuildError
     from fmu_bearing.extras import MissingExtra
 
-    return (ValueError, OSError, BuildError, Refused, MissingExtra)
+    return (ValueError, OSError, BuildError, MissingExtra)
 
 
 def shaft_speed(rpm: float | None, source: "Path | Scene", option: str = "--speed") -> float | None:

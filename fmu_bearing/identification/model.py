@@ -12,7 +12,6 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.arrays import Refused
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.identification.data import Datum
@@ -148,7 +147,7 @@ class Levels:
         if levels is None:
             try:
                 levels = tuple(map(float, self._measure(scene, rows, settle)))
-            except (Refused, ValueError, ArithmeticError):
+            except (ValueError, ArithmeticError):
                 levels = (math.nan,) * len(rows)
             self.cache.put(key, levels)
             with self._lock:
@@ -163,7 +162,7 @@ class Levels:
                 values = scene_values(self.free, x) | dict(group)
                 scene = self.scene.replace(values | {"fidelity.model": fidelity})
                 self._measure(scene, [self.data[k] for k in places], self._settle(fidelity))
-            except (Refused, ValueError, ArithmeticError) as problem:
+            except (ValueError, ArithmeticError) as problem:
                 where = ", ".join(f"{key} = {value:g}" for key, value in group)
                 return f"{where}: {problem}" if where else str(problem)
         return ""

@@ -25,7 +25,7 @@ import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fmu_bearing.arrays import Refused
+from fmu_bearing.arrays import EngineError
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
@@ -289,7 +289,7 @@ def choose(
 
     Raises
     ------
-    Refused
+    EngineError
         If fidelity ``full`` itself is refused.
     Stopped
         On Ctrl-C, a `KeyboardInterrupt` with the candidates that are finished as ``found``; none is chosen.
@@ -307,7 +307,7 @@ def choose(
             truth[one] = measure_between(
                 finest, sounds.at(finest.fidelity.model), warm_up, window, one.first, one.last
             )
-        except Refused as problem:
+        except EngineError as problem:
             missing += f"{'; ' if missing else ''}{one.name}, where fidelity full is refused ({problem})"
     probes: list[Probe] = []
     # bounds of the scene may make two candidates one
@@ -343,7 +343,7 @@ def choose(
                         silent = SILENT if one.first == one.last else SILENT_RAMP
                         found.append(errors(figures, true, silent))
                         reasons.append(too_far(found[-1], scene))
-                except Refused as problem:
+                except EngineError as problem:
                     reasons.append(f"refused: {problem}")
             probes.append(
                 Probe(fidelity.model, fidelity.method, fidelity.tolerance,

@@ -146,7 +146,7 @@ def measure(
 
     Raises
     ------
-    Refused
+    EngineError
         If the engine refuses.
     """
     blocks = [sound] if isinstance(sound, np.ndarray) else list(sound)

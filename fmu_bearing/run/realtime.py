@@ -14,7 +14,7 @@ from time import perf_counter, thread_time
 
 import numpy as np
 
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
@@ -118,7 +118,7 @@ def realtime(
         for case in track(cases):
             try:
                 found += [*_timed(case, step, steps, first, last)]
-            except (ValueError, Refused) as problem:
+            except ValueError as problem:
                 left_out[case.name] = str(problem)
             due.remove(case.name)
     if not found:

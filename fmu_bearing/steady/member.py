@@ -5,11 +5,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.arrays import REASONS
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import EQ, SP, C, P, Q, S, U, W
 from fmu_bearing.engine.status import OK
-from fmu_bearing.instance import REASONS, EngineError, Instance
+from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.scene.member import HELD, set_of
 from fmu_bearing.steady.rest import parts, per_bearing
 

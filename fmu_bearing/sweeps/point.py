@@ -11,7 +11,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import plain_file
@@ -103,7 +103,7 @@ def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
         return nothing(task, f"the worker has other code ({code_digest()}) than the sweep ({task.code})")
     try:
         figures = _measured(task, blocks_of(task.sound) if blocks is None else blocks)
-    except (Refused, ValueError, ArithmeticError) as refusal:
+    except (ValueError, ArithmeticError) as refusal:
         reason = " ".join(str(refusal).split())
         return nothing(task, reason, clock.perf_counter() - begin, lasting=True)
     return Outcome(figures, "", clock.perf_counter() - begin)

@@ -4,7 +4,8 @@ import pytest
 
 from fmu_bearing.accuracy.reference import implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import S
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import S, U
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.fidelity import Fidelity
 from tests.conftest import GATES
@@ -27,7 +28,7 @@ def error(bearing, window):
 @pytest.mark.parametrize(("rpm", "load"), [(1e3, 0.0), (28e3, 0.0), (1e4, -300.0), (1e4, -1000.0)])
 def test_the_default_keeps_its_tolerance_once_settled(bare, rpm, load):
     """Measured 5e-5, 9e-4, 1.5e-3, 1.8e-3 at the default of 2e-3; at 1e-3 4e-5, 4e-4, 8e-4, 9e-4."""
-    bearing = Arrays(bare, rpm, load_z=load, **DEFAULT)
+    bearing = Arrays.of(bare, **DEFAULT).at({U.SPEED: rpm * RPM, U.LOAD_Z: load})
     bearing.init()
     bearing.run(0.03, 1e-3)
     assert error(bearing, 0.02) < 3e-3
@@ -41,7 +42,8 @@ def test_rings_under_loads_across_keep_the_tolerance(load):
     at the accelerations of the stage before and could leave half of the tolerance.
     """
     spindle = read_scene(GATES / "7003C-spindle.toml").model_copy(update={"sound": None})
-    bearing = Arrays(spindle, 2e4, load_y=load, TOLERANCE=1e-3, MAX_STEP=25e-6)
+    bearing = Arrays.of(spindle, TOLERANCE=1e-3, MAX_STEP=25e-6)
+    bearing.at({U.SPEED: 2e4 * RPM, U.LOAD_Y: load})
     bearing.init()
     bearing.run(0.05, 1e-3)
     steps, newton = bearing.s[S.STEPS], bearing.s[S.NEWTON]
@@ -58,6 +60,7 @@ def test_a_cage_that_is_flung_about_is_followed(bare):
     flaws = {"seed": 1, "unbalance_um": 2.0, "ball_diameter_spread_nm": 50.0}
     imperfections = {**flaws, "inner_race_harmonic": rows, "outer_race_harmonic": rows[1:]}
     scene = bare.model_validate(bare.model_dump(exclude_none=True) | {"imperfections": imperfections})
-    bearing = Arrays(scene, 2e4, 30.0, 10.0, **DEFAULT)
+    inputs = {U.SPEED: 2e4 * RPM, U.LOAD_Y: 30.0, U.LOAD_Z: 10.0}
+    bearing = Arrays.of(scene, **DEFAULT).at(inputs)
     bearing.init()
     assert error(bearing, 5e-3) < 5e-3

@@ -7,18 +7,18 @@ from benchmarks.first_order import FirstOrder
 from fmu_bearing.accuracy.reference import (
     explicit_rings,
     implicit_rings,
-    reference,
     reference_from,
     relative_error,
 )
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import P
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import P, U
 
 
 @pytest.fixture(scope="module")
 def settled(scene):
-    bearing = Arrays(scene("7003C-spindle").model_copy(update={"sound": None}), 20000)
-    bearing.init()
+    quiet = scene("7003C-spindle").model_copy(update={"sound": None})
+    bearing = Arrays.started(quiet, {U.SPEED: 20e3 * RPM})
     bearing.run(0.05, 1e-3)
     return bearing
 
@@ -48,7 +48,8 @@ def test_each_integrator_converges(settled):
 def test_reference_of_a_scene(scene):
     """From a scene, over a radial load, right after the start."""
     silent = scene("7003C-spindle").model_copy(update={"sound": None})
-    found = reference(silent, 20000, 2e-4, warm_up=0.0, load_y=300.0, sample=5e-5)
+    bearing = Arrays.started(silent, {U.SPEED: 20e3 * RPM, U.LOAD_Y: 300.0})
+    found = reference_from(bearing, 2e-4, sample=5e-5)
     # just after a start the fluctuation is small and everything rings
     assert found.agreement < 1e-5
     assert found.explicit_cost > 0.0 and found.implicit_cost > 0.0

@@ -58,11 +58,11 @@ def bearing_with_form(scene, rpm, fidelity, sound=False, **parameters):
     one = with_fidelity(scene, model=fidelity)
     # samples show each ball across its track; response makes its sound of lines else, and shows balls at rest
     block_of_sound = sound_block(one, Block()) if sound else np.empty(0)
-    even = Arrays(one.model_copy(update={"imperfections": None}), rpm, sound=block_of_sound)
+    even = Arrays.of(one.model_copy(update={"imperfections": None}), block_of_sound)
+    even.at({U.SPEED: rpm * RPM})
     run = even.with_parameters(CAGE=0.0, GRAVITY=0.0, IMPERFECTION_SCALE=1.0, **parameters)
-    run.p = wavy_balls(run.p, FORM)
+    run = Arrays(wavy_balls(run.p, FORM), run.u)
     run.u[U.OIL_T : U.OUTER_T + 1] = 313.15
-    run._allocate()
     run.init()
     return run
 

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from fmu_bearing.arrays import REASONS
 from fmu_bearing.compiled import call
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.choices import METHODS
 from fmu_bearing.engine.layout import PT, P, Q, S, U, W, Y, Z
 from fmu_bearing.engine.status import OK, RIGID_ONLY
-from fmu_bearing.instance import REASONS, Instance
+from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.flexure import groove_centre, mode_table
 from fmu_bearing.prepare.model import pack, prepare
 from fmu_bearing.run.choose import CANDIDATES

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.arrays import Refused
+from fmu_bearing.arrays import EngineError
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.fmi import documentation
 from fmu_bearing.instance import Instance
@@ -160,7 +160,7 @@ def test_a_speed_at_which_full_is_refused_is_said(automatic, monkeypatch):
 
     def refused(scene, sounds, warm_up, window, first, last):
         if first == last:
-            raise Refused("no equilibrium")
+            raise EngineError("no equilibrium")
         return whole(scene, sounds, warm_up, window, first, last)
 
     monkeypatch.setattr(choosing, "measure_between", refused)

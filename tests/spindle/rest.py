@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fmu_bearing.arrays import REASONS, EngineError
 from fmu_bearing.compiled import call
 from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.constants import GRAVITY, REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import EQ, SP, C, P, Q, U, W
 from fmu_bearing.engine.status import OK
-from fmu_bearing.instance import REASONS, EngineError
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.spindle import expansions, housing_of, in_housing

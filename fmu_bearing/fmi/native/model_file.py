@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from fmu_bearing.arrays import reasons
 from fmu_bearing.cautions import Caution, cautions
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.layout import P, S, U
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
-from fmu_bearing.instance import reasons
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.set_inputs import led_inputs
 

@@ -18,7 +18,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from fmu_bearing.arrays import Refused
+from fmu_bearing.arrays import EngineError
 from fmu_bearing.interface.table import inputs_of
 from fmu_bearing.modal.campbell.diagram import can_move, is_of_rings
 from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
@@ -282,7 +282,7 @@ def _beside(text: str, inputs: tuple[tuple[str, float], ...], model: str) -> Bes
     scene = read_scene_text(text)
     try:
         return beside_full(scene, model, given(scene, dict(inputs)))
-    except Refused:
+    except EngineError:
         return None
 
 
@@ -292,7 +292,7 @@ def _loss_without_cage(text: str, inputs: tuple[tuple[str, float], ...]) -> floa
     scene = read_scene_text(text)
     try:
         return loss_without_cage(scene, given(scene, dict(inputs)))
-    except (Refused, ValueError):
+    except ValueError:
         return 0.0
 
 

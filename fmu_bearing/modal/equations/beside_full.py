@@ -67,7 +67,7 @@ def beside_full(scene: Scene, model: str, inputs: Mapping[int, float] | None = N
 
     Raises
     ------
-    Refused
+    EngineError
         Where there is no equilibrium, or a run has no step to go on with.
     """
     full, quick = (_begun(scene, one, inputs or {}) for one in ("full", model))

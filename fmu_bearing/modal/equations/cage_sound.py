@@ -32,7 +32,7 @@ def loss_without_cage(scene: Scene, inputs: Mapping[int, float] | None = None) -
 
     Raises
     ------
-    Refused
+    EngineError
         Where there is no equilibrium, or a run has no step to go on with.
     ValueError
         As `sound_blocks`.

@@ -18,10 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.arrays import Arrays, Refused
+from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y
 from fmu_bearing.engine.steady.point import NOT_FOUND
-from fmu_bearing.instance import EngineError
 from fmu_bearing.modal.equations.bearing import BearingLinearised, in_fixed_axes, phases_of
 from fmu_bearing.modal.equations.coordinates import Coordinates
 from fmu_bearing.modal.equations.plain import BearingArrays
@@ -151,14 +150,12 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     """
     require(scene, "modes")
     full = with_fidelity(scene, model="full")
-    run = Arrays.of(full.model_copy(update={"sound": None, "imperfections": None}))
-    for place, value in (inputs or {}).items():
-        run.u[place] = value
+    run = Arrays.of(full.model_copy(update={"sound": None, "imperfections": None})).at(inputs or {})
     rows = rows_of(run.p)
     _leave_out(run, rows, ("CAGE",) if friction else ("CAGE", "MU"))
     try:
         run.init()
-    except Refused as refusal:
+    except EngineError as refusal:
         raise EngineError(f"{scene.name}: {refusal}") from None
     speed = float(run.u[U.SPEED])  # the first input of a set, too
     shaft = matrices(run, speed)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fmu_bearing.arrays import Refused
+from fmu_bearing.arrays import EngineError
 from fmu_bearing.modal.equations.quick import found_growth, operator_matrix, quick_run
 from fmu_bearing.modal.modes.mode import GROWS, LOWEST
 from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
@@ -41,7 +41,7 @@ def self_excitation(
     without = None if alone is None else (alone.frequency, alone.growth)
     try:
         run = quick_run(scene, given(scene, inputs))
-    except Refused:  # no equilibrium
+    except EngineError:  # no equilibrium
         return without
     frequency, growth = found_growth(run)
     if growth > GROWS:

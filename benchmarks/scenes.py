@@ -10,13 +10,11 @@ import pathlib
 from contextlib import suppress
 from dataclasses import dataclass
 
-import numpy as np
-
 from benchmarks.cases import EXAMPLES, GATES
 from fmu_bearing.arrays import EngineError
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.results.table import machine, markdown, number, write_csv
-from fmu_bearing.run.metrics import Figures, Measured, measure
+from fmu_bearing.run.metrics import Figures, Measured, measure, of_kind
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene, read_scene
 
@@ -84,15 +82,18 @@ def cells(case: Case, setting: Setting, found: Measured | None, truth: Figures) 
     if found is None:
         return [*begin, "refused", *[""] * (len(COLUMNS) - len(begin) - 1)]
     own = found.figures
-    levels = np.array(own.levels) - np.array(truth.levels)
-    sound = ["", ""]
-    if levels.size:
-        sound = [f"{levels[np.argmax(truth.levels)]:+.2f}", f"{levels[np.argmin(truth.levels)]:+.2f}"]
-    loads = [a / b - 1.0 for a, b in zip(own.load, truth.load, strict=True)]
+
+    def pairs(end: str) -> list[tuple[float, float]]:
+        return list(zip(of_kind(own, end), of_kind(truth, end), strict=True))
+
+    levels, sound = [(true, value - true) for value, true in pairs(".leq_a")], ["", ""]
+    if levels:
+        sound = [f"{max(levels)[1]:+.2f}", f"{min(levels)[1]:+.2f}"]
+    loads = [a / b - 1.0 for a, b in pairs(".load_mean")]
     return [
-        *begin, *(f"{a / b:.3f}" for a, b in zip(own.ring_rms, truth.ring_rms, strict=True)),
-        f"{100.0 * max(loads, key=abs):+.2f} %", off(own.torque, truth.torque), *sound,
-        number(found.paces.constant),
+        *begin, *(f"{a / b:.3f}" for a, b in pairs("_ring.velocity")),
+        f"{100.0 * max(loads, key=abs):+.2f} %", off(own["friction_torque"], truth["friction_torque"]),
+        *sound, number(found.paces.constant),
     ]  # fmt: skip
 
 

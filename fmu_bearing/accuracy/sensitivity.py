@@ -18,7 +18,7 @@ from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine, markdown, write_csv
-from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure
+from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure, of_kind
 from fmu_bearing.scene import Scene, SceneError, SceneSource
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
@@ -196,20 +196,25 @@ class Sensitivity:
 
     def markdown(self) -> str:
         """Return the study as a page."""
-        b = self.base
-        sound = ", ".join(f"{level:.1f}" for level in b.levels)
+
+        def first(end: str) -> float:
+            return next(iter(of_kind(self.base, end)), 0.0)
+
+        sound = ", ".join(f"{level:.1f}" for level in of_kind(self.base, ".leq_a"))
         return (
             f"# What rests on assumed values: {self.scene}, {self.rpm:,.0f} r/min\n\n{machine()}\n\n"
             "Made by `fmu-bearing sensitivity`. One value at a time, fidelity `full`, figures over "
             f"{1e3 * self.window:g} ms after {1e3 * self.warm_up:g} ms; sound by radiation model "
-            f"`compact`. Unchanged: rms ring velocity {1e3 * b.ring_rms[0]:.3g} (inner) and "
-            f"{1e3 * b.ring_rms[1]:.3g} mm/s (outer), contact load {b.load[0]:.4g} N, "
-            f"contact angle {math.degrees(b.angle[0]):.2f} deg "
+            f"`compact`. Unchanged: rms ring velocity {1e3 * first('inner_ring.velocity'):.3g} (inner) and "
+            f"{1e3 * first('outer_ring.velocity'):.3g} mm/s (outer), contact load "
+            f"{first('contact.inner.load_mean'):.4g} N, "
+            f"contact angle {math.degrees(first('contact.inner.angle_mean')):.2f} deg "
             "(both inner race), "
-            f"friction torque {1e3 * b.torque:.3g} N mm, cage speed {b.cage_ratio:.4f} of the shaft's"
+            f"friction torque {1e3 * first('friction_torque'):.3g} N mm, cage speed "
+            f"{first('cage.speed_ratio'):.4f} of the shaft's"
             + (f", sound {sound} dB(A) at the microphones" if sound else "")
             + ". The last column is that of the microphone where it changed most."
-            + (_OF_SET if len(b.load) > 2 else "")
+            + (_OF_SET if len(of_kind(self.base, ".load_mean")) > 2 else "")
             + "\n\n"
             + markdown(COLUMNS, self.cells())
         )
@@ -298,21 +303,22 @@ def changes(found: Figures, base: Figures) -> tuple[float, ...]:
     def of(value: float, before: float) -> float:
         return value / before - 1.0 if before else math.nan
 
-    def most(values: Sequence[float], before: Sequence[float], first: int = 0) -> float:
-        """Largest relative change of every second value, inner or outer, of the bearings."""
-        pairs = zip(values[first::2], before[first::2], strict=True)
-        return max((of(*pair) for pair in pairs), key=abs)
+    def pairs(end: str) -> list[tuple[float, float]]:
+        return list(zip(of_kind(found, end), of_kind(base, end), strict=True))
 
-    angles = [a - b for a, b in zip(found.angle[::2], base.angle[::2], strict=True)]
+    def most(end: str) -> float:
+        """Largest relative change of one figure of all bearings; NaN where they do not have it."""
+        return max((of(*pair) for pair in pairs(end)), key=abs, default=math.nan)
 
-    sound = [max(a, INAUDIBLE) - max(b, INAUDIBLE) for a, b in zip(found.levels, base.levels, strict=True)]
+    angles = [a - b for a, b in pairs("contact.inner.angle_mean")]
+    sound = [max(a, INAUDIBLE) - max(b, INAUDIBLE) for a, b in pairs(".leq_a")]
     return (
-        most(found.ring_rms, base.ring_rms),
-        most(found.ring_rms, base.ring_rms, 1),
-        most(found.load, base.load),
+        most("inner_ring.velocity"),
+        most("outer_ring.velocity"),
+        most("contact.inner.load_mean"),
         max(angles, key=abs),
-        of(found.torque, base.torque),
-        of(found.cage_ratio, base.cage_ratio),
+        most("friction_torque"),
+        of(*(pairs("cage.speed_ratio") or [(math.nan, math.nan)])[0]),
         max(sound, key=abs, default=math.nan),
     )
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
-from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, Quantity, parse_quantity
+from fmu_bearing.identification.quantities import Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
 from fmu_bearing.results.column_units import suffixed
 from fmu_bearing.results.rows import read_rows
+from fmu_bearing.run.figures import A_LEVEL, LEVEL
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.values import fields_of, limits
 

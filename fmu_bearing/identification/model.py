@@ -17,15 +17,16 @@ from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Free, scene_values
-from fmu_bearing.identification.quantities import LINE, THIRD_OCTAVE
+from fmu_bearing.identification.quantities import LINE
 from fmu_bearing.identification.run_cache import RunCache
 from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.recording.channels.sources import bodies_of
 from fmu_bearing.recording.record import Recording, record
+from fmu_bearing.run.figures import THIRD_OCTAVE
 from fmu_bearing.scene import Scene
 
-_ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "scene")
+_ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "run", "scene")
 _TURNS = 8  # of the shaft in a run, at least: lines of the shaft are separate
 _LENGTH = 0.1  # s, at least
 _BINS = 6  # in a third octave, at least

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from fmu_bearing.extras import need
-from fmu_bearing.identification.quantities import A_LEVEL
 from fmu_bearing.identification.result import Identified
 from fmu_bearing.results.picture_parts import OTHERS, empty, label, save
+from fmu_bearing.run.figures import A_LEVEL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,11 +9,11 @@ from fmu_bearing.acoustics.filters.weighting import band_centre
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.interface.names import UnknownName, known
+from fmu_bearing.run.figures import A_LEVEL, LEVEL, RINGS, THIRD_OCTAVE, rings_of
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import bearings_of, set_of
 
-LEVEL, A_LEVEL, THIRD_OCTAVE, LINE = "leq", "leq_a", "third_octave", "line"
-VELOCITY = "velocity"
+LINE, VELOCITY = "line", "velocity"
 #: How a quantity is written, for messages.
 EXAMPLES = (
     "leq", "leq_a", "third_octave[1000]", "line[f_r]", "line[f_i - 2 f_r]", "line[467 Hz]",
@@ -21,9 +21,14 @@ EXAMPLES = (
 )  # fmt: skip
 _KINDS = (LEVEL, A_LEVEL, THIRD_OCTAVE, LINE, VELOCITY, f"{VELOCITY}_{THIRD_OCTAVE}", f"{VELOCITY}_{LINE}")
 _SYNTAX = re.compile(r"(\w+)(?:\[\s*(.*?)\s*\])?")
-#: Bodies whose velocity can be measured. A single bearing's housing is fixed to the outer ring and moves with
-#: it; that of a set moves with the outer rings that are fixed in it.
-_BODIES = {"inner_ring": 0, "outer_ring": 1, "housing": 1}
+#: A single bearing's housing is fixed to the outer ring and moves with it; that of a set moves with the outer
+#: rings that are fixed in it.
+_SINGLE = {ring: (0, k) for k, ring in enumerate(RINGS)} | {"housing": (0, 1)}
+_EXAMPLE = "velocity[outer_ring.z]"
+_RING_OF_SET = (
+    "inner_ring or outer_ring with its bearing, such as velocity[bearing[1].outer_ring.z]: the shaft moves "
+    "with the inner rings, the housing with the outer rings that are fixed in it"
+)
 _AXES = {"x": 0, "y": 1, "z": 2}
 _TERM = re.compile(r"\s*([+-]?)\s*(\d*)\s*\*?\s*(f_[rcbio])\b\s*")
 _HERTZ = re.compile(r"(\d+(?:\.\d+)?)\s*(k?)Hz")
@@ -98,41 +103,28 @@ def parse_quantity(text: str, scene: Scene | None = None) -> Quantity:
 
 def _channel(text: str, body: str, scene: Scene | None) -> tuple[int, int]:
     """Bearing, from 0, and place among its channels."""
-    bearing = 0
-    if scene is not None and scene.assembly.members:
-        bearing, body = _of_set(text, body, scene)
-    name, _, axis = body.partition(".")
-    if name not in _BODIES or axis not in _AXES:
-        raise IdentifyError(
-            f"quantity '{text}': '{body}' is not a direction of a body; write one of {', '.join(_BODIES)}, a "
-            "dot and x, y or z, such as velocity[outer_ring.z]"
-        )
-    return bearing, SD.c_body(_BODIES[name], _AXES[axis])
-
-
-def _of_set(text: str, body: str, scene: Scene) -> tuple[int, str]:
-    """Bearing, from 0, and the rest of the name of a set's body, which must be a ring that moves."""
-    for k, one in enumerate(bearings_of(scene)):
-        ring, _, axis = body.removeprefix(one.prefix).partition(".")
-        if not body.startswith(one.prefix) or ring not in ("inner_ring", "outer_ring") or axis not in _AXES:
-            continue
-        held = one.seat == "fixed" or (one.seat == "sliding" and axis != "x")
-        if ring == "outer_ring" and held and not set_of(scene).housing.moves:
+    of_set = scene if scene is not None and scene.assembly.members else None
+    bodies = _SINGLE if of_set is None else rings_of(of_set)
+    name, _, axis = body.rpartition(".")
+    if name not in bodies or axis not in _AXES:
+        where, way = "a body", f"one of {', '.join(bodies)}, a dot and x, y or z, such as {_EXAMPLE}"
+        if of_set is not None:
+            where, way = f"a ring of this set of {len(of_set.assembly.members)} bearings", _RING_OF_SET
+        raise IdentifyError(f"quantity '{text}': '{body}' is not a direction of {where}; write {way}")
+    bearing, ring = bodies[name]
+    if of_set is not None and RINGS[ring] == "outer_ring":
+        seat = bearings_of(of_set)[bearing].seat
+        held = seat == "fixed" or (seat == "sliding" and axis != "x")
+        if held and not set_of(of_set).housing.moves:
             raise IdentifyError(
                 f"quantity '{text}': this ring is held in a housing that does not move; give the housing's "
                 "mass_kg in [spindle.housing], or measure inner_ring, which moves with the shaft"
             )
-        return k, f"{ring}.{axis}"
-    raise IdentifyError(
-        f"quantity '{text}': '{body}' is not a direction of a ring of this set of "
-        f"{len(set_of(scene).bearing)} bearings; write inner_ring or outer_ring with its bearing, such as "
-        "velocity[bearing[1].outer_ring.z]: the shaft moves with the inner rings, the housing with the outer "
-        "rings that are fixed in it"
-    )
+    return bearing, SD.c_body(ring, _AXES[axis])
 
 
 def _like(kind: str, channel: int | None) -> str:
-    return kind if channel is None else "velocity[outer_ring.z]"
+    return kind if channel is None else _EXAMPLE
 
 
 def _band(text: str, inside: str) -> float:

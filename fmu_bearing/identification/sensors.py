@@ -22,8 +22,9 @@ from fmu_bearing.acoustics.filters.weighting import (
 from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.data import VELOCITY_REFERENCE, Datum
-from fmu_bearing.identification.quantities import A_LEVEL, LEVEL, LINE, THIRD_OCTAVE, Quantity
+from fmu_bearing.identification.quantities import LINE, Quantity
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.run.figures import A_LEVEL, LEVEL, THIRD_OCTAVE
 
 _SEARCH = 0.004  # relative: how far from its frequency a line is looked for, as balls slide
 _STEPS = 9

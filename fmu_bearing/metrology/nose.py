@@ -9,9 +9,10 @@ from scipy.interpolate import CubicSpline
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.instance import Instance
-from fmu_bearing.metrology.axis_watch import AxisWatch, frequencies, outer_tilt
+from fmu_bearing.metrology.axis_watch import frequencies, outer_tilt
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.progress import work
+from fmu_bearing.run.march import begin, march, to_points, underway
+from fmu_bearing.run.rates import RatesWatch
 from fmu_bearing.scene import Scene
 
 #: Points per revolution: with 128 in place of 256 the width of the plot read 13 % less (7003C, 2000 r/min).
@@ -68,29 +69,28 @@ def followed(
     EngineError
         Where there is no equilibrium, or a step is refused.
     """
-    instance = Instance(prepare(scene.replace({"sound": None})))
-    for name, value in (inputs or {}).items():
-        instance.set(name, float(value))
-    instance.initialise()
+    instance = begin(Instance(prepare(scene.replace({"sound": None}))), inputs or {})
     turn = 60.0 / abs(scene.operation.speed_rpm)
-    read = _axis(scene, instance, at, outer_ring)
-    balls = AxisWatch()
+    axis, watch = _axis(scene, instance, at, outer_ring), RatesWatch()
+    motion: list[NDArray[np.float64]] = []
+
+    def read() -> float:
+        watch(instance)
+        motion.append(axis())
+        return len(motion) / PER_REVOLUTION
+
+    def follow(turns: int) -> None:
+        points = range(len(motion) + 1, len(motion) + turns * PER_REVOLUTION + 1)
+        times = (point * turn / PER_REVOLUTION for point in points)
+        march(instance, to_points(instance, times), read, proceed)
+
     what = f"{scene.name}, {scene.operation.speed_rpm:g} r/min"
-    with work(what, float(LEFT_OUT + (revolutions or MOST)), "revolutions") as bar:
-        for done in range(LEFT_OUT * PER_REVOLUTION):
-            instance.step((done + 1) * turn / PER_REVOLUTION - instance.time)
-            balls(instance)
-            bar.at(done / PER_REVOLUTION)
-        count = revolutions or whole_turns(_cage_ratios(scene, balls.rates))
-        balls = AxisWatch()
-        motion = np.empty((count * PER_REVOLUTION, 5))
-        for done in range(len(motion)):
-            now = LEFT_OUT * PER_REVOLUTION + done + 1
-            instance.step(now * turn / PER_REVOLUTION - instance.time)
-            motion[done] = read()
-            balls(instance)
-            bar.at(now / PER_REVOLUTION)
-    return Nose(scene, count, motion, frequencies(balls.rates, scene))
+    with underway(what, LEFT_OUT + (revolutions or MOST), "revolutions", stops=False) as proceed:
+        follow(LEFT_OUT)
+        count = revolutions or whole_turns(_cage_ratios(scene, watch.rates))
+        follow(count)
+    first = LEFT_OUT * PER_REVOLUTION
+    return Nose(scene, count, np.array(motion[first:]), frequencies(watch.rates[first:], scene))
 
 
 def resampled(
@@ -158,10 +158,13 @@ def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Call
     names = [f"{body}.displacement.{axis}" for axis in _AXES] + [f"{body}.tilt.{axis}" for axis in _AXES[1:]]
     outer = [f"outer_ring.displacement.{axis}" for axis in _AXES] if single and outer_ring else []
 
+    take = instance.reader([*names, *outer])
+
     def read() -> NDArray[np.float64]:
-        found = np.array([instance.get(name) for name in names])
+        both = take()
+        found = both[: len(names)]
         if outer:
-            found[:3] -= [instance.get(name) for name in outer]
+            found[:3] -= both[len(names) :]
             found[3:] -= outer_tilt(instance)
         # a tilt about z carries a point ahead of the middle towards y, one about y away from z
         found[1] += at * found[4]

@@ -1,11 +1,11 @@
 """One run from a scene's steady state with the engine's channel history kept."""
 
+import itertools
 import math
 import os
 import pathlib
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -14,25 +14,26 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import TAIL, form_of
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cautions import DOUBTS
-from fmu_bearing.engine.layout import SD, SP, P, S, Z
+from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.campbell.weak import doubt
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.prepare.sound import from_lines
-from fmu_bearing.progress import Stopped, work
+from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.channels.turning import WHIRL
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.figures import of_each
+from fmu_bearing.run.inputs import Signal
+from fmu_bearing.run.march import begin, march, to_points, underway
 from fmu_bearing.run.rates import RatesWatch
-from fmu_bearing.run.simulate import stoppable
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.sound import Microphone, Sound
 
 __all__ = ["OUTPUTS", "Recording", "RecordingSource", "record", "recording_of"]
 
-Signal = float | Callable[[float], float]
 #: A recording or its file (``.npz``), or a scene or its file, which is recorded.
 RecordingSource = Recording | SceneSource
 
@@ -46,6 +47,7 @@ OUTPUTS = (
 )
 SHORTEST = 0.02  # s of a recording that Ctrl-C ends: periods of 50 Hz and more
 DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
+_QUICK = 0.5  # s: a run without a bar, where nothing is said of it
 _FAR = 2000.0  # mm: place of the one microphone of a recording; its flight lengthens the channel history
 
 
@@ -148,16 +150,19 @@ def record(
         else with_far_microphone(scene, "compact" if form_of(wanted) == "vectors" else wanted),
         samples=True,
     )  # fmt: skip
-    bearing = Instance(model, growth=warn and not doubted)
-    _drive(bearing, drives, 0.0)
-    bearing.initialise()
+    bearing = begin(Instance(model, growth=warn and not doubted), drives)
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
     whirl = () if scene.bearing.cage is None else WHIRL
-    names = variables_of(scene, dict.fromkeys((*outputs, *DOUBTS, *whirl)))
+    names = of_each(scene, dict.fromkeys((*outputs, *DOUBTS, *whirl)))
     kept = _Readings(bearing, names, first + size + TAIL, watch)
-    with stoppable() if keep else nullcontext(lambda: False) as stop:
-        _march(bearing, drives, kept, min(step, (kept.depth - 8) / SD.RATE), progress, stop)
+    kept.read()
+    total, longest = len(kept.rows) / SD.RATE, min(step, (kept.depth - 8) / SD.RATE)
+    points = (number * longest for number in itertools.count(1))
+    due = itertools.takewhile(lambda _: kept.count < len(kept.rows), points)
+    shown = False if progress is None and total <= _QUICK else progress
+    with underway(f"{scene.name}: recording", total, shown=shown, stops=keep) as proceed:
+        march(bearing, to_points(bearing, due, drives), kept.read, proceed)
     done = min(size, kept.count - first - TAIL)
     if done < min(size, SHORTEST * SD.RATE):
         raise KeyboardInterrupt(
@@ -197,18 +202,6 @@ def recording_of(source: RecordingSource, duration: float = DURATION, **options:
     if isinstance(source, str | os.PathLike) and pathlib.Path(source).suffix == ".npz":
         return Recording.load(source)
     return record(source, duration, **options)
-
-
-def variables_of(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Return names of variables of one bearing as a scene has them: of a set one for each bearing.
-
-    Names that a set has as a whole (``friction_torque``), or that name a bearing, stay.
-    """
-    own = set(Z.BEARING_OUTPUTS) - set(SP.OUTPUTS)
-    prefixes = [one.prefix for one in scene.bearings()]
-    return tuple(
-        full for name in names for full in ([head + name for head in prefixes] if name in own else [name])
-    )
 
 
 def _doubt(scene: Scene, drives: Mapping[str, Signal], radiation_model: str) -> str:
@@ -279,12 +272,8 @@ class _Readings:
         self.speed: list[float] = []
         self.outputs: dict[str, list[float]] = {name: [] for name in outputs}
 
-    @property
-    def full(self) -> bool:
-        return self.count >= len(self.rows)
-
-    def read(self) -> None:
-        """Read the rows that are new since the last call."""
+    def read(self) -> float:
+        """Read the rows that are new since the last call; return the time (s) that all rows read are of."""
         self.time.append(self.bearing.time)
         self.speed.append(float(self.bearing.s[S.SPEED]))
         for name, values in self.outputs.items():
@@ -298,27 +287,4 @@ class _Readings:
         new = np.arange(self.count, min(count, len(self.rows)))
         self.rows[new] = np.hstack([one.rows(self.bearing.s, new) for one in self.histories])
         self.count = count
-
-
-def _march(
-    bearing: Instance, drives: Mapping[str, Signal], kept: _Readings, step: float, progress: bool | None,
-    stop: Callable[[], bool],
-) -> None:  # fmt: skip
-    """Step until all rows are read, or ``stop`` is true."""
-    total = len(kept.rows)
-    shown = False if progress is None and total <= SD.RATE / 2 else progress
-    with work(f"{bearing.model.scene.name}: recording", total / SD.RATE, "s", shown=shown) as bar:
-        kept.read()
-        number = 0
-        while not (kept.full or stop()):
-            number += 1
-            _drive(bearing, drives, number * step)
-            bearing.step(number * step - bearing.time)
-            kept.read()
-            bar.at(min(kept.count, total) / SD.RATE)
-
-
-def _drive(bearing: Instance, drives: Mapping[str, Signal], time: float) -> None:
-    """Set inputs to their values at ``time``."""
-    for name, signal in drives.items():
-        bearing.set(name, float(signal(time)) if callable(signal) else float(signal))
+        return min(count, len(self.rows)) / SD.RATE

@@ -6,6 +6,8 @@
 ``settings``      `Setting`: one way to compute a scene
 ``balls``         place, load and angle of every ball, read from the state
 ``rates``         how fast the balls orbit and spin, read from the state
+``march``         a bearing stepped from point to point, read at each; progress, Ctrl-C
+``figures``       figures of a run: the table of their names, units and how they are read
 ``metrics``       figures that compare runs
 ``paces``         the speed of a run, with constant inputs and with inputs that move
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it

@@ -1,19 +1,17 @@
 """`Bearing`: a bearing to step by hand, for scripts and notebooks."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any, Self
 
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface.names import chosen_names, known
-from fmu_bearing.prepare.model import Model, prepare
+from fmu_bearing.prepare.model import Model
 from fmu_bearing.results.levels import shown
 from fmu_bearing.results.result import Run
 from fmu_bearing.results.table import html_table
 from fmu_bearing.results.variable_names import by_name
-from fmu_bearing.run.choose import resolve
-from fmu_bearing.run.simulate import simulate
-from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.run.simulate import model_of, simulate
+from fmu_bearing.scene import Scene, SceneSource
 
 
 class Bearing(Mapping[str, float]):
@@ -22,15 +20,10 @@ class Bearing(Mapping[str, float]):
     Parameters
     ----------
     source : Scene, Model or path
-        Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved.
+        Scene file (TOML) or scene in memory; fidelity ``auto`` is resolved. `SceneError` where it is refused.
     **fidelity
         Other values for keys of ``[fidelity]``, such as ``tolerance=1e-4``; ``fidelity="rings"`` is short for
         its ``model``.
-
-    Raises
-    ------
-    SceneError
-        For a scene that is refused, or what is not a scene.
 
     Examples
     --------
@@ -43,17 +36,8 @@ class Bearing(Mapping[str, float]):
     """
 
     def __init__(self, source: SceneSource | Model, **fidelity: Any) -> None:
-        if isinstance(source, Model):
-            if fidelity:
-                raise ValueError("a prepared Model has its fidelity: give the scene to change it")
-            self._instance = Instance(source)
-            return
-        scene = scene_of(source)
-        if fidelity:
-            scene = with_fidelity(
-                scene, **{"model" if k == "fidelity" else k: v for k, v in fidelity.items()}
-            )
-        self._instance = Instance(prepare(resolve(scene)[0]))
+        keys = {"model" if key == "fidelity" else key: value for key, value in fidelity.items()}
+        self._instance = Instance(model_of(source, **keys))
 
     @property
     def scene(self) -> Scene:
@@ -68,28 +52,21 @@ class Bearing(Mapping[str, float]):
     def set(self, values: Mapping[str, float] | None = None, /, **named: float) -> Self:
         """Set inputs (or parameters, before `init`) in SI units; names with dots go into a mapping.
 
-        Raises
-        ------
-        ValueError
-            For an unknown name, or a value outside its range.
+        ``ValueError`` for an unknown name, or a value outside its range.
         """
         for name, value in {**by_name(values), **named}.items():
-            known(name, self._settable, "input or parameter")
+            known(name, self._instance.names("input", "parameter"), "input or parameter")
             self._instance.set(name, value)
         return self
 
     def init(self, values: Mapping[str, float] | None = None, /, **named: float) -> None:
         """Put the bearing into its steady state, with inputs as for `set`; a second call starts again.
 
-        Inputs and parameters that were set before stay set.
-
-        Raises
-        ------
-        ValueError
-            As `set`; the subclass `EngineError` when there is no equilibrium.
+        Inputs and parameters that were set before stay set. ``ValueError`` as `set`; the subclass
+        `EngineError` where there is no equilibrium.
         """
         if self._instance.initialised:
-            kept = {name: self._instance.get(name) for name in self._settable}
+            kept = self._given()
             self._instance.reset()
             self.set(kept)
         self.set(values, **named)
@@ -98,33 +75,23 @@ class Bearing(Mapping[str, float]):
     def step(self, h: float, values: Mapping[str, float] | None = None, /, **named: float) -> None:
         """Advance by ``h`` (s) under inputs as for `set`; the speed ramps to its value over the step.
 
-        Raises
-        ------
-        ValueError
-            As `set`; the subclass `EngineError` for a refused step, which leaves the state as it was.
+        ``ValueError`` as `set`; its subclass `EngineError` for a refused step: the state is as it was.
         """
         self.set(values, **named)
         self._instance.step(h)
 
     def read(self, *patterns: str) -> dict[str, float]:
         """Return variables by name, SI units; ``*`` matches any text; default: all outputs."""
-        names = chosen_names(patterns or None, self, self._outputs)
+        names = chosen_names(patterns or None, self, self._instance.names("output"))
         return {name: self[name] for name in names}
 
     def simulate(self, stop_time: float, **options: Any) -> Run:
         """Run a fresh copy from this bearing's inputs and parameters; options as for `simulate`."""
-        here = {name: self._instance.get(name) for name in self._settable}
-        start = here | dict(options.pop("start_values", None) or {})
+        start = self._given() | dict(options.pop("start_values", None) or {})
         return simulate(self._instance.model, stop_time, start_values=start, **options)
 
-    @property
-    def _settable(self) -> Sequence[str]:
-        variables = self._instance.by_name.items()
-        return [name for name, v in variables if v.causality in ("input", "parameter")]
-
-    @property
-    def _outputs(self) -> Sequence[str]:
-        return [name for name, v in self._instance.by_name.items() if v.causality == "output"]
+    def _given(self) -> dict[str, float]:
+        return {name: self._instance.get(name) for name in self._instance.names("input", "parameter")}
 
     def __getitem__(self, name: str) -> float:
         return self._instance.get(known(name, list(self), "variable"))

@@ -1,14 +1,26 @@
 """Figures that compare runs: vibration, loads, friction, sound."""
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import SP, P, U, Z
+from fmu_bearing.engine.layout import U
+from fmu_bearing.run.figures import (
+    A_LEVEL,
+    RINGS,
+    Figure,
+    figures_of,
+    of_each,
+    rows_over,
+    signals_of,
+    values_of,
+)
+from fmu_bearing.run.march import at_speeds
 from fmu_bearing.run.paces import COMMUNICATION, Paces, paces
 from fmu_bearing.scene import Scene
 
@@ -20,37 +32,16 @@ SILENT_RAMP = 1e-6
 #: dB(A); differences between inaudible sounds are not counted.
 INAUDIBLE = 0.0
 
-_LOAD = tuple(Z.BEARING_OUTPUTS.index(f"contact.{side}.load_mean") for side in ("inner", "outer"))
-_ANGLE = tuple(Z.BEARING_OUTPUTS.index(f"contact.{side}.angle_mean") for side in ("inner", "outer"))
-_TORQUE = Z.BEARING_OUTPUTS.index("friction_torque")
-_CAGE = Z.BEARING_OUTPUTS.index("cage.speed_ratio")
-_LEVEL = Z.MIC_OUTPUTS.index("leq_a")
-
-
-@dataclass(frozen=True)
-class Figures:
-    """Figures of a bearing over a window of time; pairs are inner, outer, of a set one after the other.
-
-    Attributes
-    ----------
-    ring_rms : tuple of float
-        Rms velocity of each ring about its mean, the three axes together (m/s).
-    load, angle : tuple of float
-        Mean load (N) and contact angle (rad) of a ball at each race.
-    torque : float
-        Mean friction torque (N m).
-    cage_ratio : float
-        Mean speed of the cage over the shaft's; of a set, of its first bearing.
-    levels : tuple of float
-        A-weighted equivalent level at each microphone (dB); empty without sound.
-    """
-
-    ring_rms: tuple[float, ...]
-    load: tuple[float, ...]
-    angle: tuple[float, ...]
-    torque: float
-    cage_ratio: float
-    levels: tuple[float, ...] = ()
+#: Figures of a run by name (`run.figures`), SI units.
+Figures = dict[str, float]
+_MOTION = "_ring.velocity"
+#: What is compared: of each bearing rings, loads, angles and the cage, the torque of all, microphones.
+_COMPARED = (
+    *(f"{ring}.velocity" for ring in RINGS),
+    *(f"contact.{side}.{what}" for what in ("load_mean", "angle_mean") for side in ("inner", "outer")),
+    "cage.speed_ratio", "friction_torque",
+)  # fmt: skip
+_HEARD = (f"mic[*].{A_LEVEL}",)
 
 
 @dataclass(frozen=True)
@@ -72,10 +63,9 @@ class Errors:
     level: float
 
 
-def ring_rms(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rms velocity about the mean of inner and outer ring, the three axes together."""
-    squares = ((rows - rows.mean(0)) ** 2).mean(0)
-    return np.sqrt([squares[:3].sum(), squares[3:].sum()])
+def of_kind(figures: Mapping[str, float], end: str) -> list[float]:
+    """Return the figures whose names end so, in the order of inner and outer, then of the bearings."""
+    return [value for name, value in figures.items() if name.endswith(end)]
 
 
 def errors(found: Figures, truth: Figures, silent: float = SILENT) -> Errors:
@@ -83,20 +73,18 @@ def errors(found: Figures, truth: Figures, silent: float = SILENT) -> Errors:
 
     Ring velocities count from ``silent`` (m/s) on, sound levels from ``INAUDIBLE`` on.
     """
-    rms = [
-        max(value, silent) / max(true, silent)
-        for value, true in zip(found.ring_rms, truth.ring_rms, strict=True)
-    ]
-    sound = [
-        abs(max(value, INAUDIBLE) - max(true, INAUDIBLE))
-        for value, true in zip(found.levels, truth.levels, strict=True)
-    ]
+
+    def pairs(end: str) -> Iterable[tuple[float, float]]:
+        return zip(of_kind(found, end), of_kind(truth, end), strict=True)
+
+    rms = [max(value, silent) / max(true, silent) for value, true in pairs(_MOTION)]
+    sound = [abs(max(value, INAUDIBLE) - max(true, INAUDIBLE)) for value, true in pairs(f".{A_LEVEL}")]
     # NumPy's maximum passes on what is not a number, Python's may not
     return Errors(
         ring_rms=float(np.max([abs(ratio - 1.0) for ratio in rms])),
         ring_level=float(np.max([abs(20.0 * math.log10(ratio)) for ratio in rms])),
-        load=float(np.max([relative(*pair) for pair in zip(found.load, truth.load, strict=True)])),
-        torque=relative(found.torque, truth.torque),
+        load=float(np.max([relative(*pair) for pair in pairs(".load_mean")])),
+        torque=relative(found["friction_torque"], truth["friction_torque"]),
         level=float(np.max(np.nan_to_num(sound, nan=math.inf))) if sound else math.nan,
     )
 
@@ -114,9 +102,10 @@ class Measured:
 
     Attributes
     ----------
-    figures : Figures
+    figures : dict of str to float
     rings : ndarray
-        Ring velocities (m/s), six columns per bearing, every ``SAMPLE`` of the window.
+        Ring velocities (m/s) every ``SAMPLE`` of the window, three columns for each ring: all inner rings,
+        then all outer ones.
     paces : Paces
         How fast it ran.
     """
@@ -149,14 +138,22 @@ def measure(
     EngineError
         If the engine refuses.
     """
-    blocks = [sound] if isinstance(sound, np.ndarray) else list(sound)
+    blocks = [one for one in ([sound] if isinstance(sound, np.ndarray) else sound) if one.size]
     bearing = Arrays.of(scene, **parameters)
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
     found = paces(bearing, budget) if budget else Paces()
-    z = _read(bearing, window)
-    levels = _levels(scene, blocks, warm_up, window, parameters) if blocks and blocks[0].size else ()
-    return Measured(_figures(z, levels), np.hstack([rows[:, :6] for rows in z]), found)
+    wanted = _figures(scene, _COMPARED)
+    rows = rows_over(bearing, wanted, itertools.repeat(SAMPLE, round(window / SAMPLE)))
+    values = values_of(wanted, rows, SAMPLE, bearing.u[U.SPEED])
+    if blocks:
+        loud = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up})
+        loud.init()
+        heard, steps = _figures(scene, _HEARD), round((warm_up + window) / COMMUNICATION)
+        late = rows_over(loud, heard, itertools.repeat(COMMUNICATION, steps))
+        values |= values_of(heard, late, COMMUNICATION, loud.u[U.SPEED])
+    rings = [signals_of(one, wanted, rows)[1:] for one in wanted if one.name.endswith(_MOTION)]
+    return Measured(values, np.hstack(rings), found)
 
 
 def measure_between(
@@ -170,60 +167,15 @@ def measure_between(
     refusals, as for `measure`, whose second run this saves.
     """
     blocks = [one for one in sound if one.size]
-    bearing = Arrays.of(scene, *blocks, METERING_START=warm_up)
-    bearing.u[U.SPEED] = first
+    bearing = Arrays.of(scene, *blocks, METERING_START=warm_up).at({U.SPEED: first})
     bearing.init()
     bearing.run(warm_up, COMMUNICATION)
-    z = _read(bearing, window, first, last)
-    return _figures(z, _meters(bearing) if blocks else ())
+    wanted = _figures(scene, (*_COMPARED, *(_HEARD if blocks else ())))
+    count = round(window / SAMPLE)
+    speeds = (first + (last - first) * (k + 1) / count for k in range(count))
+    rows = rows_over(bearing, wanted, at_speeds(bearing, speeds, SAMPLE))
+    return values_of(wanted, rows, SAMPLE, last)
 
 
-def _read(
-    bearing: Arrays, window: float, first: float | None = None, last: float = 0.0
-) -> NDArray[np.float64]:
-    """Return the outputs of each bearing every ``SAMPLE``; from ``first`` to ``last`` (rad/s) if given."""
-    places = bearing.outputs_of_bearings
-    z = np.empty((len(places), round(window / SAMPLE), len(Z.BEARING_OUTPUTS)))
-    for k in range(z.shape[1]):
-        if first is not None:
-            bearing.u[U.SPEED] = first + (last - first) * (k + 1) / z.shape[1]
-        bearing.step(SAMPLE)
-        for rows, place in zip(z, places, strict=True):
-            rows[k] = bearing.z[place : place + rows.shape[1]]
-    return z
-
-
-def _figures(z: NDArray[np.float64], levels: tuple[float, ...]) -> Figures:
-    """Return the figures of outputs over time, shape (bearings, times, outputs)."""
-    mean = z.mean(1)
-    return Figures(
-        tuple(float(one) for rows in z for one in ring_rms(rows[:, :6])),
-        tuple(float(row[place]) for row in mean for place in _LOAD),
-        tuple(float(row[place]) for row in mean for place in _ANGLE),
-        float(mean[:, _TORQUE].sum()),
-        float(mean[0, _CAGE]),
-        levels,
-    )
-
-
-def _levels(
-    scene: Scene, blocks: list[NDArray[np.float64]], warm_up: float, window: float,
-    parameters: dict[str, float],
-) -> tuple[float, ...]:  # fmt: skip
-    """A-weighted equivalent levels (dB) over the window, as the engine's own meters show them."""
-    bearing = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up})
-    bearing.init()
-    bearing.run(warm_up + window, COMMUNICATION)
-    return _meters(bearing)
-
-
-def _meters(bearing: Arrays) -> tuple[float, ...]:
-    """A-weighted equivalent levels (dB) that the meters show."""
-    p = bearing.p
-    first = Z.mics(int(p[P.BALLS]))
-    if SP.has_shaft(p):
-        block = int(p[P.SET])
-        first = int(p[block + SP.AT_Z]) + SP.z_mics(int(p[block + SP.BEARINGS]))
-    per_mic = len(Z.MIC_OUTPUTS)
-    levels = bearing.z[first + _LEVEL : first + int(p[P.MICS]) * per_mic : per_mic]
-    return tuple(float(level) for level in levels)
+def _figures(scene: Scene, names: Sequence[str]) -> tuple[Figure, ...]:
+    return figures_of(scene, of_each(scene, names), strict=False)

@@ -21,6 +21,7 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine
+from fmu_bearing.run.march import at_speeds, march
 from fmu_bearing.run.step_times import HELD, Realtime, Timed, name_of
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
@@ -188,17 +189,27 @@ def _first(scene: Scene, microphones: int) -> Scene:
 
 def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> Iterator[Timed]:
     """Run a case; times by phase."""
-    bearing = Arrays.of(case.scene, *sound_blocks(case.scene))
-    bearing.u[U.SPEED] = first
-    bearing.init()
+    bearing = Arrays.started(case.scene, {U.SPEED: first}, *sound_blocks(case.scene))
     bearing.run(WARM_UP * step, step)
     rising = first + (last - first) * np.arange(1, steps + 1) / steps
     phases = {} if first == last else {"run-up": rising}
     for phase, speeds in (phases | {HELD: np.full(steps, last)}).items():
-        cpu, clock = np.zeros(steps), np.zeros(steps)
-        for k in range(steps):
-            bearing.u[U.SPEED] = speeds[k]
-            begun, begin = perf_counter(), thread_time()
-            bearing.step(step)
-            cpu[k], clock[k] = thread_time() - begin, perf_counter() - begun
-        yield Timed(case.fidelity, case.microphones, phase, cpu, clock, step)
+        timed = _TimedSteps(bearing)
+        march(timed, at_speeds(bearing, speeds, step))
+        yield Timed(case.fidelity, case.microphones, phase, np.array(timed.cpu), np.array(timed.clock), step)
+
+
+class _TimedSteps:
+    """Steps a bearing and notes how long each step takes (s), of the processor and on the clock."""
+
+    def __init__(self, bearing: Arrays) -> None:
+        self.bearing = bearing
+        self.cpu: list[float] = []
+        self.clock: list[float] = []
+
+    def step(self, h: float) -> None:
+        """Advance by ``h`` (s)."""
+        begun, begin = perf_counter(), thread_time()
+        self.bearing.step(h)
+        self.cpu.append(thread_time() - begin)
+        self.clock.append(perf_counter() - begun)

@@ -3,13 +3,10 @@
 import math
 import os
 import pathlib
-import signal
-import threading
 import time as clock
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from fmpy.simulation import Input as FmpyInput
@@ -20,13 +17,17 @@ from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.names import chosen_names, known
 from fmu_bearing.prepare.model import Model, prepare
-from fmu_bearing.progress import work
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, Run
 from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.results.variable_names import by_name
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.inputs import Input, Inputs, input_table
-from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.run.march import Proceed, march, underway
+from fmu_bearing.scene import SceneSource, scene_of
+from fmu_bearing.scene.read import with_fidelity
+
+if TYPE_CHECKING:
+    from fmu_bearing.run.simulate_fmu import FmuPlayer
 
 _FIRST = 1.0  # s of waiting after which a run is estimated
 _LONG, _MUCH = 3600.0, 4e9  # s, bytes: beyond these a run may be a slip of the keyboard
@@ -104,25 +105,32 @@ def simulate(
 
         if watch is not None:
             raise ValueError("watch: an FMU does not show its state; give the scene it was built from")
-        player: Player = open_fmu(pathlib.Path(source))
+        player: FmuPlayer | _Library = open_fmu(pathlib.Path(source))
         _warn_of_loose(player, start_values)
     else:
-        player = _Library(_model(source), watch)
+        player = _Library(model_of(source), watch)
     table = input_table(inputs, player.inputs, stop_time, step, input_from_start)
     names = chosen_names(outputs, player.readable, player.outputs)
     for name in by_name(start_values):
         known(name, player.settable, "input or parameter")
-    with stoppable() as stop, bar(player.name, stop_time, progress) as tell:
+    with underway(player.name, stop_time, shown=progress, keep=True) as proceed:
         begin = clock.perf_counter()
-        estimate = _Estimate(stop_time, step, len(names), tell)
-        columns, ended, note = player.run(
-            stop_time, step, table, dict(start_values or {}), names, stop, estimate
-        )
+        estimate = _Estimate(stop_time, step, len(names), proceed)
+        columns, ended, note = player.run(stop_time, step, table, dict(start_values or {}), names, estimate)
         wall = clock.perf_counter() - begin
     if note:
         warnings.warn(note, EndedEarly, stacklevel=2)
     units = {name: player.readable[name] for name in names}
     return Run(player.name, columns, units, player.scene, wall, ended, note)
+
+
+def model_of(source: SceneSource | Model, **fidelity: Any) -> Model:
+    """Return the model of a scene, with other values of keys of ``[fidelity]``; ``auto`` is resolved."""
+    if not isinstance(source, Model):
+        return prepare(resolve(with_fidelity(source, **fidelity) if fidelity else scene_of(source))[0])
+    if fidelity:
+        raise ValueError("a prepared Model has its fidelity: give the scene to change it")
+    return source
 
 
 def part_of_study(*given: Any, **options: Any) -> Run:
@@ -141,60 +149,19 @@ class EndedEarly(UserWarning):
     """A run ended before its stop time; ``Run.note`` says the same."""
 
 
-class Player(Protocol):
-    """Something that runs over a table of inputs; `_Library` here, an FMU in ``simulate_fmu``."""
-
-    @property
-    def name(self) -> str:
-        """Name of the scene or model."""
-        ...
-
-    @property
-    def scene(self) -> Scene | None:
-        """The scene, where it is known."""
-        ...
-
-    @property
-    def inputs(self) -> Mapping[str, Input]:
-        """Inputs by name."""
-        ...
-
-    @property
-    def readable(self) -> Mapping[str, str]:
-        """Unit of each variable."""
-        ...
-
-    @property
-    def settable(self) -> Sequence[str]:
-        """Inputs and parameters."""
-        ...
-
-    @property
-    def outputs(self) -> Sequence[str]:
-        """Default variables of a result."""
-        ...
-
-    def run(
-        self, stop_time: float, step: float, table: NDArray[Any] | None, start: dict[str, float],
-        names: Sequence[str], stop: Callable[[], bool], tell: Callable[[float], None],
-    ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
-        """Return the table of results, how the run ended, and why."""
-        ...
-
-
 class _Estimate:
     """Progress that warns once, after the first second, of a run that takes very long or much memory."""
 
-    def __init__(self, stop_time: float, step: float, names: int, tell: Callable[[float], None]) -> None:
-        self.stop_time, self.step, self.names, self.tell = stop_time, step, names, tell
+    def __init__(self, stop_time: float, step: float, names: int, proceed: Proceed) -> None:
+        self.stop_time, self.step, self.names, self.proceed = stop_time, step, names, proceed
         self.begin = clock.perf_counter()
         self.warned = False
 
-    def __call__(self, time: float) -> None:
-        self.tell(time)
+    def __call__(self, time: float) -> bool:
         if not self.warned and clock.perf_counter() - self.begin > _FIRST:
             self.warned = True
             self._warn(time)
+        return self.proceed(time)
 
     def _warn(self, time: float) -> None:
         points = self.stop_time / self.step
@@ -218,54 +185,47 @@ def duration(seconds: float) -> str:
 
 
 class _Library:
-    """A model run by the package itself."""
+    """A model run by the package itself; `simulate_fmu.FmuPlayer` is an FMU with the same attributes."""
 
     def __init__(self, model: Model, watch: Callable[[Instance], None] | None = None) -> None:
         self.bearing, self.watch = Instance(model), watch
         variables: Mapping[str, Variable] = self.bearing.by_name
         self.name, self.scene = model.scene.name, model.scene
         self.readable = {name: v.unit for name, v in variables.items()}
-        self.outputs = [name for name, v in variables.items() if v.causality == "output"]
+        self.outputs = self.bearing.names("output")
         self.inputs = {
             name: Input(float(v.start or 0.0), v.min, v.max, v.unit)
             for name, v in variables.items()
             if v.causality == "input"
         }
-        self.settable = [n for n, v in variables.items() if v.causality in ("input", "parameter")]
+        self.settable = self.bearing.names("input", "parameter")
 
-    def run(self, stop_time, step, table, start, names, stop, tell):
-        bearing, feed = self.bearing, _Feed(table)
+    def run(
+        self, stop_time: float, step: float, table: NDArray[Any] | None, start: dict[str, float],
+        names: Sequence[str], proceed: Proceed,
+    ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
+        """Return the table of results, how the run ended, and why."""
+        bearing, feed = self.bearing, _Feed(self.bearing, table)
         for name, value in start.items():
             bearing.set(name, value)
-        feed.apply(bearing, 0.0)
+        feed.apply()
         bearing.initialise()
         take = bearing.reader(names)
+        times, rows, ended, note = list[float](), list[NDArray[np.float64]](), COMPLETE, ""
 
-        def read():
+        def read() -> float:
             if self.watch is not None:
                 self.watch(bearing)
-            return take()
+            times.append(feed.time)
+            rows.append(take())
+            return feed.time
 
-        times, rows = [0.0], [read()]
-        time, count, ended, note = 0.0, 0, COMPLETE, ""
-        while time < stop_time and not math.isclose(time, stop_time):
-            following = min(feed.next_jump(time), (count + 1) * step)
-            if following > stop_time and not math.isclose(following, stop_time):
-                following = stop_time
-            try:
-                feed.apply(bearing, time, after_event=True)
-                bearing.step(following - time)
-            except EngineError as refusal:
-                ended, note = REFUSED, str(refusal)
-                break
-            time = following
-            count += math.isclose(time, (count + 1) * step)
-            times.append(time)
-            rows.append(read())
-            tell(time)
-            if stop():
-                ended, note = INTERRUPTED, f"interrupted at t = {time:.6g} s of {stop_time:g} s"
-                break
+        read()
+        try:
+            if not march(bearing, feed.steps(stop_time, step), read, proceed):
+                ended, note = INTERRUPTED, f"interrupted at t = {feed.time:.6g} s of {stop_time:g} s"
+        except EngineError as refusal:
+            ended, note = REFUSED, str(refusal)
         columns = np.array(rows).reshape(len(rows), len(names)).T
         return structured({"time": np.array(times), **dict(zip(names, columns, strict=True))}), ended, note
 
@@ -273,35 +233,40 @@ class _Library:
 class _Feed:
     """A table of inputs, prepared once for all steps; values and jumps are those of FMPy."""
 
-    def __init__(self, table: NDArray[Any] | None) -> None:
+    def __init__(self, bearing: Instance, table: NDArray[Any] | None) -> None:
+        self.bearing, self.time = bearing, 0.0  # s: the point reached
         self.names = [] if table is None else columns_of(table)
-        if table is None:
-            self.jumps: list[float] = []
-            return
-        self.times = np.ascontiguousarray(table["time"])
-        self.columns = np.stack([table[name] for name in self.names])
-        self.jumps = np.unique(self.times[:-1][np.diff(self.times) == 0.0]).tolist()
+        self.jumps: list[float] = []
+        if table is not None:
+            self.times = np.ascontiguousarray(table["time"])
+            self.columns = np.stack([table[name] for name in self.names])
+            self.jumps = np.unique(self.times[:-1][np.diff(self.times) == 0.0]).tolist()
 
-    def apply(self, bearing: Instance, time: float, after_event: bool = False) -> None:
-        """Set the inputs to their values at ``time`` (s)."""
+    def apply(self, after_event: bool = False) -> None:
+        """Set the inputs to their values at the point."""
         if self.names:
-            values = FmpyInput.interpolate(time, self.times, self.columns, after_event=after_event)[0]
+            values = FmpyInput.interpolate(self.time, self.times, self.columns, after_event=after_event)[0]
             for name, value in zip(self.names, np.ravel(values), strict=True):
-                bearing.set(name, float(value))
+                self.bearing.set(name, float(value))
 
-    def next_jump(self, time: float) -> float:
-        """Return the next time (s) at which an input jumps."""
-        later = (t for t in self.jumps if t > time and not math.isclose(t, time))
+    def steps(self, stop_time: float, step: float) -> Iterator[float]:
+        """Yield the steps (s) to communication points, and to where inputs jump; inputs are set before."""
+        count = 0
+        while self.time < stop_time and not math.isclose(self.time, stop_time):
+            following = min(self._next_jump(), (count + 1) * step)
+            if following > stop_time and not math.isclose(following, stop_time):
+                following = stop_time
+            self.apply(after_event=True)
+            h, self.time = following - self.time, following
+            count += math.isclose(following, (count + 1) * step)
+            yield h
+
+    def _next_jump(self) -> float:
+        later = (t for t in self.jumps if t > self.time and not math.isclose(t, self.time))
         return next(later, math.inf)
 
 
-def _model(source: SceneSource | Model) -> Model:
-    if isinstance(source, Model):
-        return source
-    return prepare(resolve(scene_of(source))[0])
-
-
-def _warn_of_loose(player: "Player", start_values: Mapping[str, float] | None) -> None:
+def _warn_of_loose(player: "FmuPlayer | _Library", start_values: Mapping[str, float] | None) -> None:
     """Warn of one of our FMUs that starts without preload: its own log is shown after a refusal only."""
     scene = player.scene
     if scene is None or scene.mounting is None or "preload" not in player.inputs:
@@ -317,36 +282,3 @@ def _check_times(stop_time: float, step: float) -> None:
         number(name, value)
         if not (math.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
-
-
-@contextmanager
-def stoppable() -> Iterator[Callable[[], bool]]:
-    """Turn the first Ctrl-C into a request to stop, returned by the yielded function; a second interrupts."""
-    asked = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield asked.is_set  # only the main thread may handle signals
-        return
-    before = signal.getsignal(signal.SIGINT)
-
-    def ask(number: int, frame: Any) -> None:
-        if asked.is_set():
-            raise KeyboardInterrupt
-        asked.set()
-
-    signal.signal(signal.SIGINT, ask)
-    try:
-        yield asked.is_set
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-@contextmanager
-def bar(name: str, stop_time: float, shown: bool | None) -> Iterator[Callable[[float], None]]:
-    """Progress over simulated time, with the pace (simulated per wall second) and the time left."""
-    with work(name, stop_time, "s", shown=shown, keep=True) as display:
-        begin = clock.perf_counter()
-
-        def tell(time: float) -> None:
-            display.at(time, f"{time / max(clock.perf_counter() - begin, 1e-9):.2g} simulated/wall")
-
-        yield tell

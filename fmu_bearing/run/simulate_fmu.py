@@ -4,7 +4,7 @@ import pathlib
 import re
 import tempfile
 import zipfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import fmpy
@@ -18,6 +18,7 @@ from fmu_bearing.files import no_room, plain_file
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, ResultError
 from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.run.inputs import Input
+from fmu_bearing.run.march import Proceed
 from fmu_bearing.scene import SceneError, read_scene
 
 _REFUSED_VALUE = re.compile(r"\S+ = \S+ is refused")
@@ -25,7 +26,7 @@ _LAST_LINES = 3  # of the FMU's log that go into a message
 
 
 class FmuPlayer:
-    """A co-simulation FMU that is run by ``fmpy.simulate_fmu``; see ``simulate.Player``."""
+    """A co-simulation FMU that is run by ``fmpy.simulate_fmu``."""
 
     def __init__(self, path: pathlib.Path, description: ModelDescription) -> None:
         self.path, self.description = path, description
@@ -43,10 +44,10 @@ class FmuPlayer:
 
     def run(
         self, stop_time: float, step: float, table: NDArray[Any] | None, start: dict[str, float],
-        names: Sequence[str], stop: Callable[[], bool], tell: Callable[[float], None],
+        names: Sequence[str], proceed: Proceed,
     ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
         """Return the table of results, how the run ended, and why."""
-        watch = _Watch(stop, tell, stop_time)
+        watch = _Watch(proceed, stop_time)
         with tempfile.TemporaryDirectory() as folder:
             self._unpack(folder)
             try:
@@ -89,8 +90,8 @@ class FmuPlayer:
 class _Watch:
     """Callbacks of FMPy during a run."""
 
-    def __init__(self, stop: Callable[[], bool], tell: Callable[[float], None], stop_time: float) -> None:
-        self.stop, self.tell, self.stop_time = stop, tell, stop_time
+    def __init__(self, proceed: Proceed, stop_time: float) -> None:
+        self.proceed, self.stop_time = proceed, stop_time
         self.recorder: Any = None
         self.rows = 1
         self.time = 0.0
@@ -111,8 +112,7 @@ class _Watch:
             self.refused(f"the step from t = {time:.9g} s was refused")
             return False
         self.time, self.rows = time, self.rows + 1
-        self.tell(time)
-        if self.stop():
+        if not self.proceed(time):
             self.ended = INTERRUPTED
             self.note = f"interrupted at t = {time:.6g} s of {self.stop_time:g} s"
         return self.ended == COMPLETE

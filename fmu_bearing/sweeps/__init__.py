@@ -3,7 +3,7 @@
 ======================  ======================================================================
 ``description``         a sweep as a TOML file
 ``axes``                the varied keys, their values, their text on the command line
-``figures``             the figures of a run: variables with a statistic
+``figures``             the figures of the run of a point, and error motion
 ``plan``                all points, checked before the first is run
 ``point``               one point: its key, its run
 ``local``               points in this process or on worker processes

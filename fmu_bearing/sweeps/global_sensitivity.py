@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.results.table import machine, markdown, write_csv
+from fmu_bearing.run.figures import Figure
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.sweeps import sampling
 from fmu_bearing.sweeps.axes import SweepError
-from fmu_bearing.sweeps.figures import Figure
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW, Plan, plan_of
 from fmu_bearing.sweeps.ranges import Range, ranges_of
 from fmu_bearing.sweeps.runs import Outcomes, run_plan

@@ -12,10 +12,11 @@ from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.figures import Figure
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.values import value_at
 from fmu_bearing.sweeps.axes import Axis, SweepError, axes_of
-from fmu_bearing.sweeps.figures import Figure, figures_of
+from fmu_bearing.sweeps.figures import figures_of
 from fmu_bearing.sweeps.point import Task, task_of
 
 SETTLE = 0.02  # s

@@ -2,6 +2,7 @@
 
 import functools
 import hashlib
+import itertools
 import json
 import math
 import time as clock
@@ -16,13 +17,14 @@ from fmu_bearing.engine.layout import U
 from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.run.figures import parts_of, rows_over, values_of
 from fmu_bearing.run.metrics import SAMPLE
 from fmu_bearing.run.paces import COMMUNICATION
 from fmu_bearing.scene import Scene
-from fmu_bearing.sweeps.figures import columns_of, error_motions, figures_of, parts_of, read
+from fmu_bearing.sweeps.figures import error_motions, figures_of
 
 #: Packages whose code computes the figures, beside the engine.
-_ROOMS = ("acoustics", "elastic", "formulas", "interface", "metrology", "prepare", "scene", "sweeps")
+_ROOMS = ("acoustics", "elastic", "formulas", "interface", "metrology", "prepare", "run", "scene", "sweeps")
 
 #: Sound block of each bearing; a single empty one without sound.
 Blocks = tuple[NDArray[np.float64], ...]
@@ -116,30 +118,12 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
         bearing.run(task.settle, task.settle / steps)
-    there = figures_of(scene, _names(task.figures, scene))
+    there = figures_of(scene, task.figures, strict=False)  # an axis may remove the cage or a ball
     count = max(4, round(task.window / SAMPLE)) * parts_of(there)
     h = task.window / count
-    columns = columns_of(there)
-    rows = np.empty((count + 1, len(columns)))
-    rows[0] = bearing.z[columns]
-    for row in rows[1:]:
-        bearing.step(h)
-        row[:] = bearing.z[columns]
-    found = dict(zip((one.name for one in there), read(there, rows, h, bearing.u[U.SPEED]), strict=True))
-    found |= error_motions(there, scene)
+    rows = rows_over(bearing, there, itertools.repeat(h, count))
+    found = values_of(there, rows, h, bearing.u[U.SPEED]) | error_motions(there, scene)
     return tuple(found.get(name, math.nan) for name in task.figures)
-
-
-def _names(wanted: tuple[str, ...], scene: Scene) -> list[str]:
-    """Return the figures that this scene has: an axis may remove the cage or a ball."""
-    names = []
-    for name in wanted:
-        try:
-            figures_of(scene, [name])
-        except ValueError:
-            continue
-        names.append(name)
-    return names
 
 
 @functools.lru_cache(maxsize=2)

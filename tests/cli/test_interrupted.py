@@ -14,9 +14,9 @@ import pytest
 
 from fmu_bearing import Recording, files, record
 from fmu_bearing.acoustics.analysis.field import TAIL
+from fmu_bearing.run import march as march_module
 from tests.conftest import EXAMPLES
 
-record_module = importlib.import_module("fmu_bearing.recording.record")
 # of these names the packages also have functions
 changes, choose, error_motion, realtime, scene_stiffness, sensitivity, tradeoff, vibration = (
     importlib.import_module(f"fmu_bearing.{name}")
@@ -151,14 +151,14 @@ def press(monkeypatch):
     """Press Ctrl-C at a step of a recording, by its number."""
 
     def at(number):
-        steps, whole = itertools.count(), record_module._drive
+        steps, whole = itertools.count(), march_module.set_inputs
 
         def drive(*given):
             if next(steps) == number:
                 os.kill(os.getpid(), signal.SIGINT)
             whole(*given)
 
-        monkeypatch.setattr(record_module, "_drive", drive)
+        monkeypatch.setattr(march_module, "set_inputs", drive)
 
     return at
 

@@ -1,18 +1,21 @@
 """What a point measures, against runs made otherwise; what cannot be run."""
 
+import math
+
 import numpy as np
 import pytest
 
 from fmu_bearing import error_motion
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import S, U, Y
+from fmu_bearing.engine.layout import S, U, Y, Z
+from fmu_bearing.interface.names import UnknownName
 from fmu_bearing.prepare.sound import sound_block
-from fmu_bearing.run import metrics as comparing
+from fmu_bearing.run.figures import _once_per_turn
+from fmu_bearing.run.metrics import measure
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps import sweep
-from fmu_bearing.sweeps.axes import SweepError
-from fmu_bearing.sweeps.figures import _once_per_turn, figures_of
+from fmu_bearing.sweeps.figures import figures_of
 from fmu_bearing.sweeps.point import run_point, task_of
 from tests.sweeps.points import small
 
@@ -23,26 +26,34 @@ def rings(scene):
 
 
 def test_figures_are_those_of_a_run_beside(rings):
-    """Another loop over the same engine: the same statistics of the same run."""
-    names = [
-        "*_ring.velocity", "contact.*.load_mean", "contact.*.angle_mean", "friction_torque",
-        "cage.speed_ratio", "mic[*].leq_a",
+    """A plain loop over the same engine, with statistics of its own."""
+    means = [
+        *(f"contact.{race}.{what}" for race in ("inner", "outer") for what in ("load_mean", "angle_mean")),
+        "friction_torque", "cage.speed_ratio",
     ]  # fmt: skip
+    names = ["*_ring.velocity", *means, "mic[*].leq_a"]
     data = sweep(rings, {"preload": [500]}, settle=0.01, window=0.02, figures=names, workers=1).squeeze()
-    other = comparing.measure(rings, sound_block(rings), 0.01, 0.02).figures
-    found = [
-        *(float(data[f"{ring}_ring.velocity"]) for ring in ("inner", "outer")),
-        *(float(data[f"contact.{ring}.load_mean"]) for ring in ("inner", "outer")),
-        *(float(data[f"contact.{ring}.angle_mean"]) for ring in ("inner", "outer")),
-        float(data["friction_torque"]),
-        float(data["cage.speed_ratio"]),
-        *(float(data[f"mic[{k}].leq_a"]) for k in (1, 2, 3, 4)),
-    ]
-    expected = [*other.ring_rms, *other.load, *other.angle, other.torque, other.cage_ratio, *other.levels]
-    # sums in another order; levels there with steps of 1 ms: other internal steps, 0.06 dB at most. Where
-    # balls sound they are shown as they move, beside their place of rest: 2e-6 of loads and angles
-    np.testing.assert_allclose(found[:8], expected[:8], rtol=1e-5)
-    np.testing.assert_allclose(found[8:], expected[8:], atol=0.2)
+    bearing = Arrays.of(rings, sound_block(rings), METERING_START=0.01)
+    bearing.init()
+    bearing.run(0.01, 1e-3)
+    rows = np.empty((200, bearing.z.size))
+    for row in rows:
+        bearing.step(1e-4)
+        row[:] = bearing.z
+    read = dict(zip(Z.BEARING_OUTPUTS, rows.T, strict=False))
+    expected = {name: read[name].mean() for name in means}
+    for ring in ("inner_ring.velocity", "outer_ring.velocity"):
+        expected[ring] = math.sqrt(sum(read[f"{ring}.{axis}"].var() for axis in "xyz"))
+    level = Z.mics(rings.bearing.ball_count) + Z.MIC_OUTPUTS.index("leq_a")
+    for k in range(4):
+        expected[f"mic[{k + 1}].leq_a"] = rows[-1, level + k * len(Z.MIC_OUTPUTS)]
+    assert set(expected) <= set(data)
+    for name, value in expected.items():
+        assert float(data[name]) == pytest.approx(value, rel=1e-12), name  # the order of a sum
+    found = measure(rings, np.empty(0), 0.01, 0.02).figures
+    for name, value in found.items():
+        # without sound the balls are shown at their place of rest: 2e-6 of loads and angles
+        assert value == pytest.approx(expected[name], rel=1e-5), name
     assert data["friction_torque"].attrs["units"] == "N.m"
     assert data["seed"] == 1 and data["reason"] == "" and data["wall"] > 0
 
@@ -146,6 +157,6 @@ def test_error_motion_is_a_figure_of_a_run_of_its_own(rings):
     assert done.figures[1:] == tuple(
         values[name] for name in ("rotating", "tilt about y", "tilt about z", "tilt rotating")
     )
-    with pytest.raises(SweepError, match="is a value over revolutions already"):
+    with pytest.raises(UnknownName, match="is a value over revolutions already"):
         figures_of(scene, ["error_motion.synchronous.axial:max"])
     assert not any(one.name.startswith("error_motion") for one in figures_of(scene, ["*"]))

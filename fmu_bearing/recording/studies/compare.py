@@ -16,19 +16,14 @@ from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.measurements import pictures
 from fmu_bearing.recording.record import DURATION, record
 from fmu_bearing.recording.recording import Recording
-from fmu_bearing.recording.studies.comparison_data import (
-    FIGURES,
-    RECORDED,
-    ComparisonData,
-    figure_of,
-    of_recording,
-    of_run,
-)
+from fmu_bearing.recording.studies.comparison_data import RECORDED, ComparisonData, of_recording, of_run
 from fmu_bearing.recording.studies.finding import SEEDS, Finding, judged
 from fmu_bearing.results.base import Result
 from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import Table, html_table, write_csv
+from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.run.choose import resolve
+from fmu_bearing.run.figures import table_unit
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
@@ -98,7 +93,7 @@ class Comparison(Result):
         """Means of contact loads, contact angles and friction torque, with differences."""
         rows = []
         for name in self.a.figures | self.b.figures:
-            unit, factor = FIGURES[figure_of(name)]
+            unit, factor = table_unit(unit_of(name))
             a, b = (side.figures.get(name) for side in (self.a, self.b))
             values = [None if value is None else factor * value for value in (a, b)]
             change = share = _BLANK

@@ -16,23 +16,18 @@ from fmu_bearing.recording.studies.spread import doubt_of
 from fmu_bearing.results.levels import present
 from fmu_bearing.results.result import Run
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
+from fmu_bearing.run.figures import A_LEVEL, LEVEL, THIRD_OCTAVE
 from fmu_bearing.scene import Scene
 
-#: Figures of a comparison: unit in tables, and the factor from SI to it.
-FIGURES = {
-    "contact.inner.load_mean": ("N", 1.0),
-    "contact.inner.load_max": ("N", 1.0),
-    "contact.outer.load_mean": ("N", 1.0),
-    "contact.outer.load_max": ("N", 1.0),
-    "contact.inner.angle_mean": ("deg", 180.0 / np.pi),
-    "contact.outer.angle_mean": ("deg", 180.0 / np.pi),
-    "friction_torque": ("N mm", 1e3),
-}
+#: Figures of a comparison: means of these, of a set for each bearing.
+FIGURES = (
+    "contact.inner.load_mean", "contact.inner.load_max", "contact.outer.load_mean", "contact.outer.load_max",
+    "contact.inner.angle_mean", "contact.outer.angle_mean", "friction_torque",
+)  # fmt: skip
 #: Variables that a recording for a comparison keeps.
 RECORDED = tuple(dict.fromkeys((*OUTPUTS, *FIGURES)))
-_BEARING = re.compile(r"^bearing\[\d+\]\.")
 _PRESSURE = "mic[1].pressure"
-_METER = re.compile(r"mic\[(\d+)\]\.(leq|leq_a|third_octave\[(\d+)\])")
+_METER = re.compile(rf"mic\[(\d+)\]\.({LEVEL}|{A_LEVEL}|{THIRD_OCTAVE}\[(\d+)\])")
 _FAST = 40_000.0  # Hz: pressures that reach to 20 kHz
 
 
@@ -74,18 +69,13 @@ class ComparisonData:
     radiation_model: str = ""
 
 
-def figure_of(name: str) -> str:
-    """Return the key in `FIGURES` of a variable, which may be that of one bearing of a set."""
-    return _BEARING.sub("", name)
-
-
 def _figures(columns: Mapping[str, NDArray[np.float64]]) -> dict[str, float]:
     """Return means of the variables of `FIGURES`, in its order."""
     return {
         key: float(np.mean(values))
         for figure in FIGURES
         for key, values in columns.items()
-        if figure_of(key) == figure
+        if key == figure or key.endswith(f"].{figure}")
     }
 
 
@@ -164,7 +154,7 @@ def _meters(run: Run) -> tuple[dict[str, tuple[float, float]], dict[str, dict[fl
             read.setdefault(name, {})[match[2]] = value
         else:
             thirds.setdefault(name, {})[nominal[int(match[3])]] = value
-    levels = {name: (found.get("leq", np.nan), found.get("leq_a", np.nan)) for name, found in read.items()}
+    levels = {name: (found.get(LEVEL, np.nan), found.get(A_LEVEL, np.nan)) for name, found in read.items()}
     return levels, {name: bands for name, bands in thirds.items() if name in levels}
 
 

@@ -133,18 +133,6 @@ def model_of(source: SceneSource | Model, **fidelity: Any) -> Model:
     return source
 
 
-def part_of_study(*given: Any, **options: Any) -> Run:
-    """Run as `simulate`, within a longer computation, all of which Ctrl-C interrupts."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", EndedEarly)
-        run = simulate(*given, **options)
-    if run.ended == INTERRUPTED:
-        raise KeyboardInterrupt
-    if run.note:
-        warnings.warn(run.note, EndedEarly, stacklevel=2)
-    return run
-
-
 class EndedEarly(UserWarning):
     """A run ended before its stop time; ``Run.note`` says the same."""
 

@@ -18,15 +18,6 @@ FLAT = {
 }  # fmt: skip
 
 
-class Played(dict):
-    """A run whose variables are given."""
-
-    note = ""
-
-    def __len__(self):
-        return len(self["ball[1].velocity.y"])
-
-
 @pytest.fixture
 def played(monkeypatch):
     """A reading of given motions: functions of time (s) by variable, m/s; the ball goes round at 12 Hz."""
@@ -34,15 +25,15 @@ def played(monkeypatch):
     def read(**motions):
         time = np.arange(15_001) * STEP
 
-        def run(scene, stop, step, outputs, progress):
-            names = {name.replace(".", "_"): name for name in outputs}
+        def run(scene, variables):
+            names = {name.replace(".", "_"): name for name in variables}
             assert set(motions) <= set(names)
             found = {name: motions.get(key, np.zeros_like)(time) for key, name in names.items()}
             for part, wave in (("y", np.cos), ("z", np.sin)):
                 found[f"ball[1].velocity.{part}"] = wave(2.0 * np.pi * 12.0 * time)
-            return Played(found)
+            return found
 
-        monkeypatch.setattr(module, "part_of_study", run)
+        monkeypatch.setattr(module, "_run", run)
         return reading(rig(subject("7003C")))
 
     return read

@@ -103,18 +103,12 @@ class Arrays:
             self.u[place] = value
         return self
 
-    @classmethod
-    def started(cls, scene: Scene, inputs: Mapping[int, float], *sounds: NDArray[np.float64]) -> Self:
-        """Return the arrays of a scene as `of` does, initialised; ``EngineError`` where that is refused."""
-        made = cls.of(scene, *sounds).at(inputs)
-        made.init()
-        return made
-
-    def init(self) -> None:
-        """Quasi-static state at the inputs; ``EngineError`` if there is none."""
+    def init(self) -> Self:
+        """Return these arrays in the quasi-static state at the inputs; ``EngineError`` if there is none."""
         status = self.calls.init(0.0)
         if status != OK:
             raise EngineError(f"initialisation: {self.reason(status)}")
+        return self
 
     def step(self, h: float) -> None:
         """Advance by ``h`` (s); ``EngineError`` if the engine refuses."""
@@ -137,7 +131,9 @@ class Arrays:
 
         Six columns, of a set six for each bearing.
         """
-        places = np.concatenate([first + np.arange(RINGS.size) for first in self.outputs_of_bearings])
+        p, first = self.p, SP.first(self.p, SP.AT_ROWS)
+        begins = p[first : first + int(p[int(p[P.SET]) + SP.BEARINGS]) * SP.ROW][SP.ROW_Z :: SP.ROW]
+        places = (begins.astype(int)[:, None] + np.arange(RINGS.size)).ravel()
         rows = np.empty((round(duration / sample), places.size))
         for row in rows:
             self.step(sample)
@@ -150,13 +146,6 @@ class Arrays:
         if not SP.has_shaft(self.p):
             return np.arange(U.OIL_T, U.HOUSING_T + 1)
         return np.array([SP.U_SHAFT_T, SP.U_HOUSING_T, *range(SP.U_BEARINGS, self.u.size)])
-
-    @property
-    def outputs_of_bearings(self) -> list[int]:
-        """Where the outputs of each bearing begin in ``z``."""
-        p = self.p
-        first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
-        return [int(p[first + b * SP.ROW + SP.ROW_Z]) for b in range(count)]
 
     def with_parameters(self, **parameters: float) -> "Arrays":
         """Copy with other parameters and the same inputs and state; it works on its own arrays."""

@@ -156,8 +156,7 @@ them by {own:.0e}.
 
 def check(scene: Scene, warm_up: float, length: float) -> tuple[float, float]:
     """Return the agreement of two integrators over ``length`` (s), and the error of ``REFERENCE`` there."""
-    bearing = Arrays.of(REFERENCE.scene(scene))
-    bearing.init()
+    bearing = Arrays.of(REFERENCE.scene(scene)).init()
     bearing.run(warm_up, COMMUNICATION)
     exact, _ = explicit_rings(bearing, length, SAMPLE, 4e-8)
     other, _ = implicit_rings(bearing, length, SAMPLE, 5e-7, 1e-8)

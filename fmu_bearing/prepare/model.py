@@ -90,11 +90,6 @@ class Model:
         return int(self.parameters[P.MICS])
 
     @property
-    def n_bands(self) -> int:
-        """Number of third octaves of each microphone; 0: none are metered."""
-        return int(self.parameters[P.BANDS])
-
-    @property
     def n_modes(self) -> int:
         """Number of flexural modes of both rings."""
         return int(self.parameters[P.MODES])

@@ -5,8 +5,9 @@ read, and where; a figure of one bearing is, of a set, one of each.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,14 @@ STATISTICS = {
     "max": "largest over the window",
     "last": "at the end of the window",
     "1x": "rms of the part at shaft speed, vertical and horizontal together",
+}
+#: Values of signals, shape (points, axes).
+_READ: dict[str, Callable[[NDArray[np.float64]], Any]] = {
+    "mean": np.mean,
+    "rms": lambda signals: np.sqrt(signals.var(axis=0).sum()),
+    "min": np.min,
+    "max": np.max,
+    "last": lambda signals: signals[-1, 0],
 }
 #: Levels of a microphone, as variables (``mic[1].leq_a``) and measurements name them.
 LEVEL, A_LEVEL, THIRD_OCTAVE = "leq", "leq_a", "third_octave"
@@ -161,7 +170,7 @@ def values_of(
         elif figure.statistic == _TURN:
             found[figure.name] = _turning(signals[:, 1:], bool(figure.places), h, speed)
         else:
-            found[figure.name] = statistic_of(figure.statistic, signals[every::every])
+            found[figure.name] = float(_READ[figure.statistic](signals[every::every]))
     return found
 
 
@@ -169,19 +178,6 @@ def signals_of(figure: Figure, figures: Sequence[Figure], rows: NDArray[np.float
     """Return the columns of one figure in the rows of all ``figures``."""
     place = {column: k for k, column in enumerate(_columns_of(figures))}
     return rows[:, [place[column] for column in (figure.places or figure.columns)]]
-
-
-def statistic_of(statistic: str, signals: NDArray[np.float64]) -> float:
-    """Return a statistic of signals, shape (points, axes)."""
-    if statistic == "mean":
-        return float(signals.mean())
-    if statistic == "rms":
-        return float(np.sqrt(signals.var(axis=0).sum()))
-    if statistic == "min":
-        return float(signals.min())
-    if statistic == "max":
-        return float(signals.max())
-    return float(signals[-1, 0])
 
 
 def _columns_of(figures: Sequence[Figure]) -> list[int]:

@@ -139,16 +139,14 @@ def measure(
         If the engine refuses.
     """
     blocks = [one for one in ([sound] if isinstance(sound, np.ndarray) else sound) if one.size]
-    bearing = Arrays.of(scene, **parameters)
-    bearing.init()
+    bearing = Arrays.of(scene, **parameters).init()
     bearing.run(warm_up, COMMUNICATION)
     found = paces(bearing, budget) if budget else Paces()
     wanted = _figures(scene, _COMPARED)
     rows = rows_over(bearing, wanted, itertools.repeat(SAMPLE, round(window / SAMPLE)))
     values = values_of(wanted, rows, SAMPLE, bearing.u[U.SPEED])
     if blocks:
-        loud = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up})
-        loud.init()
+        loud = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up}).init()
         heard, steps = _figures(scene, _HEARD), round((warm_up + window) / COMMUNICATION)
         late = rows_over(loud, heard, itertools.repeat(COMMUNICATION, steps))
         values |= values_of(heard, late, COMMUNICATION, loud.u[U.SPEED])
@@ -167,8 +165,7 @@ def measure_between(
     refusals, as for `measure`, whose second run this saves.
     """
     blocks = [one for one in sound if one.size]
-    bearing = Arrays.of(scene, *blocks, METERING_START=warm_up).at({U.SPEED: first})
-    bearing.init()
+    bearing = Arrays.of(scene, *blocks, METERING_START=warm_up).at({U.SPEED: first}).init()
     bearing.run(warm_up, COMMUNICATION)
     wanted = _figures(scene, (*_COMPARED, *(_HEARD if blocks else ())))
     count = round(window / SAMPLE)

@@ -189,7 +189,7 @@ def _first(scene: Scene, microphones: int) -> Scene:
 
 def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> Iterator[Timed]:
     """Run a case; times by phase."""
-    bearing = Arrays.started(case.scene, {U.SPEED: first}, *sound_blocks(case.scene))
+    bearing = Arrays.of(case.scene, *sound_blocks(case.scene)).at({U.SPEED: first}).init()
     bearing.run(WARM_UP * step, step)
     rising = first + (last - first) * np.arange(1, steps + 1) / steps
     phases = {} if first == last else {"run-up": rising}

@@ -113,8 +113,7 @@ def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
 
 def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     scene = task.scene
-    bearing = Arrays.of(scene, *sounds, METERING_START=task.settle)
-    bearing.init()
+    bearing = Arrays.of(scene, *sounds, METERING_START=task.settle).init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
         bearing.run(task.settle, task.settle / steps)

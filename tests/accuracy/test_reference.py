@@ -18,7 +18,7 @@ from fmu_bearing.engine.layout import P, U
 @pytest.fixture(scope="module")
 def settled(scene):
     quiet = scene("7003C-spindle").model_copy(update={"sound": None})
-    bearing = Arrays.started(quiet, {U.SPEED: 20e3 * RPM})
+    bearing = Arrays.of(quiet).at({U.SPEED: 20e3 * RPM}).init()
     bearing.run(0.05, 1e-3)
     return bearing
 
@@ -48,7 +48,7 @@ def test_each_integrator_converges(settled):
 def test_reference_of_a_scene(scene):
     """From a scene, over a radial load, right after the start."""
     silent = scene("7003C-spindle").model_copy(update={"sound": None})
-    bearing = Arrays.started(silent, {U.SPEED: 20e3 * RPM, U.LOAD_Y: 300.0})
+    bearing = Arrays.of(silent).at({U.SPEED: 20e3 * RPM, U.LOAD_Y: 300.0}).init()
     found = reference_from(bearing, 2e-4, sample=5e-5)
     # just after a start the fluctuation is small and everything rings
     assert found.agreement < 1e-5

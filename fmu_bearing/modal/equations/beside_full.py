@@ -82,7 +82,7 @@ def beside_full(scene: Scene, model: str, inputs: Mapping[int, float] | None = N
 
 
 def _begun(scene: Scene, model: str, inputs: Mapping[int, float]) -> Arrays:
-    return Arrays.started(with_fidelity(scene, model=model).model_copy(update={"sound": None}), inputs)
+    return Arrays.of(with_fidelity(scene, model=model).model_copy(update={"sound": None})).at(inputs).init()
 
 
 def _followed(run: Arrays, count: int) -> tuple[tuple[float, ...], NDArray[np.float64]]:

@@ -55,6 +55,6 @@ def _levels(
     scene: Scene, sounds: Sequence[NDArray[np.float64]], inputs: Mapping[int, float]
 ) -> NDArray[np.float64]:
     """Return the mean A-weighted level (dB) at each microphone."""
-    run = Arrays.started(scene, inputs, *sounds)
+    run = Arrays.of(scene, *sounds).at(inputs).init()
     run.run(_LONG, _STEP)
     return run.z[[one.index for one in outputs_of(scene) if one.name.endswith(".leq_a")]]

@@ -36,7 +36,7 @@ def quick_operator(scene: Scene, inputs: dict[int, float] | None = None) -> NDAr
 def quick_run(scene: Scene, inputs: dict[int, float] | None = None) -> Arrays:
     """Return a quiet scene in fidelity `rings`, initialised at its inputs or those given as above."""
     quiet = with_fidelity(scene, model="rings").model_copy(update={"sound": None, "imperfections": None})
-    return Arrays.started(quiet.with_rigid_rings(), inputs or {})
+    return Arrays.of(quiet.with_rigid_rings()).at(inputs or {}).init()
 
 
 def found_growth(run: Arrays) -> tuple[float, float]:

@@ -18,7 +18,7 @@ from fmu_bearing.engine.status import (
     RIGID_ONLY,
     TOO_SOFT,
 )
-from fmu_bearing.interface.table import input_values
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.lengths import lengths, parts_of
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import Scene, exclusions
@@ -143,9 +143,7 @@ class Arrays:
     @property
     def temperatures(self) -> NDArray[np.int64]:
         """Places in ``u`` of all temperatures."""
-        if not SP.has_shaft(self.p):
-            return np.arange(U.OIL_T, U.HOUSING_T + 1)
-        return np.array([SP.U_SHAFT_T, SP.U_HOUSING_T, *range(SP.U_BEARINGS, self.u.size)])
+        return np.arange(U.SHAFT_T, self.u.size)
 
     def with_parameters(self, **parameters: float) -> "Arrays":
         """Copy with other parameters and the same inputs and state; it works on its own arrays."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.layout import SP, P, U, Z
-from fmu_bearing.interface.set_outputs import first_output
+from fmu_bearing.interface.outputs import first_output
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.fit import interferences

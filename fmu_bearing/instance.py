@@ -17,8 +17,8 @@ from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.layout import SP, P, S
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import Variable
-from fmu_bearing.interface.set_inputs import led_inputs
-from fmu_bearing.interface.set_outputs import first_output
+from fmu_bearing.interface.inputs import led_inputs
+from fmu_bearing.interface.outputs import first_output
 from fmu_bearing.prepare.model import Model
 
 _LONGEST_TEXT = 57  # of a value that is repeated in a message

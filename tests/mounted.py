@@ -9,7 +9,7 @@ from fmu_bearing.engine.layout import ST, C, P, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.rigid_preload import load_at_place, place_under, static_place
 from fmu_bearing.engine.status import OK
-from fmu_bearing.interface.table import input_values
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import read_scene
 from tests.conftest import GATES
@@ -101,7 +101,7 @@ class Rest:
         u = self.u.copy()
         if cold:
             u[U.SPEED] = 0.0
-            u[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
+            u[U.SHAFT_T :] = REFERENCE_TEMPERATURE
         c = np.zeros(C.SIZE)
         conditions(p, u, u[U.SPEED], c)
         return c, u[U.SPEED]

@@ -50,7 +50,7 @@ def changed(
     ValueError
         For text that is not a setting, an unknown key, and a value that is refused.
     """
-    from fmu_bearing.interface.table import inputs_of
+    from fmu_bearing.interface.inputs import inputs_of
     from fmu_bearing.sweeps.axes import plain_value
 
     units = {one.name: one.unit for one in inputs_of(scene)}

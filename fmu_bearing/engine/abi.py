@@ -20,7 +20,7 @@ from fmu_bearing.engine.layout import SP, P, U
 from fmu_bearing.engine.readout.contacts import keep_contacts, knows_balls
 from fmu_bearing.engine.readout.outputs import observe
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.inputs import bearing_inputs, set_inputs_usable, spread_choices
+from fmu_bearing.engine.spindle.inputs import bearing_inputs, inputs, spread_choices
 from fmu_bearing.engine.spindle.outputs import observe_set
 from fmu_bearing.engine.spindle.port import has_port
 from fmu_bearing.engine.spindle.sound import finish
@@ -38,14 +38,10 @@ _SHORTEST = 1e-15
 
 
 @kernel
-def inputs_usable(p, u):
-    """Whether every input of a bearing is finite and within what the equations can take."""
-    for i in range(U.SIZE):
-        if not (abs(u[i]) < _LARGEST):
-            return False
+def in_range(p, u):
+    """Whether speed and temperatures of a bearing are within what the equations can take."""
     return (
-        u[U.PEDESTAL] > 0.0
-        and abs(u[U.SPEED]) <= max(_FASTEST, _FASTEST_RIM / p[P.PITCH_RADIUS])
+        abs(u[U.SPEED]) <= max(_FASTEST, _FASTEST_RIM / p[P.PITCH_RADIUS])
         and u[U.OIL_T] >= _COLDEST_OIL
         and u[U.INNER_T] >= _COLDEST_RING
         and u[U.OUTER_T] >= _COLDEST_RING
@@ -57,14 +53,15 @@ def inputs_usable(p, u):
 @kernel
 def usable(p, u, w):
     """Whether every input is finite and within what the equations can take."""
-    if not members.has_shaft(p):
-        return inputs_usable(p, u)
-    if not set_inputs_usable(p, u):
+    for i in range(inputs(p)):
+        if not (abs(u[i]) < _LARGEST):
+            return False
+    if not u[U.PEDESTAL] > 0.0:
         return False
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     for b in range(members.count(p)):
         bearing_inputs(p, u, b, given)
-        if not inputs_usable(p, given):
+        if not in_range(p, given):
             return False
     return True
 

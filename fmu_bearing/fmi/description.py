@@ -18,8 +18,8 @@ from fmu_bearing.engine.sources import engine_digest
 from fmu_bearing.fmi.fmu_model import as_fmu_model
 from fmu_bearing.fmi.units import NO_UNIT, UNITS
 from fmu_bearing.interface import Variable
+from fmu_bearing.interface.inputs import led_inputs
 from fmu_bearing.interface.parameters import RADIATORS
-from fmu_bearing.interface.set_inputs import led_inputs
 from fmu_bearing.scene.designation import ascii_word
 
 if TYPE_CHECKING:

@@ -3,17 +3,17 @@
 The FMU's XML and value references, ``get`` and ``set`` of the library, and the table in the documentation are
 all made from it. Names are a contract, because users' harnesses depend on them.
 
-==============  ======================================================================
-``variable``    one variable, and defaults for its unit
-``inputs``      speed, loads, temperatures and other inputs
-``outputs``     outputs and local variables, computed in each step
-``set_inputs``  inputs of a set of bearings on one shaft
-``set_outputs`` its outputs and local variables
-``parameters``  parameters, set before initialisation, and constants
-``table``       all variables, in the order of the value references; values of the inputs
-``names``       patterns of names, and suggestions for misspelt ones
-``fmu_names``   the table as the FMU of a scene shows it
-==============  ======================================================================
+===================  =================================================================
+``variable``         one variable, and defaults for its unit
+``inputs``           speed, loads, temperatures and other inputs, and their values
+``outputs``          outputs and local variables, computed in each step
+``bearing_outputs``  those of one bearing
+``microphones``      those of microphones
+``parameters``       parameters, set before initialisation, and constants
+``table``            all variables, in the order of the value references
+``names``            patterns of names, and suggestions for misspelt ones
+``fmu_names``        the table as the FMU of a scene shows it
+===================  =================================================================
 """
 
 from fmu_bearing.interface.fmu_names import flat, fmu_variables

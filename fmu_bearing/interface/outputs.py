@@ -1,287 +1,225 @@
-"""Outputs and local variables, computed in each step."""
+"""Outputs and local variables of a scene, computed in each step: of shaft, housing and each bearing.
 
+Each bearing of a set has the variables of a single one, under a name of its own.
+"""
+
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
 
-from fmu_bearing.engine.layout import Z
-from fmu_bearing.interface.variable import Variable, usual
+from fmu_bearing.engine.layout import SP, Z
+from fmu_bearing.interface.bearing_outputs import AXES, internals, outputs
+from fmu_bearing.interface.microphones import FLOOR, microphones
+from fmu_bearing.interface.variable import Variable, read
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.member import one_of, set_of
 
-#: Axes and their directions in descriptions.
-AXES = (("x", "along the axis"), ("y", "horizontal"), ("z", "upwards"))
-_MIC_WORDS = (
-    ("pressure", "Sound pressure at microphone {}"),
-    ("spl", "Time-weighted sound pressure level at microphone {}"),
-    ("spl_a", "Time- and A-weighted sound level at microphone {}"),
-    ("leq", "Equivalent level since metering began at microphone {}"),
-    ("leq_a", "A-weighted equivalent level since metering began at microphone {}"),
-    ("spl_inner_ring", "Time-weighted partial level of the inner ring at microphone {}"),
-    (
-        "spl_outer_ring",
-        "Time-weighted partial level of the outer ring and what moves with it at microphone {}",
-    ),
-    ("spl_cage", "Time-weighted partial level of the cage at microphone {}"),
-    ("spl_balls", "Time-weighted partial level of the balls at microphone {}"),
-    ("spl_fast", "Fast sound pressure level at microphone {}"),
-    ("spl_fast_a", "Fast A-weighted sound level at microphone {}"),
-    ("spl_slow", "Slow sound pressure level at microphone {}"),
-    ("spl_slow_a", "Slow A-weighted sound level at microphone {}"),
-    ("spl_energy_sum", "Time-weighted level of the bodies' energies added at microphone {}"),
-    ("spl_radial", "Time-weighted partial level of the radial motion of rings and cage at microphone {}"),
-    ("spl_axial", "Time-weighted partial level of the axial motion of rings and cage at microphone {}"),
-    ("spl_rotation", "Time-weighted partial level of the tilting of rings and cage at microphone {}"),
-    ("spl_flexure", "Time-weighted partial level of the bending of the rings at microphone {}"),
-)
-#: Appended to the description of every level.
-FLOOR = "; -106 dB: silence, or no metering yet"
-_PLAIN = 9  # of these, what every scene has; the rest need sound.details
-_CONTACTS_ALONE = "stiffness of the present contacts between the rings, friction and centrifugal force held"
-_PARTIAL = tuple(f"spl_{part}" for part in (
-    "inner_ring", "outer_ring", "cage", "balls", "radial", "axial", "rotation", "flexure",
-))  # fmt: skip
+_SMALL = {"display_unit": "um"}
+_BOTH_SIGNS = {"min": -1e7, "max": 1e7}
+_AXIS = "along the axis, +X from nose to rear"
+_DIRECTIONS = (_AXIS, "horizontal", "upwards")
 
 
-def outputs(scene: Scene) -> list[Variable]:
-    """Return the outputs: velocities, microphones, friction torque and heats."""
-    speed: dict[str, Any] = {"display_unit": "mm/s"}
-    table: list[Variable] = []
-    for body, words in _bodies(scene):
-        table += _vector(body, "velocity", "output", f"Velocity of the {words}'s centre", "m/s", **speed)
-    if scene.bearing.cage is not None:
-        table.append(read("cage.speed_ratio", "output", "Speed of the cage over the shaft's", nominal=0.4))
-    for j in range(scene.bearing.ball_count):
-        words = f"Velocity of ball {j + 1}, orbit included,"
-        place = Z.BALLS + Z.PER_BALL * j
-        table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
-    table += microphones(scene, "output")
-    table += _flexure(scene)
-    torque = (
-        "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus "
-        "sign; without inertia, which the drive owns"
-    )
-    mean = (
-        "Friction torque of the last communication step: the shaft's work over the angle turned; mean over "
-        "time where the shaft does not turn or turns back"
-    )
-    table.append(read("friction_torque", "output", torque, "N.m"))
-    table.append(read("friction_torque_mean", "output", mean, "N.m"))
-    for name, words in (("inner_ring", "the inner ring"), ("outer_ring", "the outer ring")):
-        heat = f"Heat to {words}, mean over the last communication step"
-        table.append(read(f"heat.{name}", "output", heat, "W"))
-    oil = "Heat to oil and balls, mean over the last communication step"
-    return [*table, read("heat.oil", "output", oil, "W")]
-
-
-def internals(scene: Scene) -> list[Variable]:
-    """Return the local variables: places, contacts, shares of the friction torque, the solver's counts."""
-    small: dict[str, Any] = {"display_unit": "um"}
-    table: list[Variable] = []
-    for ring in ("inner", "outer"):
-        words = f"Displacement of the {ring} ring's centre"
-        table += _vector(f"{ring}_ring", "displacement", "local", words, "m", **small)
-    for axis, words in (("y", "the horizontal"), ("z", "the upward")):
-        tilt = f"Tilt of the inner ring about {words} axis"
-        table.append(read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
-    table += [*_contacts("inner"), *_contacts("outer"), *_fits(scene)]
-    table += [
-        read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
-        read("stiffness.axial", "local", f"Axial {_CONTACTS_ALONE}", "N/m"),
-        read("stiffness.radial", "local", f"Radial {_CONTACTS_ALONE}", "N/m"),
-        *_cage_whirl(scene),
-        *_torque_shares(scene),
-        read(
-            "energy.residual",
-            "local",
-            "Work in minus dissipation minus change of stored energy, over dissipation once there is any",
-        ),
-        _count("solver.steps", "Internal steps so far"),
-        _count("solver.rejected", "Internal steps refused so far"),
-        _count(
-            "solver.restarts",
-            "How often fidelities rings and response restarted from rest, because no step was possible",
-        ),
-        read(
-            "solver.growth",
-            "local",
-            "Growth of the motion of the rings that grows most by itself, by the linear equations of "
-            "fidelities rings and response at the inputs of the last renewal; 0 if none grows, and in full",
-            "1/s",
-        ),
-        read(
-            "solver.wave_time",
-            "local",
-            "Time in which the fastest wave of races and balls turns by one radian, 1 s at most: internal "
-            "steps are at most 1.6 times as long with fidelity full, and as long with rings",
-            "s",
-            display_unit="us",
-            nominal=2e-5,
-        ),
+def outputs_of(scene: Scene) -> list[Variable]:
+    """Return the outputs: the shaft's, sums over the bearings, then outputs of each bearing."""
+    if scene.assembly.shaft is None:
+        return outputs(scene)
+    single = outputs(one_of(scene))
+    shared = [variable for variable in single if variable.name in SP.OUTPUTS]
+    table = [
+        *(_port(scene) if scene.on_other_shaft else _nose(scene)),
+        *_housing(scene, "output"),
+        *(_sum(scene, one) for one in shared),
     ]
-    return table + microphones(scene, "local")
+    for b in range(_count(scene)):
+        table += [*_forces(scene, b), *_of_bearing(scene, b, single)]
+    return table + _microphone_variables(scene, "output")
 
 
-def read(
-    name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
-) -> Variable:
-    """Output or local variable at its place in ``z``."""
-    place = Z.BEARING_OUTPUTS.index(name) if index is None else index
-    return Variable(
-        name, causality, "continuous", description, unit=unit, array="z", index=place, **usual(unit, more)
+def internals_of(scene: Scene) -> list[Variable]:
+    """Return the local variables: the housing's and the solver's, then variables of each bearing."""
+    if scene.assembly.shaft is None:
+        return internals(scene)
+    single = internals(one_of(scene))
+    own = [variable for variable in single if variable.name in SP.OUTPUTS]
+    table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
+    single = [variable for variable in single if variable not in own]
+    for b in range(_count(scene)):
+        table += _of_bearing(scene, b, single)
+    return [*table, *_microphone_variables(scene, "local"), *_alone(scene)]
+
+
+def first_output(scene: Scene, number: int) -> int:
+    """Return the place in ``z`` where the outputs of a bearing begin, from 0; behind the last, the set's own.
+
+    ``prepare`` lays them out so, each as of a single bearing without sound.
+    """
+    return number * Z.size(scene.bearing.ball_count, 0, 0, scene.flexural_modes)
+
+
+def _count(scene: Scene) -> int:
+    return len(set_of(scene).bearing)
+
+
+def _own(scene: Scene, place: int) -> int:
+    """Place in ``z`` of one of the set's own outputs."""
+    return first_output(scene, _count(scene)) + place
+
+
+def _of_bearing(scene: Scene, number: int, single: Iterable[Variable]) -> list[Variable]:
+    """Return variables of a single bearing as variables of one of the set."""
+    first = first_output(scene, number)
+    return [
+        replace(
+            one,
+            name=f"bearing[{number + 1}].{one.name}",
+            description=f"Bearing {number + 1}: {one.description[0].lower()}{one.description[1:]}",
+            index=first + one.index,
+        )
+        for one in single
+    ]
+
+
+def _shared(scene: Scene, one: Variable) -> Variable:
+    """Return a variable of a single bearing as that of the whole set."""
+    return replace(one, index=_own(scene, SP.OUTPUTS.index(one.name)))
+
+
+def _sum(scene: Scene, one: Variable) -> Variable:
+    """Return the sum of a variable over the bearings, with what shaft and housing add to it."""
+    words = f"{one.description}; sum over the bearings"
+    spindle = set_of(scene)
+    if one.name == "heat.inner_ring" and spindle.shaft.flexible:
+        words += ", with what the bending shaft loses"
+    if one.name == "heat.outer_ring" and spindle.housing.moves:
+        words += ", with what the housing's pedestal loses"
+    return replace(_shared(scene, one), description=words)
+
+
+def _nose(scene: Scene) -> list[Variable]:
+    """Return where the nose is, and its velocity."""
+    table = []
+    for motion, unit, more in (("displacement", "m", _SMALL), ("velocity", "m/s", {"display_unit": "mm/s"})):
+        for (axis, _), words in zip(AXES, _DIRECTIONS, strict=True):
+            name = f"shaft.nose.{motion}.{axis}"
+            place = _own(scene, SP.OUTPUTS.index(name))
+            text = f"{motion.capitalize()} of the shaft's nose {words}"
+            table.append(read(name, "output", text, unit, place, **more))
+        if motion == "displacement":
+            for axis in "yz":
+                name = f"shaft.nose.tilt.{axis}"
+                place = _own(scene, SP.OUTPUTS.index(name))
+                text = f"Tilt of the shaft's nose about +{axis.upper()}"
+                table.append(read(name, "output", text, "rad", place, nominal=1e-4))
+    return table
+
+
+def _stiffness(scene: Scene) -> list[Variable]:
+    """Return what resists the shaft at its nose: contacts alone, friction and centrifugal forces held."""
+    when = (
+        "where the set rested at initialisation"
+        if scene.fidelity.model == "full"
+        else "where the set rested last: computed again when loads, speed or temperatures have changed"
     )
-
-
-def _count(name: str, description: str) -> Variable:
-    """Whole number that only grows."""
-    variable = read(name, "local", description, quantity="", min=0, max=2**31 - 1, nominal=None)
-    return replace(variable, type="Integer", variability="discrete")
-
-
-def _vector(
-    body: str, motion: str, causality: str, words: str, unit: str, first: int | None = None, **more: Any
-) -> list[Variable]:
+    words = (
+        ("axial", "Axial stiffness of the shaft on its contacts at X = 0, other motions held,", "N/m"),
+        ("radial", "Radial stiffness of the shaft on its contacts at X = 0, tilts held,", "N/m"),
+        ("tilt", "Stiffness of the shaft on its contacts against tilts at X = 0,", "N.m/rad"),
+    )
     return [
         read(
-            f"{body}.{motion}.{axis}",
+            f"shaft.stiffness.{name}", "local", f"{text} {when}", unit,
+            _own(scene, SP.OUTPUTS.index(f"shaft.stiffness.{name}")),
+        )
+        for name, text, unit in words
+    ]  # fmt: skip
+
+
+def _port(scene: Scene) -> list[Variable]:
+    """Return force and moment on the rotor at the port, at the communication point and as mean before it."""
+    table = []
+    for end, words in (("", ""), ("_mean", ", mean over the last communication step")):
+        for (axis, _), way in zip(AXES, _DIRECTIONS, strict=True):
+            name = f"port.force{end}.{axis}"
+            text = f"Force of the bearings on the rotor {way}, without inertia and weight of the rings{words}"
+            table.append(read(name, "output", text, "N", _own(scene, SP.OUTPUTS.index(name)), **_BOTH_SIGNS))
+        for axis in "yz":
+            name = f"port.moment{end}.{axis}"
+            text = f"Moment of the bearings on the rotor about +{axis.upper()} at X = 0{words}"
+            place = _own(scene, SP.OUTPUTS.index(name))
+            table.append(read(name, "output", text, "N.m", place, nominal=1.0))
+    return table
+
+
+def _housing(scene: Scene, causality: str) -> list[Variable]:
+    """Return velocity (outputs) or displacement (local) of a housing that moves, at its pedestal's plane."""
+    if not set_of(scene).housing.moves:
+        return []
+    motion, unit, more = ("velocity", "m/s", {"display_unit": "mm/s"})
+    if causality == "local":
+        motion, unit, more = ("displacement", "m", _SMALL)
+    return [
+        read(
+            f"housing.{motion}.{axis}",
             causality,
-            f"{words} {direction}",
+            f"{motion.capitalize()} of the housing in the plane of its pedestal {words}",
             unit,
-            None if first is None else first + k,
+            _own(scene, SP.OUTPUTS.index(f"housing.{motion}.{axis}")),
             **more,
         )
-        for k, (axis, direction) in enumerate(AXES)
+        for (axis, _), words in zip(AXES, _DIRECTIONS, strict=True)
     ]
 
 
-def _bodies(scene: Scene) -> list[tuple[str, str]]:
-    bodies = [("inner_ring", "inner ring"), ("outer_ring", "outer ring"), ("cage", "cage")]
-    return bodies if scene.bearing.cage is not None else bodies[:2]
-
-
-def _contacts(side: str) -> list[Variable]:
-    at_race = f"at the {side} race"
-    angle = f"Mean contact angle {at_race}"
-    margin = f"Angle by which the largest contact ellipse {at_race} ends before the shoulder"
-    pressure: dict[str, Any] = {"display_unit": "GPa", "min": 0.0, "max": 1e12, "nominal": 1e9}
+def _microphone_variables(scene: Scene, causality: str) -> list[Variable]:
+    """Return the variables of the microphones: as for a single bearing, of the sum over the set."""
+    found = microphones(scene, causality, _own(scene, SP.z_mics(_count(scene))))
+    if scene.sound is None or scene.sound.radiator != "housing":
+        return found
+    shown = tuple(f".spl_{part}" for part in ("inner_ring", "cage", "balls"))
     return [
-        read(f"contact.{side}.load_mean", "local", f"Mean load of a ball {at_race}", "N"),
-        read(f"contact.{side}.load_max", "local", f"Largest load of a ball {at_race}", "N"),
-        read(f"contact.{side}.angle_mean", "local", angle, "rad", display_unit="deg"),
-        read(
-            f"contact.{side}.pressure_max", "local", f"Largest contact pressure {at_race}", "Pa", **pressure
-        ),
-        read(f"contact.{side}.spin_to_roll", "local", f"Mean spin over roll of the balls {at_race}"),
-        read(f"contact.{side}.slip", "local", f"Mean sliding over entrainment speed {at_race}", nominal=1e-3),
-        read(f"contact.{side}.shoulder_margin", "local", margin, "rad", display_unit="deg"),
+        replace(one, description=one.description.replace(" at microphone", " of bearing 1 at microphone"))
+        if one.name.endswith(shown)
+        else one
+        for one in found
     ]
 
 
-def _fits(scene: Scene) -> list[Variable]:
-    if scene.fit is None:
-        return []
-    angle = "Contact angle of unloaded balls between the mounted rings; 0: radially tight"
-    table = [read("contact.free_angle", "local", angle, "rad", display_unit="deg")]
-    stress: dict[str, Any] = {"display_unit": "MPa", "nominal": 1e7}
-    for ring, seat, of in (("inner", scene.fit.shaft, "shaft"), ("outer", scene.fit.housing, "housing")):
-        if seat is None:
-            continue
-        tight = f"Interference of the {ring} ring with the {of} on diameter, + tight, negative: a gap"
-        hoop = f"Hoop stress at the bore of the {ring} ring by its fit" + " and rotation" * (ring == "inner")
-        growth = f"Radial growth of the {ring} race by its fit" + " and rotation" * (ring == "inner")
-        table += [
-            read(f"fit.{ring}.interference", "local", tight, "m", display_unit="um", nominal=1e-6),
-            read(f"fit.{ring}.pressure", "local", f"Pressure between {ring} ring and {of}", "Pa", **stress),
-            read(f"fit.{ring}.hoop_stress", "local", hoop, "Pa", **stress),
-            read(f"fit.{ring}.race_growth", "local", growth, "m", display_unit="um", nominal=1e-6),
-        ]
-    return table
+def _alone(scene: Scene) -> list[Variable]:
+    """Return the level of every bearing alone at every microphone.
 
-
-def _cage_whirl(scene: Scene) -> list[Variable]:
-    if scene.bearing.cage is None:
-        return []
-    radius = "Distance of the cage's centre from the inner ring's"
-    return [
-        read("cage.whirl_radius", "local", radius, "m", display_unit="um", min=0.0, nominal=1e-5),
-        read(
-            "cage.whirl_speed",
-            "local",
-            "Angular velocity of the cage's centre about the inner ring's",
-            "rad/s",
-            display_unit="r/min",
-        ),
-    ]
-
-
-def _torque_shares(scene: Scene) -> list[Variable]:
-    shares = [
-        ("contacts", "sliding in the contacts of balls and races"),
-        ("rolling", "rolling resistance"),
-        ("cage", "the cage's pockets and lands"),
-        ("drag", "drag on the balls"),
-    ]
-    how = "power lost there over the shaft speed, 0 at standstill"
-    return [
-        read(
-            f"friction_torque_share.{name}", "local", f"Share of {words} in the friction torque: {how}", "N.m"
-        )
-        for name, words in shares
-        if name != "cage" or scene.bearing.cage is not None
-    ]
-
-
-def _flexure(scene: Scene) -> list[Variable]:
-    """Return the velocities of the rings' bending, in the order of the engine's coordinates.
-
-    A bending of order n moves the groove radially by cosine cos(n theta) + sine sin(n theta), theta from
-    12 o'clock about +X in the frame that does not spin.
+    A housing that radiates moves by what all bearings do to it: there its sound is no bearing's own.
     """
-    flexure = scene.mounted.flexure
-    if flexure is None:
+    if scene.sound is None or scene.sound.radiator == "housing":
         return []
-    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
-    first = Z.flexures(scene.bearing.ball_count, len(scene.microphones), bands)
-    table: list[Variable] = []
-    for ring, orders in (("inner", flexure.inner_ring), ("outer", flexure.outer_ring)):
-        for order in orders:
-            for part in ("cosine", "sine"):
-                words = f"Velocity of the {ring} ring's bending of order {order} at the groove, {part} part"
-                name = f"{ring}_ring.flexure.n{order}.{part}"
-                table.append(
-                    read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
-                )
-    return table
-
-
-def microphones(scene: Scene, causality: str) -> list[Variable]:
-    """Return the variables of each microphone: totals are outputs, partial levels are local."""
-    if scene.sound is None:
-        return []
-    balls, mics = scene.bearing.ball_count, len(scene.microphones)
-    words_of = _MIC_WORDS if scene.sound.details else _MIC_WORDS[:_PLAIN]
-    table = []
-    for k, (name, _) in enumerate(scene.microphones):
-        for i, (label, words) in enumerate(words_of):
-            absent = label == "spl_cage" and scene.bearing.cage is None
-            if absent or (label in _PARTIAL) != (causality == "local"):
-                continue
-            unit = "Pa" if label == "pressure" else "dB"
-            place = Z.mics(balls) + len(Z.MIC_OUTPUTS) * k + i
-            text = words.format(name) + ("" if label == "pressure" else FLOOR)
-            table.append(read(f"mic[{k + 1}].{label}", causality, text, unit, place))
-        if causality == "output" and scene.sound.third_octaves:
-            table += _third_octaves(k, name, Z.bands(balls, mics) + len(Z.BANDS) * k)
-    return table
-
-
-def _third_octaves(mic: int, name: str, first: int) -> list[Variable]:
-    """Return the bands of one microphone, named by their nominal frequency; 31 means 31.5 Hz."""
+    bearings, bands = _count(scene), len(Z.BANDS) if scene.sound.third_octaves else 0
+    first = _own(scene, SP.z_alone(bearings, len(scene.microphones), bands))
     return [
         read(
-            f"mic[{mic + 1}].third_octave[{int(nominal)}]",
-            "output",
-            f"Fast third-octave level around {nominal:g} Hz at microphone {name}{FLOOR}",
+            f"mic[{k + 1}].spl_bearing[{b + 1}]",
+            "local",
+            f"Time-weighted level of bearing {b + 1} alone at microphone {name}{FLOOR}",
             "dB",
-            first + band,
+            first + k * bearings + b,
         )
-        for band, nominal in enumerate(Z.BANDS)
+        for k, (name, _) in enumerate(scene.microphones)
+        for b in range(bearings)
     ]
+
+
+def _forces(scene: Scene, number: int) -> list[Variable]:
+    """Return force and moment of the shaft on one bearing."""
+    first = _own(scene, SP.Z_FORCES + number * SP.Z_FORCE)
+    table = []
+    for place, name in enumerate(SP.BEARING_OUTPUTS):
+        kind, _, axis = name.partition(".")
+        if kind == "force":
+            words = f"force of the shaft on the bearing {_DIRECTIONS['xyz'.index(axis)]}"
+            if axis == "x":
+                words += ": positive where it carries +x"
+            unit, more = "N", dict(_BOTH_SIGNS)
+        else:
+            words = f"moment of the shaft on the bearing about +{axis.upper()} through its ball plane"
+            unit, more = "N.m", {"nominal": 1.0}
+        text = f"Bearing {number + 1}: {words}"
+        table.append(read(f"bearing[{number + 1}].{name}", "output", text, unit, first + place, **more))
+    return table

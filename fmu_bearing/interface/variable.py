@@ -1,7 +1,9 @@
-"""One variable, and defaults for its unit."""
+"""One variable, defaults for its unit, and one at a place of the outputs."""
 
 from dataclasses import dataclass
 from typing import Any
+
+from fmu_bearing.engine.layout import Z
 
 
 @dataclass(frozen=True)
@@ -56,3 +58,13 @@ USUAL = {
 def usual(unit: str, more: dict[str, Any]) -> dict[str, Any]:
     """Keywords of a variable, completed by the defaults for its unit."""
     return {**dict(zip(("quantity", "min", "max", "nominal"), USUAL[unit], strict=True)), **more}
+
+
+def read(
+    name: str, causality: str, description: str, unit: str = "", index: int | None = None, **more: Any
+) -> Variable:
+    """Output or local variable at its place in ``z``."""
+    place = Z.BEARING_OUTPUTS.index(name) if index is None else index
+    return Variable(
+        name, causality, "continuous", description, unit=unit, array="z", index=place, **usual(unit, more)
+    )

@@ -13,7 +13,7 @@ from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
 from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
-from fmu_bearing.interface.table import input_values
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare import bodies, contacts, fits
 from fmu_bearing.prepare.flexure import inner_modes, longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (

@@ -9,7 +9,6 @@ from scipy.linalg import block_diag
 from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
 from fmu_bearing.engine.choices import RESPONSE, RINGS
 from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
-from fmu_bearing.interface.set_inputs import set_inputs
 from fmu_bearing.prepare import bodies
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.assembly import shares
@@ -17,7 +16,7 @@ from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import one_of, set_of
 from fmu_bearing.scene.spindle import SetBearing, Spindle
 
-__all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set", "set_inputs"]
+__all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set"]
 
 _SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
 _TURN, _OUTER = Q.TURN, Q.OUTER
@@ -261,7 +260,6 @@ def _block(
     block[SP.FRONT] = places["S"] + SP.state_size(count, n, mics, bearings[0][P.FIDELITY] == RESPONSE)
     block[SP.SIZE_W] = places["W"] + SP.work_size(count, n)
     block[SP.SIZE_Z] = places["Z"] + SP.output_size(count, mics, bands)
-    block[SP.SIZE_U] = SP.U_BEARINGS + count * SP.U_ROW
     _preload(scene, block)
     body, middle = housing_of(scene)
     housing = si(spindle.housing.model_copy(update={"material": None}))

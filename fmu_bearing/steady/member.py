@@ -51,13 +51,10 @@ class Member:
             self.spring = _behind(run)
         elif row[SP.ROW_SEAT] == SP.PEDESTAL:
             self.spring = 0.0, float(part.s[S.C + C.PEDESTAL_AXIAL])
-        at = SP.U_BEARINGS + number * SP.U_ROW
         self.still = np.zeros(U.SIZE)  # inputs at standstill
         self.still[U.PEDESTAL] = HELD
-        for place, own in ((U.OIL_T, SP.U_OIL), (U.INNER_T, SP.U_INNER), (U.OUTER_T, SP.U_OUTER)):
-            self.still[place] = run.u[at + own]
-        for place, own in ((U.SHAFT_T, SP.U_SHAFT_T), (U.HOUSING_T, SP.U_HOUSING_T)):
-            self.still[place] = run.u[own]
+        self.still[U.SHAFT_T : U.BEARINGS] = run.u[U.SHAFT_T : U.BEARINGS]
+        self.still[U.BEARINGS :] = run.u[U.BEARINGS + number * U.ROW :][: U.ROW]
         self.parameters = part.p.copy()
         self.parameters[P.SET] = 0.0
         self._c, self._out = np.zeros(C.SIZE), np.zeros(EQ.SIZE)
@@ -66,7 +63,7 @@ class Member:
     def warmer(self, rise: float) -> NDArray[np.float64]:
         """Return inputs of standstill at 20 degC with inner ring and shaft warmer by ``rise`` (K)."""
         inputs = self.still.copy()
-        inputs[U.OIL_T : U.HOUSING_T + 1] = REFERENCE_TEMPERATURE
+        inputs[U.SHAFT_T :] = REFERENCE_TEMPERATURE
         inputs[[U.INNER_T, U.SHAFT_T]] += rise
         return inputs
 
@@ -133,4 +130,4 @@ def _behind(run: Instance) -> tuple[float, float]:
     preload = set_of(run.model.scene).preload
     if preload is None or preload.kind != "spring":
         return 0.0, 0.0
-    return float(run.u[SP.U_PRELOAD]), preload.stiffness_N_m or 0.0
+    return float(run.u[U.PRELOAD]), preload.stiffness_N_m or 0.0

@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import SP, P, Q
+from fmu_bearing.engine.layout import P, Q, U
 from fmu_bearing.instance import Instance
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.equations.remarks import remarks
@@ -296,7 +296,7 @@ def statics(
     if not np.all(np.isfinite(load)):
         raise ValueError("force, place and moment must be finite numbers")
     on_nose = placed(1.0, plane).T @ load[:FREEDOMS]
-    return point(scene, {SP.U_NOSE + k: float(part) for k, part in enumerate(on_nose)}).statics
+    return point(scene, {U.NOSE + k: float(part) for k, part in enumerate(on_nose)}).statics
 
 
 def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = silent) -> Point:
@@ -328,7 +328,7 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
         load = np.array([*forces(run)[0, : Q.INNER_BY], 0.0, 0.0])
     else:
         members = [Member(run, k) for k in range(len(matrices))]
-        load = run.u[SP.U_NOSE : SP.U_NOSE + FREEDOMS] + _weight(scene)
+        load = run.u[U.NOSE : U.NOSE + FREEDOMS] + _weight(scene)
         if not shaft.flexible:
             bent = _stiffness(scene, system, matrices, flexible=True)
         free, spacer = lift_off(members), neutral_spacing(scene, members)

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from fmu_bearing import cli, operating_point, read_scene
 from fmu_bearing.cli.base import Refusal
 from fmu_bearing.cli.settings import changed, source_of, start_of
-from fmu_bearing.interface.table import input_values, inputs_of
+from fmu_bearing.interface.inputs import input_values, inputs_of
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.read import with_fidelity

@@ -19,7 +19,7 @@ from fmu_bearing.compiled import call, load
 from fmu_bearing.engine.layout import EQ, MO, SD, C, F, J, Q, S, U, Y, Z
 from fmu_bearing.engine.reference.runge_kutta import ROWS, SIZE
 from fmu_bearing.engine.status import OK
-from fmu_bearing.interface.set_inputs import led_inputs
+from fmu_bearing.interface.inputs import led_inputs
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.scene import read_scene
 

@@ -56,11 +56,11 @@ class Run:
             self.p[getattr(P, name)] = value
         self.p.setflags(write=False)
         mounting = scene.mounting
-        self.u = np.full(U.SIZE, REFERENCE_TEMPERATURE)
+        self.u = np.zeros(U.SIZE)
+        self.u[U.SHAFT_T :] = REFERENCE_TEMPERATURE
         self.u[U.SPEED] = rpm * RPM
         self.u[U.PRELOAD] = mounting.preload_N if preload is None else preload
         self.u[U.PEDESTAL] = mounting.pedestal_stiffness_N_m if pedestal is None else pedestal
-        self.u[[U.LOAD_Y, U.LOAD_Z]] = 0.0
         self.s = np.zeros(S.size(self.p))
         self.w = np.zeros(W.size(self.p))
         self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES])))

@@ -18,7 +18,9 @@ class Bearing:
         self.p = pack(scene, np.empty(0))
         for name, value in parameters.items():
             self.p[getattr(P, name)] = value
-        self.u = np.array([0.0, 0.0, 1e8, 0, 0, *[REFERENCE_TEMPERATURE] * 5])
+        self.u = np.zeros(U.SIZE)
+        self.u[U.PEDESTAL] = 1e8
+        self.u[U.SHAFT_T :] = REFERENCE_TEMPERATURE
         self.c = np.zeros(C.SIZE)
         self.w = np.zeros(W.size(self.p))
         self.out = np.zeros(EQ.SIZE)

@@ -42,11 +42,7 @@ def blocks(run):
 
 def temperatures(run):
     """Places of the temperatures in ``u``."""
-    if isinstance(run, Run):
-        return list(range(U.OIL_T, U.HOUSING_T + 1))
-    rows = [SP.U_BEARINGS + b * SP.U_ROW for b in range(run.count)]
-    own = [row + k for row in rows for k in (SP.U_OIL, SP.U_INNER, SP.U_OUTER)]
-    return [*own, SP.U_SHAFT_T, SP.U_HOUSING_T]
+    return list(range(U.SHAFT_T, run.u.size))
 
 
 def moved(run, steps, warming=0.0, ramp=0.0):

@@ -219,8 +219,8 @@ def test_a_set_comes_to_what_its_start_finds(fidelity):
     run, wanted = (SetRun(given, FIDELITY=FIDELITIES[fidelity]) for _ in range(2))
     run.init()
     for one in (run, wanted):
-        one.u[SP.U_SPEED] *= 1.04
-        one.u[SP.U_SHAFT_T] += 1.0
+        one.u[U.SPEED] *= 1.04
+        one.u[U.SHAFT_T] += 1.0
     wanted.init()
     run.run(0.2, STEP)
     for b in range(2):
@@ -246,9 +246,9 @@ def test_loads_that_go_leave_nothing(fidelity):
     """
     run = SetRun(set_scene("+-", (40.0, 70.0), 200.0, 10e3), FIDELITY=FIDELITIES[fidelity]).init()
     wanted = run.value("friction_torque")
-    run.u[SP.U_NOSE + 1] = 3_000.0
+    run.u[U.NOSE + 1] = 3_000.0
     run.run(0.045, STEP)
-    run.u[SP.U_NOSE + 1] = 0.0
+    run.u[U.NOSE + 1] = 0.0
     run.run(0.015, STEP)
     assert run.value("friction_torque") == pytest.approx(wanted, rel=0.01)
     run.run(0.1, STEP)
@@ -264,7 +264,7 @@ def test_inputs_that_move_within_a_renewal_leave_a_set_as_its_start_finds_it():
 
     def warmed(run, by):
         for b in range(2):
-            run.u[SP.U_BEARINGS + b * SP.U_ROW + SP.U_INNER] += by
+            run.u[U.BEARINGS + b * U.ROW + U.INNER] += by
         return run
 
     fresh = warmed(SetRun(given, FIDELITY=FIDELITIES["rings"]), 1.1)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import SD, SP, L, P, S, U
+from fmu_bearing.engine.layout import SD, L, P, S, U
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.prepare.sound import sound_blocks
@@ -125,7 +125,7 @@ def test_states_restored_within_a_run_up_give_equal_bits(bare, bearings):
 
     def speed_up(begin, spoil=False):
         for k in range(40):
-            run.u[U.SPEED if bearings == 1 else SP.U_SPEED] = (begin + 40 * k) * RPM
+            run.u[U.SPEED] = (begin + 40 * k) * RPM
             if spoil:
                 run.w[:] = np.nan
             run.step(STEP)

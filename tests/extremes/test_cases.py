@@ -137,7 +137,7 @@ def test_inputs_beyond_the_extremes_are_refused_with_the_range(name, value):
         (U.PEDESTAL, -1.0),
         (U.SPEED, 1.2e4),
         (U.OIL_T, 100.0),
-        *((place, bad) for place in range(len(U.INPUTS)) for bad in (np.nan, np.inf)),
+        *((place, bad) for place in range(U.SIZE) for bad in (np.nan, np.inf)),
     ],
 )
 def test_the_engine_refuses_such_inputs_by_itself(place, value):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import statics
-from fmu_bearing.engine.layout import SP, S
+from fmu_bearing.engine.layout import S, U
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
@@ -35,15 +35,15 @@ def forces(run):
 
 def warmed(run, rise):
     """Inner rings and shaft warmer by ``rise`` (K)."""
-    run.u[SP.U_SHAFT_T] = 293.15 + rise
+    run.u[U.SHAFT_T] = 293.15 + rise
     for b in range(run.count):
-        run.u[SP.U_BEARINGS + SP.U_ROW * b + SP.U_INNER] = 293.15 + rise
+        run.u[U.BEARINGS + U.ROW * b + U.INNER] = 293.15 + rise
 
 
 @pytest.mark.parametrize("load", [1e3, 3e3, 6e3])
 def test_thrust_that_unloads_the_rear_bearing_and_is_reversed(load):
     def each(run, k):
-        run.u[SP.U_NOSE] = load if k < 30 else -load
+        run.u[U.NOSE] = load if k < 30 else -load
 
     run = march(SetRun(pair()).init(), 60, each)
     # the last load's mean over a period of the axial mode, some 0.5 ms: within what still vibrates
@@ -103,7 +103,7 @@ def test_without_preload_a_pair_runs_on_what_its_balls_weigh():
 
 def test_run_up_from_rest_and_back_through_it():
     def each(run, k):
-        run.u[SP.U_SPEED] = 1000.0 * np.sin(0.1 * k)
+        run.u[U.SPEED] = 1000.0 * np.sin(0.1 * k)
 
     run = SetRun(pair(), rpm=0.0).init()
     march(run, 63, each)

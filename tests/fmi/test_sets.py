@@ -19,7 +19,7 @@ from fmu_bearing.fmi.description import FLAVOURS
 from fmu_bearing.fmi.package import build
 from fmu_bearing.fmi.terminals import TERMINALS_FILE
 from fmu_bearing.instance import Instance
-from fmu_bearing.interface import set_inputs
+from fmu_bearing.interface import inputs
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 from tests.conftest import EXAMPLES
@@ -236,7 +236,7 @@ def test_flat_names_and_terminals(folders, masters, flavour):
 
 def test_a_refused_step_leaves_the_state_as_it_was(masters, monkeypatch):
     # 0.5 MN m tears the shaft out of its bearings: no step is short enough. It is beyond the range otherwise
-    monkeypatch.setattr(set_inputs, "_OVERLOAD", 1e3)
+    monkeypatch.setattr(inputs, "_OVERLOAD", 1e3)
     texts = []
     for flavour in FLAVOURS:
         one, other = masters(flavour, terminals=True).start(), masters(flavour, terminals=True).start()

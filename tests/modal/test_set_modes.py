@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 
 from fmu_bearing import campbell, modes, statics
-from fmu_bearing.engine.layout import SP, S, Y
+from fmu_bearing.engine.layout import S, U, Y
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.scene import Scene
 from fmu_bearing.steady.impedance import at_rest
@@ -123,10 +123,10 @@ def _decays(pair, way, push, frequency):
     ``way``: 0 axial, 1 horizontal, 2 vertical. By the matrix pencil: y_k = sum c_i e^(s_i k h).
     """
     moved, quiet = SetRun(pair, CAGE=0.0, TOLERANCE=1e-6), SetRun(pair, CAGE=0.0, TOLERANCE=1e-6)
-    moved.u[SP.U_NOSE + way] += push
+    moved.u[U.NOSE + way] += push
     moved.init()
     quiet.init()
-    moved.u[SP.U_NOSE + way] -= push
+    moved.u[U.NOSE + way] -= push
     h = 1.0 / (_SAMPLES * frequency)
     apart = []
     for _ in range(_SAMPLES * _PERIODS):

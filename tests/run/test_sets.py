@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Bearing, read_scene, simulate, statics, sweep, with_fidelity
-from fmu_bearing.engine.layout import SP, P, Z
+from fmu_bearing.engine.layout import SP, P, U, Z
 from fmu_bearing.instance import EngineError
 from fmu_bearing.interface import variables
-from fmu_bearing.interface.set_inputs import set_inputs
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.prepare.sound import sound_blocks
 from fmu_bearing.run.choose import CANDIDATES, choose
@@ -43,7 +43,7 @@ def inputs(found):
 
 
 def test_inputs_are_those_that_the_scene_reads():
-    of_bearings = [f"bearing[{b}].{name}" for b in (1, 2) for name in SP.BEARING_INPUTS]
+    of_bearings = [f"bearing[{b}].{name}" for b in (1, 2) for name in U.BEARING_INPUTS]
     always = [
         "shaft_speed", "nose.force.x", "nose.force.y", "nose.force.z", "nose.moment.y", "nose.moment.z",
         "shaft_temperature", "housing_temperature",
@@ -57,7 +57,7 @@ def test_inputs_are_those_that_the_scene_reads():
 
 def test_starts_of_inputs_are_the_scenes_and_in_range():
     found = scene(load={"force_z_N": -300.0, "position_mm": -40.0}, rpm=9000.0)
-    start = set_inputs(found)
+    start = input_values(found)
     for variable in variables(found, 1e-5):
         if variable.causality == "input":
             assert variable.array == "u" and variable.min <= variable.start <= variable.max
@@ -77,7 +77,7 @@ def test_starts_of_inputs_are_the_scenes_and_in_range():
 def test_places_are_those_of_the_parameters(found):
     model = prepare(found)
     p, block = model.parameters, int(model.parameters[P.SET])
-    assert model.lengths.inputs == len(model.inputs) == p[block + SP.SIZE_U]
+    assert model.lengths.inputs == len(model.inputs) == U.BEARINGS + len(found.bearings()) * U.ROW
     outputs = [(v.index, v.name) for v in model.variables if v.array == "z"]
     assert len(dict(outputs)) == len(outputs)  # no two at one place
     assert max(dict(outputs)) < model.lengths.outputs

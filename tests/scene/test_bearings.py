@@ -5,7 +5,8 @@ import pytest
 
 from fmu_bearing import read_scene
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.interface.table import input_values, variables
+from fmu_bearing.interface import variables
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import one_of, set_of

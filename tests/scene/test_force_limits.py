@@ -3,7 +3,7 @@
 import pytest
 
 from fmu_bearing import SceneError, operating_point, read_scene, verdicts
-from fmu_bearing.interface.table import inputs_of
+from fmu_bearing.interface.inputs import inputs_of
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.own_bearing import Dimensions
 from fmu_bearing.scene.template import new_scene

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fmu_bearing.engine.layout import SP
+from fmu_bearing.engine.layout import SP, U
 from fmu_bearing.engine.status import OK
 from fmu_bearing.scene import Scene
 from tests.spindle.runs import SetRun
@@ -21,8 +21,8 @@ class PortRun(SetRun):
 
     def lead(self, place, rate):
         """Put place and rate (5 each) to the inputs."""
-        self.u[SP.U_PORT : SP.U_PORT + SP.PLANE] = place
-        self.u[SP.U_PORT_RATE : SP.U_PORT_RATE + SP.PLANE] = rate
+        self.u[U.PORT : U.PORT + SP.PLANE] = place
+        self.u[U.PORT_RATE : U.PORT_RATE + SP.PLANE] = rate
         return self
 
     def go(self, place, rate, h):

@@ -4,10 +4,11 @@ import numpy as np
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import SP, P, S, W, Y
+from fmu_bearing.engine.layout import SP, P, S, U, W, Y
 from fmu_bearing.engine.status import OK
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.prepare.spindle import one_of, pack_set, set_inputs
+from fmu_bearing.prepare.spindle import one_of, pack_set
 
 
 class SetRun:
@@ -23,9 +24,9 @@ class SetRun:
             bearings.append(p)
         self.p = pack_set(scene, bearings, shaft)
         self.block = int(self.p[P.SET])
-        self.u = set_inputs(scene)
+        self.u = input_values(scene)
         if rpm is not None:
-            self.u[SP.U_SPEED] = rpm * RPM
+            self.u[U.SPEED] = rpm * RPM
         self.s, self.w = np.zeros(S.size(self.p)), np.zeros(W.size(self.p))
         self.z = np.zeros(int(self.p[self.block + SP.SIZE_Z]))
 

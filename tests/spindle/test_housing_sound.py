@@ -21,9 +21,10 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import MO, SD, SP, P, S, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import variables
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
-from fmu_bearing.prepare.spindle import in_housing, set_inputs
+from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import sound_scene
@@ -123,7 +124,7 @@ def recorded(scene, samples):
     """Accelerations of the housing's middle, shape (samples, 6), per motion sample; levels of its skin."""
     p = pack(scene, *sound_blocks(scene))
     block = int(p[P.SET])
-    u, s, w = set_inputs(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
+    u, s, w = input_values(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
     z = np.zeros(int(p[block + SP.SIZE_Z]))
     first = (
         int(p[block + SP.AT_S]) + SP.S_HEAD + 2 * int(p[block + SP.PADDED_SIZE]) + int(p[block + SP.SHAFT])

@@ -3,7 +3,7 @@
 import pytest
 
 from fmu_bearing import Bearing
-from fmu_bearing.interface.set_inputs import inputs_of_set
+from fmu_bearing.interface.inputs import inputs_of
 from fmu_bearing.scene.read import with_fidelity
 from tests.spindle.sets import scene as set_of
 
@@ -11,7 +11,7 @@ FOUR = ("++--", (40.0, 60.0, 130.0, 150.0))
 
 
 def moments(scene):
-    return [one for one in inputs_of_set(scene) if one.name.startswith("nose.moment")]
+    return [one for one in inputs_of(scene) if one.name.startswith("nose.moment")]
 
 
 @pytest.mark.parametrize("name", ["nose.moment.y", "nose.moment.z"])

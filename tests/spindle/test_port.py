@@ -6,7 +6,7 @@ import pytest
 from fmu_bearing import SceneError, campbell, modes, statics
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import SP, P, S
+from fmu_bearing.engine.layout import SP, P, S, U
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
@@ -26,7 +26,7 @@ def followed(given, duration=1e-3, method="esdirk4"):
     own, led = PortRun(given.replace(changes)).init(), PortRun(as_port(given.replace(changes)))
     led.lead(own.vector(0)[: SP.PLANE], 0.0).init()
     rows = [(forces(own), forces(led))]
-    own.u[SP.U_NOSE + 2] -= 100.0
+    own.u[U.NOSE + 2] -= 100.0
     for _ in range(round(duration / STEP)):
         assert own.step(STEP) == OK
         led.go(own.vector(0)[: SP.PLANE], own.vector(1)[: SP.PLANE], STEP)
@@ -127,7 +127,7 @@ def derivatives(run, h):
     columns, size = [], run.u.size
     for k in range(2 * SP.PLANE):
         change = np.concatenate((run.u, np.zeros(size)))
-        change[size + SP.U_PORT + k] = 1.0
+        change[size + U.PORT + k] = 1.0
         z = np.zeros(run.z.size)
         assert call("derivative", run.p, change, np.tile(run.s, 2), z, np.zeros(run.w.size), h) == OK
         first = int(run.p[run.block + SP.AT_Z]) + SP.Z_PORT
@@ -144,7 +144,7 @@ def differences(run, h, near):
         ends = []
         for sign in (1.0, -1.0):
             run.s[:], run.u[:] = kept, given
-            run.u[SP.U_PORT + k] += sign * far
+            run.u[U.PORT + k] += sign * far
             assert run.step(h) == OK
             ends.append(run.force())
         columns.append((ends[0] - ends[1]) / (2.0 * far))

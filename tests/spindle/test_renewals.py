@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import SP, S, Y
+from fmu_bearing.engine.layout import S, U, Y
 from fmu_bearing.engine.status import OK
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
@@ -107,8 +107,8 @@ def led(**changes):
     run = SetRun(pair(**changes)).init()
     rows = []
     for k in range(40):
-        run.u[SP.U_SPEED] += 2.0
-        run.u[SP.U_NOSE] = 1500.0 * min(1.0, k / 20.0)
+        run.u[U.SPEED] += 2.0
+        run.u[U.NOSE] = 1500.0 * min(1.0, k / 20.0)
         run.run(STEP)
         rows.append([run.y(b)[Y.V0 + i] for b in range(2) for i in range(3)])
     return run, np.array(rows)

@@ -68,7 +68,7 @@ def test_the_unbalance_line_of_a_pair_against_a_dense_solve():
     """Shaft, rings, balls and cages as one system of equations, by NumPy."""
     given = scene("+-", (40.0, 70.0), 500.0, 20e3, changes=WEIGHT, load=LOAD, **SHORT)
     run = SetRun(given.replace({"spindle.shaft.unbalance": HEAVY}), FIDELITY=RESPONSE).init()
-    n, speed = int(run.p[run.block + SP.COUNT]), run.u[SP.U_SPEED]
+    n, speed = int(run.p[run.block + SP.COUNT]), run.u[U.SPEED]
     size = SP.padded_size(n)
 
     def table(place, columns):
@@ -153,7 +153,7 @@ def test_a_warm_shaft_has_the_loads_of_a_start_at_its_temperature():
     jumped.init()
     assert jumped.value("force.x", 0) == pytest.approx(500.0, rel=0.02)
     for run in (jumped, started, reference):
-        for place in (SP.U_SHAFT_T, *(SP.U_BEARINGS + b * SP.U_ROW + SP.U_INNER for b in range(2))):
+        for place in (U.SHAFT_T, *(U.BEARINGS + b * U.ROW + U.INNER for b in range(2))):
             run.u[place] += 8.0
     started.init()
     reference.init()

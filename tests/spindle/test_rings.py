@@ -229,7 +229,7 @@ def test_nothing_but_the_state_is_kept(fidelity):
     for k in range(8):
         kept = dirty.s.copy()
         for run in (clean, dirty):
-            run.u[SP.U_SHAFT_T] = 293.15 + 0.5 * k
+            run.u[U.SHAFT_T] = 293.15 + 0.5 * k
             dirty.w[:] = 1e30 * (k + 1)
             assert run.step(1e-4) == OK
         assert np.array_equal(clean.s, dirty.s)
@@ -247,9 +247,9 @@ def test_preload_grows_with_temperature_as_in_full():
         run = SetRun(given, FIDELITY=fidelity).init()
         rows = []
         for k in range(1, 9):
-            run.u[SP.U_SHAFT_T] = 293.15 + k
+            run.u[U.SHAFT_T] = 293.15 + k
             for b in range(2):
-                run.u[SP.U_BEARINGS + b * SP.U_ROW + SP.U_INNER] = 293.15 + k
+                run.u[U.BEARINGS + b * U.ROW + U.INNER] = 293.15 + k
             assert run.step(1e-3) == OK
             rows.append(run.value("force.x", 0))
         found.append(rows)
@@ -263,11 +263,11 @@ def test_loads_find_the_held_points_anew():
     """After an axial load its bearings hold the heats of a run that starts under it."""
     given = scene("+-", (40.0, 70.0), 500.0, 10e3)
     jumped, started = (SetRun(given, FIDELITY=RINGS) for _ in range(2))
-    started.u[SP.U_NOSE] = 200.0
+    started.u[U.NOSE] = 200.0
     started.init()
     jumped.init()
     before = jumped.value("heat.inner_ring")
-    jumped.u[SP.U_NOSE] = 200.0
+    jumped.u[U.NOSE] = 200.0
     jumped.run(10e-3, 1e-3)  # eight pieces
     started.run(10e-3, 1e-3)
     for name in ("heat.inner_ring", "heat.oil", "friction_torque"):

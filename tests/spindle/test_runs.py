@@ -155,7 +155,7 @@ def test_a_set_that_speeds_up_runs_as_in_the_oracle():
     run = SetRun(given, REDUCTION=0.0).init()
     system = spindle_of(given, offsets=offsets(run), speed_rate=3e4, REDUCTION=0.0)
     state = place_from(system, [run.y(b) for b in range(2)], carriers(run, system))
-    run.u[SP.U_SPEED] += 3.0
+    run.u[U.SPEED] += 3.0
     run.run(1e-4)
     end = oracle.runge_kutta(system.rate, state, 1e-4, ORACLE_STEP)
     largest = max(np.abs(run.y(b)[Y.V0 : Y.V0 + 3]).max() for b in range(2))

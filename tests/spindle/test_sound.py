@@ -10,9 +10,9 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import SD, SP, P, S, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import variables
+from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.prepare.spindle import set_inputs
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Mounting, Rotor
@@ -68,7 +68,7 @@ class MicrophoneSignals:
         if change is not None:
             change(p)
         block = int(p[P.SET])
-        u, s, w = set_inputs(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
+        u, s, w = input_values(scene), np.zeros(S.size(p)), np.zeros(W.size(p))
         z = np.zeros(int(p[block + SP.SIZE_Z]))
         self.z, self.mics, self.bands = z, int(p[P.MICS]), int(p[P.BANDS])
         self.at = int(p[block + SP.AT_Z])

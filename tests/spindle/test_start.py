@@ -8,7 +8,7 @@ import pytest
 from fmu_bearing import read_scene, statics
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.engine.layout import SP, F, P, Q, S
+from fmu_bearing.engine.layout import SP, F, P, Q, S, U
 from fmu_bearing.engine.spindle.rest import start_vector
 from fmu_bearing.engine.status import NO_START, OK, OTHER_FIDELITY, TOO_SOFT
 from fmu_bearing.engine.steady.point import REST
@@ -43,9 +43,9 @@ def test_vectors_of_the_start_do_not_overlap(seat):
 @pytest.mark.parametrize("fidelity", range(3), ids=FIDELITIES)
 def test_a_load_the_way_that_nothing_holds_is_refused_at_the_start(fidelity):
     run = SetRun(scene(**ONE_WAY), FIDELITY=fidelity)
-    run.u[SP.U_NOSE] = -500.0
+    run.u[U.NOSE] = -500.0
     assert run.try_init() == NO_START
-    run.u[SP.U_NOSE] = 500.0
+    run.u[U.NOSE] = 500.0
     assert run.try_init() == OK
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from fmu_bearing import statics
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import SP, P, Q, S, Y
+from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.prepare.spindle import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.engine.condensed import FIDELITIES
@@ -57,7 +57,7 @@ def test_the_stiffness_follows_the_preload():
         run = SetRun(given, FIDELITY=FIDELITIES[fidelity]).init()
         before = run.value("shaft.stiffness.axial")
         for b in range(2):
-            run.u[SP.U_BEARINGS + b * SP.U_ROW + SP.U_INNER] += 10.0
+            run.u[U.BEARINGS + b * U.ROW + U.INNER] += 10.0
         run.run(0.1 if fidelity == "response" else 1e-3, 1e-3)
         warm = SetRun(given, FIDELITY=FIDELITIES[fidelity])
         warm.u[:] = run.u

@@ -7,13 +7,14 @@ read again. Arguments: see `spindle.members`.
 
 from fmu_bearing.engine.choices import FULL, RESPONSE
 from fmu_bearing.engine.fidelities.full.vectors import copy_rows
-from fmu_bearing.engine.fidelities.response.exchange import back_in_use, copy, front, inputs
+from fmu_bearing.engine.fidelities.response.exchange import back_in_use, copy, front
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, SD, SP, STRIDE, A, J, L, P, S
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import inputs
 
 
 @kernel

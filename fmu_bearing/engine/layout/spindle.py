@@ -1,4 +1,4 @@
-"""SP: a set of bearings on one shaft: its block in ``p``, its inputs, state, outputs and work space.
+"""SP: a set of bearings on one shaft: its block in ``p``, its state, outputs and work space.
 
 The arrays of a set hold the arrays of its bearings one after the other, each as of a single bearing, then the
 set's own part: in ``p`` its block, at ``p[P.SET]``; in ``s``, ``w`` and ``z`` at places that the block holds
@@ -36,7 +36,6 @@ AT_Z = _at()
 FRONT = _at()  # lengths of s, w, z with all bearings; of s: see the same place in s.py
 SIZE_W = _at()
 SIZE_Z = _at()
-SIZE_U = _at()
 # tables, at places counted from the block's begin; matrices by padded columns
 AT_ROWS = _at()  # ROW numbers per bearing
 AT_MASS = _at()  # n x n, without rings that are driven
@@ -89,26 +88,6 @@ ROW_AT_T = _row()  # their motion by columns of LANES
 ROW_COLUMNS = _row()  # how many of these are not zero,
 ROW_AT_COLUMNS = _row()  # and which
 ROW = _row.next
-
-# --- inputs -----------------------------------------------------------------------------------------
-INPUTS = (
-    "shaft_speed", "nose.force.x", "nose.force.y", "nose.force.z", "nose.moment.y", "nose.moment.z",
-    "preload", "shaft_temperature", "housing_temperature", "pedestal_stiffness", "port.displacement.x",
-    "port.displacement.y", "port.displacement.z", "port.tilt.y", "port.tilt.z", "port.velocity.x",
-    "port.velocity.y", "port.velocity.z", "port.tilt_rate.y", "port.tilt_rate.z",
-)  # fmt: skip
-BEARING_INPUTS = ("oil_temperature", "inner_ring_temperature", "outer_ring_temperature")
-U_SPEED = INPUTS.index("shaft_speed")  # rad/s
-U_NOSE = INPUTS.index("nose.force.x")  # N, three, then moments about y and z (N m)
-U_PRELOAD = INPUTS.index("preload")  # N: of springs
-U_SHAFT_T = INPUTS.index("shaft_temperature")  # K
-U_HOUSING_T = INPUTS.index("housing_temperature")  # K
-U_PEDESTAL = INPUTS.index("pedestal_stiffness")  # N/m
-U_PORT = INPUTS.index("port.displacement.x")  # m, rad: where another model puts the shaft
-U_PORT_RATE = INPUTS.index("port.velocity.x")  # m/s, rad/s
-U_BEARINGS = len(INPUTS)  # per bearing BEARING_INPUTS
-U_ROW = len(BEARING_INPUTS)
-U_OIL, U_INNER, U_OUTER = range(U_ROW)
 
 # --- outputs ----------------------------------------------------------------------------------------
 OUTPUTS = (
@@ -278,7 +257,8 @@ def has_shaft(p):
 
 def inputs(p):
     """Length of ``u`` for the parameters ``p``."""
-    return int(p[int(p[_P.SET]) + SIZE_U]) if has_shaft(p) else _U.SIZE
+    count = int(p[int(p[_P.SET]) + BEARINGS]) if has_shaft(p) else 1
+    return _U.BEARINGS + count * _U.ROW
 
 
 def padded_size(count):

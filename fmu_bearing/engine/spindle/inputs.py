@@ -13,28 +13,30 @@ from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import has_housing, hold_load
 
 _STILL = 1e-15  # m
-_LARGEST = 1e15  # of any input, in its unit
 _PEDESTAL = 1e8  # N/m: of a ring that is held, so read by nothing
 
 
 @kernel
+def inputs(p):
+    """Return how many inputs there are."""
+    return U.BEARINGS + members.count(p) * U.ROW
+
+
+@kernel
 def bearing_inputs(p, u, b, out):
-    """Put the ``U.SIZE`` inputs of bearing ``b`` as a single one to ``out``; shaft and spacers load it."""
+    """Put the ``U.SIZE`` inputs of bearing ``b`` as a single one to ``out``."""
+    for i in range(U.BEARINGS):
+        out[i] = u[i]
+    for i in range(U.ROW):
+        out[U.BEARINGS + i] = u[U.BEARINGS + b * U.ROW + i]
     if not members.has_shaft(p):
-        for i in range(U.SIZE):
-            out[i] = u[i]
         return
-    at = SP.U_BEARINGS + b * SP.U_ROW
-    out[U.SPEED] = u[SP.U_SPEED]
+    # shaft and spacers load it
     out[U.PRELOAD] = 0.0
-    out[U.PEDESTAL] = u[SP.U_PEDESTAL] if p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL else _PEDESTAL
-    out[U.LOAD_Y] = 0.0
-    out[U.LOAD_Z] = 0.0
-    out[U.OIL_T] = u[at + SP.U_OIL]
-    out[U.INNER_T] = u[at + SP.U_INNER]
-    out[U.OUTER_T] = u[at + SP.U_OUTER]
-    out[U.SHAFT_T] = u[SP.U_SHAFT_T]
-    out[U.HOUSING_T] = u[SP.U_HOUSING_T]
+    for i in range(SP.PLANE):
+        out[U.NOSE + i] = 0.0
+    if p[members.row(p, b) + SP.ROW_SEAT] != SP.PEDESTAL:
+        out[U.PEDESTAL] = _PEDESTAL
 
 
 @kernel
@@ -65,8 +67,8 @@ def offset_change(p, u, b):
         return 0.0
     block = int(p[P.SET])
     r = members.row(p, b)
-    shaft = p[block + SP.SHAFT_EXPANSION] * (u[SP.U_SHAFT_T] - REFERENCE_TEMPERATURE)
-    housing = p[block + SP.HOUSING_EXPANSION] * (u[SP.U_HOUSING_T] - REFERENCE_TEMPERATURE)
+    shaft = p[block + SP.SHAFT_EXPANSION] * (u[U.SHAFT_T] - REFERENCE_TEMPERATURE)
+    housing = p[block + SP.HOUSING_EXPANSION] * (u[U.HOUSING_T] - REFERENCE_TEMPERATURE)
     return p[r + SP.ROW_SIGN] * p[r + SP.ROW_POSITION] * (shaft - housing)
 
 
@@ -75,12 +77,12 @@ def loads_differ(p, u, own):
     """Whether loads on the nose, force of springs or the housing's pedestal differ from the state's."""
     if not members.has_shaft(p):
         return False
-    if own[SP.SPRING] != u[SP.U_PRELOAD]:
+    if own[SP.SPRING] != u[U.PRELOAD]:
         return True
     for i in range(SP.PLANE):
-        if own[SP.NOSE + i] != u[SP.U_NOSE + i]:
+        if own[SP.NOSE + i] != u[U.NOSE + i]:
             return True
-    return has_housing(p) and own[SP.FEET + Q.Y] != u[SP.U_PEDESTAL]
+    return has_housing(p) and own[SP.FEET + Q.Y] != u[U.PEDESTAL]
 
 
 @kernel
@@ -89,13 +91,13 @@ def take_loads(p, u, own):
     if not members.has_shaft(p):
         return
     block = int(p[P.SET])
-    own[SP.SPRING] = u[SP.U_PRELOAD]
+    own[SP.SPRING] = u[U.PRELOAD]
     for i in range(SP.PLANE):
-        own[SP.NOSE + i] = u[SP.U_NOSE + i]
+        own[SP.NOSE + i] = u[U.NOSE + i]
     hold_load(p, own)
     if not has_housing(p):
         return
-    radial = u[SP.U_PEDESTAL]
+    radial = u[U.PEDESTAL]
     for i in range(SP.HOUSING):
         stiffness = radial
         inertia = p[block + SP.HOUSING_MASS]
@@ -106,16 +108,6 @@ def take_loads(p, u, own):
             inertia = p[block + (SP.HOUSING_POLAR if i == Q.TURN else SP.HOUSING_TRANSVERSE)]
         own[SP.FEET + i] = stiffness
         own[SP.FEET_DAMPING + i] = 2.0 * p[block + SP.PEDESTAL_ZETA] * math.sqrt(stiffness * inertia)
-
-
-@kernel
-def set_inputs_usable(p, u):
-    """Whether every input of a set but speed and temperatures of bearings is finite and in range."""
-    block = int(p[P.SET])
-    for i in range(int(p[block + SP.SIZE_U])):
-        if not (abs(u[i]) < _LARGEST):
-            return False
-    return u[SP.U_PEDESTAL] > 0.0 and u[SP.U_SHAFT_T] > 0.0 and u[SP.U_HOUSING_T] > 0.0
 
 
 @kernel

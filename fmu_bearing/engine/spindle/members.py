@@ -5,7 +5,7 @@ SI units. A vector is given as an array and the place of its first number: ``x[a
 
 ===================  =====================================================================================
 ``p``                parameters of all bearings, then the set's block at ``p[P.SET]``; of one: ``pb``
-``u``                inputs: ``SP.INPUTS``, then ``SP.BEARING_INPUTS`` of each bearing
+``u``                inputs: ``U.INPUTS``, then ``U.BEARING_INPUTS`` of each bearing
 ``s``                states of all bearings, then the set's own; of one: ``sb``
 ``w``                work spaces of all bearings, then the set's own; of one: ``wb``
 ``z``                outputs of all bearings, then the set's own; of one: ``zb``

@@ -7,7 +7,7 @@ the force at the port has neither. Arguments: see `members`.
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, F, P, Q, S, W, Y
+from fmu_bearing.engine.layout import SP, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import weighs
 
@@ -26,8 +26,8 @@ def take_motion(p, u, s, own, h):
     for i in range(SP.PLANE):
         place = own[SP.S_HEAD + i]
         rate = own[SP.S_HEAD + lanes + i]
-        to_rate = u[SP.U_PORT_RATE + i]
-        mean = (u[SP.U_PORT + i] - place) / h
+        to_rate = u[U.PORT_RATE + i]
+        mean = (u[U.PORT + i] - place) / h
         own[SP.PORT_PLACE + i] = place
         own[SP.PORT_RATE + i] = rate
         own[SP.PORT_ACCELERATION + i] = (6.0 * mean - 4.0 * rate - 2.0 * to_rate) / h
@@ -40,10 +40,10 @@ def begin_motion(p, u, own, t):
     lanes = members.padded_size(p)
     own[SP.PORT_BEGIN] = t
     for i in range(SP.PLANE):
-        own[SP.S_HEAD + i] = u[SP.U_PORT + i]
-        own[SP.S_HEAD + lanes + i] = u[SP.U_PORT_RATE + i]
-        own[SP.PORT_PLACE + i] = u[SP.U_PORT + i]
-        own[SP.PORT_RATE + i] = u[SP.U_PORT_RATE + i]
+        own[SP.S_HEAD + i] = u[U.PORT + i]
+        own[SP.S_HEAD + lanes + i] = u[U.PORT_RATE + i]
+        own[SP.PORT_PLACE + i] = u[U.PORT + i]
+        own[SP.PORT_RATE + i] = u[U.PORT_RATE + i]
         own[SP.PORT_ACCELERATION + i] = 0.0
         own[SP.PORT_JERK + i] = 0.0
 

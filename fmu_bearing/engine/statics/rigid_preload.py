@@ -33,11 +33,8 @@ def static_place(p, u, w):
     for i in range(U.SIZE):
         still[i] = u[i]
     still[U.SPEED] = 0.0
-    still[U.OIL_T] = REFERENCE_TEMPERATURE
-    still[U.INNER_T] = REFERENCE_TEMPERATURE
-    still[U.OUTER_T] = REFERENCE_TEMPERATURE
-    still[U.SHAFT_T] = REFERENCE_TEMPERATURE
-    still[U.HOUSING_T] = REFERENCE_TEMPERATURE
+    for i in range(U.SHAFT_T, U.SIZE):
+        still[i] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
     unmount(p, c)
     c[C.PRELOAD] = max(c[C.PRELOAD], _TOUCHING)

@@ -21,7 +21,7 @@ from fmu_bearing.engine.layout import P, S, U
 from fmu_bearing.fmi.description import LOG_CATEGORIES
 from fmu_bearing.fmi.resources import fingerprint
 from fmu_bearing.interface import Variable
-from fmu_bearing.interface.set_inputs import led_inputs
+from fmu_bearing.interface.inputs import led_inputs
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model

@@ -19,7 +19,7 @@ from functools import lru_cache
 import numpy as np
 
 from fmu_bearing.arrays import EngineError
-from fmu_bearing.interface.table import inputs_of
+from fmu_bearing.interface.inputs import inputs_of
 from fmu_bearing.modal.campbell.diagram import can_move, is_of_rings
 from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
 from fmu_bearing.modal.equations.beside_full import BesideFull, beside_full

@@ -71,7 +71,7 @@ def beside_full(scene: Scene, model: str, inputs: Mapping[int, float] | None = N
         Where there is no equilibrium, or a run has no step to go on with.
     """
     full, quick = (_begun(scene, one, inputs or {}) for one in ("full", model))
-    speed = abs(float(full.u[SP.U_SPEED if SP.has_shaft(full.p) else U.SPEED]))
+    speed = abs(float(full.u[U.SPEED]))
     turns = _TURNS * _TURN / (_ORBIT * speed) if speed > 0.0 else 0.0
     count = math.ceil(min(max(turns, _SHORTEST), _LONGEST) / _SAMPLE)
     play, moved = _followed(full, count)

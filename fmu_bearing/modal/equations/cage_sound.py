@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.interface.table import outputs_of
+from fmu_bearing.interface.outputs import outputs_of
 from fmu_bearing.prepare.sound import silenced, sound_blocks
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity

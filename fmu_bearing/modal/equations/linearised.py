@@ -136,8 +136,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
     scene : Scene
         Its cage, imperfections and sound are left out, and its fidelity counts as full.
     inputs : dict, optional
-        Values by their places in the engine's ``u`` (``layout.U``, of a set ``SP.INPUTS``) in place of the
-        scene's.
+        Values by their places in the engine's ``u`` (``layout.U``) in place of the scene's.
     friction : bool, optional
         False: contacts without traction.
 
@@ -157,7 +156,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
         run.init()
     except EngineError as refusal:
         raise EngineError(f"{scene.name}: {refusal}") from None
-    speed = float(run.u[U.SPEED])  # the first input of a set, too
+    speed = float(run.u[U.SPEED])
     shaft = matrices(run, speed)
     alone = [bearing_of(run, row, speed) for row in rows]
     # without friction nothing decides how fast balls spin
@@ -170,10 +169,9 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
         *[np.diag(one.coordinates.masses[numbers]) for one, numbers in zip(bearings, own, strict=True)],
         np.zeros_like(shaft.mass), shaft.total,
     )  # fmt: skip
-    pedestal = float(run.u[SP.U_PEDESTAL if SP.has_shaft(run.p) else U.PEDESTAL])
     return Linearised(
         bearings, shaft, own, phases.mean(axis=0), phases, masses, speed, steady,
-        (_on_pedestal(run, rows, alone, shaft), pedestal),
+        (_on_pedestal(run, rows, alone, shaft), float(run.u[U.PEDESTAL])),
     )  # fmt: skip
 
 

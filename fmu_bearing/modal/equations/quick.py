@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.fidelities.condensed.families import family_size, member, side
-from fmu_bearing.engine.layout import SP, L, S
+from fmu_bearing.engine.layout import SP, L, S, U
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of
 from fmu_bearing.scene.read import Scene, with_fidelity
@@ -53,7 +53,7 @@ def operator_matrix(run: Arrays) -> NDArray[np.float64]:
     """Return A of an initialised model of fidelity `rings` or `response`, see `quick_operator`."""
     if not SP.has_shaft(run.p):
         return _assembled([run.s[S.CONDENSED :][: L.SIZE]], [np.eye(L.N)], [np.ones(L.N)], None)
-    shaft = matrices(run, float(run.u[SP.U_SPEED]))
+    shaft = matrices(run, float(run.u[U.SPEED]))
     blocks, motions, inertia = [], [], []
     for row in rows_of(run.p):
         blocks.append(run.s[int(row[SP.ROW_S]) :][S.CONDENSED :][: L.SIZE])

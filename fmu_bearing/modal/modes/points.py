@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from fmu_bearing.instance import check, number
+from fmu_bearing.interface.inputs import inputs_of
 from fmu_bearing.interface.names import known
-from fmu_bearing.interface.table import inputs_of
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.solve import solved
@@ -52,7 +52,7 @@ def at_point(scene: Scene, inputs: dict[int, float], friction: bool = True) -> M
 
 
 def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
-    """Return inputs by their places in ``layout.U``, of a set in ``SP.INPUTS``.
+    """Return inputs by their places in ``layout.U``.
 
     Raises
     ------

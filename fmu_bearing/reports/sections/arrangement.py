@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from fmu_bearing.engine.layout import SP
+from fmu_bearing.engine.layout import SP, U
 from fmu_bearing.instance import EngineError
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
@@ -101,10 +101,10 @@ def axial(subject: Subject) -> Section:
     low, high = min(0.0, *reach), max(0.0, *reach)
     loads, shares, places = [], [], []
     signs = np.array([one.sign for one in found.bearings])
-    alone = dict.fromkeys(range(SP.U_NOSE, SP.U_NOSE + SP.PLANE), 0.0)
+    alone = dict.fromkeys(range(U.NOSE, U.NOSE + SP.PLANE), 0.0)
     for load in np.linspace(low, high, _STEPS):
         try:
-            run = started(found.scene, alone | {SP.U_NOSE: float(load)})
+            run = started(found.scene, alone | {U.NOSE: float(load)})
         except EngineError:
             continue
         loads.append(load)

@@ -64,11 +64,11 @@ def inputs_differ(p, u, s, w, h):
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
-        bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[SP.U_SPEED]), w)
+        bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[U.SPEED]), w)
         if p[P.FITS] != 0.0:
             given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
             fresh = wb[W.CONDITIONS : W.CONDITIONS + C.SIZE]
-            ramp(members.parameters(p, b), given, u[SP.U_SPEED], sb[S.C : S.C + C.SIZE], fresh, h)
+            ramp(members.parameters(p, b), given, u[U.SPEED], sb[S.C : S.C + C.SIZE], fresh, h)
         for i in range(C.USED):
             if wb[W.CONDITIONS + i] != sb[S.C + i]:
                 changed = True
@@ -81,7 +81,7 @@ def inputs_differ(p, u, s, w, h):
 def take_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; what a jump of them does to stored energy counts as work."""
     own = members.set_state(p, s)
-    rate = (u[SP.U_SPEED] - s[S.SPEED]) / h
+    rate = (u[U.SPEED] - s[S.SPEED]) / h
     changed = inputs_differ(p, u, s, w, h)
     if has_port(p):
         take_motion(p, u, s, own, h)
@@ -286,7 +286,7 @@ def march(p, u, s, w, h):
         return TOO_SOFT
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     begin = s[S.TIME]
     end = begin + h
     longest = longest_step(p, s, speed)

@@ -2,8 +2,9 @@
 
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, P, Q
+from fmu_bearing.engine.layout import SP, P, Q, U
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import inputs
 from fmu_bearing.engine.spindle.port import has_port
 from fmu_bearing.engine.status import BAD_INPUT, OK
 
@@ -25,22 +26,21 @@ def port_derivative(p, u, s, z, w, h):
     ``u``: inputs, then their change; ``s``: state, then room for a copy; both are lost. The step is made
     twice, with the change to either side. Status code; ``z`` is left as it is where other inputs change.
     """
-    block = int(p[P.SET])
     if not has_port(p):
         return BAD_INPUT
-    n = int(p[block + SP.SIZE_U])
+    n = inputs(p)
     size = 0.0
     for i in range(n):
-        if i >= SP.U_PORT and i < SP.U_PORT + 2 * SP.PLANE:
-            of_rates = i >= SP.U_PORT_RATE
+        if i >= U.PORT and i < U.PORT + 2 * SP.PLANE:
+            of_rates = i >= U.PORT_RATE
             if of_rates and h == 0.0:
                 u[n + i] = 0.0
-            turns = (i - SP.U_PORT) % SP.PLANE >= Q.INNER_BY
+            turns = (i - U.PORT) % SP.PLANE >= Q.INNER_BY
             moved = (_ARM if turns else 1.0) * (0.5 * h if of_rates else 1.0) * u[n + i]
             size = max(size, abs(moved))
         elif u[n + i] != 0.0:
             return OK
-    to = int(p[block + SP.AT_Z]) + SP.Z_PORT
+    to = int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_PORT
     for i in range(SP.PLANE):
         z[to + i] = 0.0
     if size == 0.0:
@@ -57,7 +57,7 @@ def port_derivative(p, u, s, z, w, h):
         mine = s[half:] if k == 0 else s[:half]
         for i in range(half if k == 0 else 0):
             mine[i] = s[i]
-        for i in range(SP.U_PORT, SP.U_PORT + 2 * SP.PLANE):
+        for i in range(U.PORT, U.PORT + 2 * SP.PLANE):
             u[i] += side * (1.0 + k) * scale * u[n + i]
         if status == OK:
             status = march(p, u[:n], mine, w, length)

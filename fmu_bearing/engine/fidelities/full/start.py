@@ -152,11 +152,8 @@ def cold_place(p, u, b, load, w):
     found = wb[W.STILL_FOUND : W.STILL_END]
     bearing_inputs(p, u, b, still)
     still[U.SPEED] = 0.0
-    still[U.OIL_T] = REFERENCE_TEMPERATURE
-    still[U.INNER_T] = REFERENCE_TEMPERATURE
-    still[U.OUTER_T] = REFERENCE_TEMPERATURE
-    still[U.SHAFT_T] = REFERENCE_TEMPERATURE
-    still[U.HOUSING_T] = REFERENCE_TEMPERATURE
+    for i in range(U.SHAFT_T, U.SIZE):
+        still[i] = REFERENCE_TEMPERATURE
     conditions(pb, still, 0.0, c)
     unmount(pb, c)
     c[C.PRELOAD] = max(load, TOUCHING)
@@ -175,14 +172,14 @@ def preload_set(p, u, s, w):
     free.
     """
     own = members.set_state(p, s)
-    asked = u[SP.U_PRELOAD]
+    asked = u[U.PRELOAD]
     if p[int(p[P.SET]) + SP.PRELOAD_KIND] == SP.TOUCHING:
         asked = 0.0
     for b in range(members.count(p)):
         r = members.row(p, b)
         load = p[r + SP.ROW_SHARE] * asked
         if p[int(p[P.SET]) + SP.ONE_WAY] != 0.0:
-            load = abs(u[SP.U_NOSE]) / members.count(p)
+            load = abs(u[U.NOSE]) / members.count(p)
         place, status = cold_place(p, u, b, load, w)
         if status != OK:
             return status
@@ -245,7 +242,7 @@ def rest_together(p, u, s, w, speed, t):
     z = start_vector(p, SP.UNKNOWNS)
     if has_port(p):
         for i in range(SP.PLANE):
-            ws[z + i] = u[SP.U_PORT + i]
+            ws[z + i] = u[U.PORT + i]
     status = rest_steadily(p, s, w, speed, p[P.FIDELITY] == FULL)
     if status != OK:
         return status
@@ -351,7 +348,7 @@ def start(p, u, s, w, t):
     ws = members.set_work(p, w)
     for i in range(ws.size):
         ws[i] = 0.0
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     spread_choices(p)
     for b in range(members.count(p)):
         bearing_conditions(p, u, b, speed, w)

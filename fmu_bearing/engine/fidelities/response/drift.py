@@ -14,13 +14,13 @@ heats go along and which moves lines little.
 
 import math
 
-from fmu_bearing.engine.fidelities.response.exchange import back_of, front, inputs, inputs_of
+from fmu_bearing.engine.fidelities.response.exchange import back_of, front, inputs_of
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import DR, SP, C, L, S, W
+from fmu_bearing.engine.layout import DR, SP, C, L, S, U, W
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.inputs import offset_change
+from fmu_bearing.engine.spindle.inputs import inputs, offset_change
 
 _RELATIVE = 1e-3  # of loads and pedestal
 _VISCOSITY = 5e-3
@@ -111,7 +111,7 @@ def note_away(p, u, s, w, b):
         offset += own[members.per_bearing(p, b) + SP.OFFSET_COLD]
     now = drift_of(p, s)[bearing_of(b) + DR.NOW :]
     for k in range(DR.COMPONENTS):
-        now[k] = component(p, own, lv, b, fresh, u[SP.U_SPEED], offset, k)
+        now[k] = component(p, own, lv, b, fresh, u[U.SPEED], offset, k)
 
 
 @kernel
@@ -241,7 +241,7 @@ def aim_inputs(p, u, s, given):
     for i in range(inputs(p)):
         moved = u[i] + ahead * dr[change + i]
         # never to the other side of zero, nor far towards it
-        if i != SP.U_SPEED and moved * u[i] > 0.5 * u[i] * u[i]:
+        if i != U.SPEED and moved * u[i] > 0.5 * u[i] * u[i]:
             given[i] = moved
 
 

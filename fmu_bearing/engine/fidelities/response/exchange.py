@@ -14,16 +14,11 @@ from fmu_bearing.engine.fidelities.response.bearing import angles_at, sum_lines
 from fmu_bearing.engine.fidelities.response.coupled_lines import sum_set_lines
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, L, P, S, T, U
+from fmu_bearing.engine.layout import SP, L, P, S, T
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import inputs
 
 BLEND = 4e-3  # s
-
-
-@kernel
-def inputs(p):
-    """Return how many inputs there are."""
-    return int(p[int(p[P.SET]) + SP.SIZE_U]) if members.has_shaft(p) else U.SIZE
 
 
 @kernel

@@ -25,7 +25,7 @@ from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_line
 from fmu_bearing.engine.fidelities.rings import equations, growth, held
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T
+from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T, U
 from fmu_bearing.engine.readout.contacts import knows_balls
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
@@ -138,7 +138,7 @@ def start_response(p, u, s, w, t):
     if status != OK:
         return status
     own = members.set_state(p, s)
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     begin_at_start(p, s, w, speed)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
@@ -204,7 +204,7 @@ def sound_on_the_way(p, s, w, h, speed, near):
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     own = members.set_state(p, s)
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     near = True
     for b in range(members.count(p)):
         sb = members.state(p, s, b)

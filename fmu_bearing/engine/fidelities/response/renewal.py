@@ -19,7 +19,6 @@ from fmu_bearing.engine.fidelities.response.exchange import (
     end_blend,
     exchange_lines,
     front,
-    inputs,
     inputs_of,
     share_in_use,
 )
@@ -36,10 +35,11 @@ from fmu_bearing.engine.fidelities.response.pieces import (
 from fmu_bearing.engine.fidelities.response.sound import from_lines
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SD, SP, L, S
+from fmu_bearing.engine.layout import SD, SP, L, S, U
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.inputs import inputs
 from fmu_bearing.engine.status import OK
 
 _GUESS = 8.0  # pieces of the first renewal
@@ -97,13 +97,13 @@ def begin(p, u, s, w, h):
     own = members.set_state(p, s)
     back = back_of(p, s)
     at = members.march(p)
-    aim = aim_ahead(p, s, u[SP.U_SPEED], h)
+    aim = aim_ahead(p, s, u[U.SPEED], h)
     own[at + SP.AIM] = aim
     own[at + SP.MADE] = 0.0
     enter(p, s, SETTLE if members.has_shaft(p) else HOLD)
     given = inputs_of(p, s)
     drift.aim_inputs(p, u, s, given)
-    given[SP.U_SPEED] = aim
+    given[U.SPEED] = aim
     for b in range(members.count(p)):
         sb, of = members.state(p, s, b), members.state(p, back, b)
         copy(sb, of, 0, S.JAC)
@@ -207,7 +207,7 @@ def strayed(p, u, s):
     """Whether the renewal that goes on is for other inputs than ``u``, the speed aside."""
     given = inputs_of(p, s)
     for i in range(inputs(p)):
-        if i != SP.U_SPEED and abs(given[i] - u[i]) > _NEAR * abs(u[i]) + 1e-12:
+        if i != U.SPEED and abs(given[i] - u[i]) > _NEAR * abs(u[i]) + 1e-12:
             return True
     return False
 
@@ -224,16 +224,16 @@ def go_on(p, u, s, w, h, off, drifted):
     own = members.set_state(p, s)
     at = members.march(p)
     due = held.pieces_due(p, s, h)
-    rate = s[S.SPEED_RATE] if abs(s[S.SPEED_RATE]) < _PACE * abs(u[SP.U_SPEED]) else 0.0
+    rate = s[S.SPEED_RATE] if abs(s[S.SPEED_RATE]) < _PACE * abs(u[U.SPEED]) else 0.0
     own[at + SP.RAMP] += h / (h + _SMOOTH) * (rate - own[at + SP.RAMP])
     own[at + SP.RAMP + 1] += h / (h + _SMOOTH) * (abs(rate) - own[at + SP.RAMP + 1])
     # until lines are written the second state keeps those before the ones in use
     first_lines = ANSWER if members.has_shaft(p) else LINES
-    far = max(drifted, moved(p, s, u[SP.U_SPEED]))
+    far = max(drifted, moved(p, s, u[U.SPEED]))
     renewed = held.due(p, s, far, _HURRY, drift.goes_on(p, s), h)
-    if is_late(p, s, u[SP.U_SPEED], off):
+    if is_late(p, s, u[U.SPEED], off):
         due *= _CATCH_UP
-    at_once = runs_away(p, s, u[SP.U_SPEED])
+    at_once = runs_away(p, s, u[U.SPEED])
     if at_once:
         due = h = held.MOST
         own[at + SP.RAMP] = 0.0

@@ -78,7 +78,7 @@ def hold_bearing(p, u, b, load, at_once, s, w):
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
     given = ws[SP.INPUT : SP.INPUT + U.SIZE]
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     bearing_inputs(p, u, b, given)
     given[U.PRELOAD] = max(load, TOUCHING)
     turning = held_speed(pb, given, speed, lv, c)
@@ -220,8 +220,8 @@ def forget_excess(p, own):
 @kernel
 def exceed(p, u, b, s, w):
     """Renew the steady force of bearing ``b`` where `rest_set` has found it at rest."""
-    renew_excess(p, b, u[SP.U_SPEED], s, w)
-    members.set_state(p, s)[members.march(p) + SP.AIM] = u[SP.U_SPEED]
+    renew_excess(p, b, u[U.SPEED], s, w)
+    members.set_state(p, s)[members.march(p) + SP.AIM] = u[U.SPEED]
 
 
 @kernel
@@ -243,10 +243,10 @@ def rest_set(p, u, known, s, w):
     for i in range(members.coordinates(p)):
         ws[z + i] = own[SP.S_HEAD + i]
     if known:
-        status = rest_as_known(p, s, w, u[SP.U_SPEED])
+        status = rest_as_known(p, s, w, u[U.SPEED])
     else:
-        status = rest_steadily(p, s, w, u[SP.U_SPEED], False)
-        own[members.march(p) + SP.AIM] = u[SP.U_SPEED]
+        status = rest_steadily(p, s, w, u[U.SPEED], False)
+        own[members.march(p) + SP.AIM] = u[U.SPEED]
     exchange_offsets(p, own)
     if status != OK:
         return status
@@ -308,7 +308,7 @@ def hold_from_zero(p, u, s, w, settled):
         return rest_alone(p, u, s, w, settled)
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     for i in range(3 * members.padded_size(p)):
         own[SP.S_HEAD + i] = 0.0
     forget_excess(p, own)
@@ -365,7 +365,7 @@ def set_inputs_of(p, u, s, w, h):
     if not members.has_shaft(p):
         return set_inputs(p, u, s, w, h)
     own = members.set_state(p, s)
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     rate = (speed - s[S.SPEED]) / h
     middle = 0.5 * (s[S.SPEED] + speed)
     if loads_differ(p, u, own):

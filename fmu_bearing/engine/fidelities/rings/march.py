@@ -23,7 +23,7 @@ from fmu_bearing.engine.fidelities.rings import equations, growth, held, predict
 from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.spindle import members
@@ -184,10 +184,10 @@ def take_inputs(p, u, s, w, h):
     if members.has_shaft(p):
         # the steady forces were found at a speed before that of the points
         aim = own[at + SP.AIM]
-        off = max(off, abs(u[SP.U_SPEED] - aim) / (0.01 * abs(aim) + 1e-3))
+        off = max(off, abs(u[U.SPEED] - aim) / (0.01 * abs(aim) + 1e-3))
     renewed = held.due(p, s, off, _HURRY, False, h)
     due = held.pieces_due(p, s, h)
-    if held.apart_by_far(u[SP.U_SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
+    if held.apart_by_far(u[U.SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
         due = held.MOST
     while due >= 1.0:
         due -= 1.0
@@ -258,7 +258,7 @@ def restart_here(p, s, w):
 def go_on(p, u, s, w, h, remaining, end):
     """Step through what remains (s) of the communication step ``h`` (s) to time ``end``; status code."""
     own = members.set_state(p, s)
-    speed = u[SP.U_SPEED]
+    speed = u[U.SPEED]
     numbers = members.march(p)
     tolerance = steps.velocity_tolerance(p, speed)
     longest = longest_of_all(p, own, max(abs(s[S.SPEED]), abs(speed)))

@@ -17,7 +17,7 @@ from fmu_bearing.engine.fidelities.rings import equations, held, predictor
 from fmu_bearing.engine.fidelities.rings.march import emit_rings, go_on, take_inputs
 from fmu_bearing.engine.fidelities.rings.start import begin_at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, L, P, S
+from fmu_bearing.engine.layout import L, P, S, U
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import OK, TOO_SOFT
 
@@ -84,7 +84,7 @@ def march_rings(p, u, s, w, h):
     for b in range(members.count(p)):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
-        sb[S.SPEED] = u[SP.U_SPEED]
+        sb[S.SPEED] = u[U.SPEED]
     equations.keep_loads(p, s, w)
     equations.publish_all(p, s, w)
     for b in range(members.count(p)):

@@ -7,7 +7,7 @@ import numpy as np
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import ST, C, P, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.rigid_preload import load_at_place, place_under, static_place
+from fmu_bearing.engine.statics.rigid_preload import cold_place, load_at_place, place_under
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
@@ -132,7 +132,7 @@ class Rest:
 
     def preload(self, cold=False):
         """Axial load (N) of the place held, at standstill and 20 degC or at the inputs."""
-        place, status = static_place(self.p, self.u, self.w)
+        place, status = cold_place(self.p, self.u, self.u[U.PRELOAD], self.w)
         assert status == OK
         c, speed = self._conditions(cold, self.p)
         assert load_at_place(self.p, c, place, speed, self.found) == OK

@@ -12,12 +12,11 @@ from fmu_bearing.engine.layout import EQ, SP, C, P, Q, S, U, W
 from fmu_bearing.engine.status import OK
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.scene.member import HELD, set_of
-from fmu_bearing.steady.rest import parts, per_bearing
+from fmu_bearing.steady.rest import TOUCHING, parts, per_bearing
 
 _FREEDOMS = EQ.FREEDOMS
 _CLOSE = 1e-13  # m: places found by bisection; 1e-13 m is 1e-5 N at the stiffness of a spindle bearing
 _FAR = 1e-3  # m: no bearing is pushed so far
-_TOUCHING = 0.01  # N: without preload the rings are where the balls just touch, as for rigid preload
 
 
 class Member:
@@ -86,7 +85,7 @@ class Member:
 
     def place_under(self, load: float, inputs: NDArray[np.float64]) -> float:
         """Axial place (m) under an axial load (N); without load the place where the balls just touch."""
-        load = max(load, _TOUCHING)
+        load = max(load, TOUCHING)
         low, high = self._between(load, inputs)
         found = sum(_bisected(low, high, lambda place: self.carried(place, inputs) < load)) / 2.0
         # one step of Newton's method takes bisection to rounding
@@ -95,7 +94,7 @@ class Member:
 
     def lifted(self) -> float:
         """Axial place (m) at which the bearing ceases to carry, at standstill."""
-        low, high = self._between(_TOUCHING, self.still)
+        low, high = self._between(TOUCHING, self.still)
         return _bisected(low, high, lambda place: self.carried(place) <= 0.0)[0]
 
     def _between(self, load: float, inputs: NDArray[np.float64]) -> tuple[float, float]:

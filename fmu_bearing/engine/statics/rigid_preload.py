@@ -3,7 +3,7 @@
 The place is where the ring is at standstill and reference temperature under the preload, with its fits or
 without them (``P.UNMOUNTED``): the static curve of the bearing plus the pedestal's deflection. Speed and
 temperature then change the contact loads, not the place. A new preload moves the ring to its new place at
-constant speed over one communication step.
+constant speed over one communication step. Offsets of a set's bearings are such places, too.
 """
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
@@ -14,19 +14,25 @@ from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
 _ROUNDS = 60
-_TOUCHING = 0.01  # N: without preload the ring is where the balls just touch, not anywhere free
+TOUCHING = 0.01  # N: without preload the ring is where the balls just touch, not anywhere free
 
 
 @kernel
 def place_under(p, c, speed, found):
     """Axial place (m) of the inner ring under the preload in ``c``, pedestal included; second: status."""
     status = quasistatic(p, c, speed, found)
-    return found[ST.AXIAL_SHIFT] + c[C.PRELOAD] / c[C.PEDESTAL_AXIAL], status
+    place = found[ST.AXIAL_SHIFT]
+    if c[C.PEDESTAL_AXIAL] != 0.0:  # a seat in the housing gives no way
+        place += c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
+    return place, status
 
 
 @kernel
-def static_place(p, u, w):
-    """Place (m) of the inner ring at standstill and reference temperature for the inputs ``u``; status."""
+def cold_place(p, u, load, w):
+    """Axial place (m) of the inner ring under a ``load`` (N) at standstill and reference temperature; status.
+
+    ``u``: inputs of this bearing, for what does not depend on either.
+    """
     still = w[W.STILL_INPUTS : W.STILL_CONDITIONS]
     c = w[W.STILL_CONDITIONS : W.STILL_FOUND]
     found = w[W.STILL_FOUND : W.STILL_END]
@@ -37,7 +43,7 @@ def static_place(p, u, w):
         still[i] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
     unmount(p, c)
-    c[C.PRELOAD] = max(c[C.PRELOAD], _TOUCHING)
+    c[C.PRELOAD] = max(load, TOUCHING)
     return place_under(p, c, 0.0, found)
 
 
@@ -57,7 +63,7 @@ def load_at_place(p, c, place, speed, found):
         low = high
         c[C.PRELOAD] = low
         below, status = place_under(p, c, speed, found)
-        while status == OK and below >= place and low > _TOUCHING:
+        while status == OK and below >= place and low > TOUCHING:
             low *= 0.25
             c[C.PRELOAD] = low
             below, status = place_under(p, c, speed, found)
@@ -95,7 +101,7 @@ def load_at_place(p, c, place, speed, found):
 @kernel
 def rigid_start(p, u, c, s, w, found):
     """Place at the start into ``s`` and, into ``c``, the axial load it means at speed and temperatures."""
-    place, status = static_place(p, u, w)
+    place, status = cold_place(p, u, u[U.PRELOAD], w)
     if status != OK:
         return status
     s[S.PLACE] = place
@@ -110,7 +116,7 @@ def axial_speed(p, u, fresh, s, w, h):
     static equilibrium is not found the ring stays.
     """
     if fresh[C.PRELOAD] != s[S.C + C.PRELOAD]:
-        place, status = static_place(p, u, w)
+        place, status = cold_place(p, u, u[U.PRELOAD], w)
         if status == OK:
             s[S.PLACE] = place
     away = s[S.PLACE] - s[S.Y + Y.Q0]

@@ -22,7 +22,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.place import quasistatic_point
-from fmu_bearing.engine.statics.rigid_preload import load_at_place, static_place
+from fmu_bearing.engine.statics.rigid_preload import cold_place, load_at_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import NONE, between_races, make_even, settle_evenly
@@ -53,7 +53,7 @@ def held_speed(p, u, speed, lv, c):
 def move_mount(p, u, s, w):
     """Let rigid preload put the inner ring to its place for a new preload in ``u``, at once."""
     lv = s[S.CONDENSED :]
-    place, status = static_place(p, u, w)
+    place, status = cold_place(p, u, u[U.PRELOAD], w)
     if status == OK:
         s[S.PLACE] = place
         lv[L.MEAN + Q.X] = place

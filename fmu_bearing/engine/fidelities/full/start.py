@@ -8,13 +8,11 @@ differ by. Arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.choices import FULL
-from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.fidelities.full.progress import show_axes, total_energy
 from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, SP, ST, C, F, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
-from fmu_bearing.engine.mechanics.conditions import conditions, unmount
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.follow import copy_rows
@@ -34,7 +32,6 @@ from fmu_bearing.engine.spindle.rest import (
     start_vector,
 )
 from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
-from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.place import (
     equilibrium,
     loads,
@@ -45,7 +42,7 @@ from fmu_bearing.engine.statics.place import (
     sunk,
     too_far,
 )
-from fmu_bearing.engine.statics.rigid_preload import rigid_start
+from fmu_bearing.engine.statics.rigid_preload import cold_place, rigid_start
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 from fmu_bearing.engine.steady.even import BOTH, NONE
@@ -58,7 +55,6 @@ from fmu_bearing.engine.steady.point import (
 )
 
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
-TOUCHING = 0.01  # N: without preload rings are where the balls just touch, as for rigid preload
 
 
 @kernel
@@ -143,28 +139,6 @@ def place_perfect(p, c, speed, carried, first, w):
 
 
 @kernel
-def cold_place(p, u, b, load, w):
-    """Place (m) of an inner ring under an axial ``load`` (N) at standstill and 20 degC; status."""
-    pb = members.parameters(p, b)
-    wb = members.work(p, w, b)
-    still = wb[W.STILL_INPUTS : W.STILL_CONDITIONS]
-    c = wb[W.STILL_CONDITIONS : W.STILL_FOUND]
-    found = wb[W.STILL_FOUND : W.STILL_END]
-    bearing_inputs(p, u, b, still)
-    still[U.SPEED] = 0.0
-    for i in range(U.SHAFT_T, U.SIZE):
-        still[i] = REFERENCE_TEMPERATURE
-    conditions(pb, still, 0.0, c)
-    unmount(pb, c)
-    c[C.PRELOAD] = max(load, TOUCHING)
-    status = quasistatic(pb, c, 0.0, found)
-    place = found[ST.AXIAL_SHIFT]
-    if p[members.row(p, b) + SP.ROW_SEAT] == SP.PEDESTAL:
-        place += load / c[C.PEDESTAL_AXIAL]
-    return place, status
-
-
-@kernel
 def preload_set(p, u, s, w):
     """Offsets of all bearings into the set's own state: where preload puts them, at the inputs; status code.
 
@@ -172,6 +146,7 @@ def preload_set(p, u, s, w):
     free.
     """
     own = members.set_state(p, s)
+    given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     asked = u[U.PRELOAD]
     if p[int(p[P.SET]) + SP.PRELOAD_KIND] == SP.TOUCHING:
         asked = 0.0
@@ -180,7 +155,8 @@ def preload_set(p, u, s, w):
         load = p[r + SP.ROW_SHARE] * asked
         if p[int(p[P.SET]) + SP.ONE_WAY] != 0.0:
             load = abs(u[U.NOSE]) / members.count(p)
-        place, status = cold_place(p, u, b, load, w)
+        bearing_inputs(p, u, b, given)
+        place, status = cold_place(members.parameters(p, b), given, load, members.work(p, w, b))
         if status != OK:
             return status
         at = members.per_bearing(p, b)

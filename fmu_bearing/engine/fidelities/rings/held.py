@@ -23,7 +23,7 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
     hold_uneven,
     uneven_out_of_date,
 )
-from fmu_bearing.engine.fidelities.full.start import TOUCHING, start
+from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
@@ -47,7 +47,7 @@ from fmu_bearing.engine.spindle.steady import (
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held
 from fmu_bearing.engine.statics.place import place_balls, place_cage
-from fmu_bearing.engine.statics.rigid_preload import load_at_place
+from fmu_bearing.engine.statics.rigid_preload import TOUCHING, load_at_place
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER
 

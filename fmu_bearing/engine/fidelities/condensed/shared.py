@@ -10,7 +10,7 @@ from fmu_bearing.engine.fidelities.condensed.contact_forces import (
     find_pushes,
     note_contacts,
 )
-from fmu_bearing.engine.fidelities.condensed.held import hold, off, turning_at
+from fmu_bearing.engine.fidelities.condensed.held import hold, turning_at
 from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
 from fmu_bearing.engine.fidelities.condensed.operator import (
     clear_operator,
@@ -28,7 +28,6 @@ from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import EQ, FOUR, STRIDE, C, F, L, P, Q, S, T, U, W, Y
-from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.body_slopes import land_slopes
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -195,19 +194,6 @@ def quasistatic_places(p, c, speed, w):
     for i in range(Y.Q0):
         y[i] = 0.0
     return OK
-
-
-@kernel
-def set_inputs(p, u, s, w, h):
-    """Set conditions and speed ramp; how far they are `off`."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    rate = (u[U.SPEED] - s[S.SPEED]) / h
-    fresh = w[W.CONDITIONS : W.CONDITIONS + C.SIZE]
-    conditions(p, u, 0.5 * (s[S.SPEED] + u[U.SPEED]), fresh)
-    for i in range(C.USED):
-        s[S.C + i] = fresh[i]
-    s[S.SPEED_RATE] = rate
-    return off(lv, fresh, u[U.SPEED])
 
 
 @kernel

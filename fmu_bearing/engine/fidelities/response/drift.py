@@ -102,7 +102,7 @@ def component(p, own, lv, b, c, speed, offset, k):
 
 @kernel
 def note_away(p, u, s, w, b):
-    """Note how far ``u`` is from what bearing ``b`` holds, after `held.set_inputs_of`."""
+    """Note how far ``u`` is from what bearing ``b`` holds, after `held.set_inputs`."""
     own = members.set_state(p, s)
     lv = members.condensed(members.state(p, s, b))
     fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
@@ -156,7 +156,7 @@ def go_along(p, s, share):
 
 @kernel
 def place_on_line(p, u, s, w):
-    """Share of the line's way where the inputs ``u`` are, and how far aside of it, after `set_inputs_of`."""
+    """Share of the line's way where the inputs ``u`` are, and how far aside of it, after `set_inputs`."""
     dr = drift_of(p, s)
     share = 0.0
     for b in range(members.count(p)):
@@ -182,7 +182,7 @@ def goes_on(p, s):
 
 @kernel
 def begin_line(p, u, s, w):
-    """Move what was just renewed, for inputs ahead, to the inputs ``u``, after `set_inputs_of`."""
+    """Move what was just renewed, for inputs ahead, to the inputs ``u``, after `set_inputs`."""
     dr = drift_of(p, s)
     if dr[DR.KNOWN] != 0.0:
         share, aside = place_on_line(p, u, s, w)

@@ -211,7 +211,7 @@ def march_response(p, u, s, w, h):
         steps.begin_means(sb)
         if not bearing.is_near(sb, speed, h):
             near = False
-    off = held.set_inputs_of(p, u, s, w, h)
+    off = held.set_inputs(p, u, s, w, h)
     if sinks(p, s, w):
         return TOO_SOFT
     status, fresh = renewal.go_on(p, u, s, w, h, off, drift.follow(p, u, s, w, h, off))
@@ -219,7 +219,7 @@ def march_response(p, u, s, w, h):
         return status
     if fresh:
         # what was renewed is for inputs ahead of these
-        held.set_inputs_of(p, u, s, w, h)
+        held.set_inputs(p, u, s, w, h)
         drift.begin_line(p, u, s, w)
     for b in range(members.count(p)):
         own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0

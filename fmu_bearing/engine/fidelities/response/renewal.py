@@ -113,7 +113,7 @@ def begin(p, u, s, w, h):
         lv[L.KNOWN] = 0.0
         lv[L.SEARCH_BEFORE] = 1.0 if lv[L.SEARCH_STATE] == L.GOING else 0.0
     copy(own, members.set_state(p, back), 0, members.lines(p) if members.has_shaft(p) else S.SOUND - S.SET)
-    held.set_inputs_of(p, given, back, w, held.PIECE)
+    held.set_inputs(p, given, back, w, held.PIECE)
 
 
 @kernel

@@ -14,7 +14,6 @@ from fmu_bearing.engine.fidelities.condensed.shared import (
     flat,
     hold_operator,
     quasistatic_places,
-    set_inputs,
     start_condensed,
 )
 from fmu_bearing.engine.fidelities.condensed.uneven import (
@@ -360,10 +359,8 @@ def start_held(p, u, s, w, t):
 
 
 @kernel
-def set_inputs_of(p, u, s, w, h):
+def set_inputs(p, u, s, w, h):
     """Set conditions, loads and ramps; how far what is held is `off` from them."""
-    if not members.has_shaft(p):
-        return set_inputs(p, u, s, w, h)
     own = members.set_state(p, s)
     speed = u[U.SPEED]
     rate = (speed - s[S.SPEED]) / h
@@ -381,8 +378,9 @@ def set_inputs_of(p, u, s, w, h):
         sb[S.SPEED_RATE] = rate
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET_RATE] = growth_rate(p, u, own, b, h)
-        # the load follows from the set's rest, see above
-        fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
+        if members.has_shaft(p):
+            # the load follows from the set's rest, see above
+            fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
         grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
         most = max(most, off(lv, fresh, speed), abs(grown) / _GROWN)
     return most

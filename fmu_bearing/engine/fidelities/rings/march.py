@@ -180,7 +180,7 @@ def take_inputs(p, u, s, w, h):
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    off = held.set_inputs_of(p, u, s, w, h)
+    off = held.set_inputs(p, u, s, w, h)
     if members.has_shaft(p):
         # the steady forces were found at a speed before that of the points
         aim = own[at + SP.AIM]

@@ -113,7 +113,6 @@ MEAN = _at(COLUMN)  # static equilibrium of the rings
 # Matrices of N x N by columns of COLUMN, so that a product is a few vector instructions.
 JX = _at(MATRIX)  # derivatives of accelerations by displacements
 JV = _at(MATRIX)  # and by velocities
-INVERSE = _at(MATRIX)  # of -JX
 # rows of the rings' coordinates, one per pattern of the balls
 SIDE_GUIDE = _at(PATTERNS * COLUMN)  # how far rolling alone would take them across their tracks
 # beside the held point: see condensed/contact_forces

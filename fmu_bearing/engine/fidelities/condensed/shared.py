@@ -1,4 +1,4 @@
-"""What fidelities `rings` and `response` share: start, inputs, and the end of a step."""
+"""What fidelities `rings` and `response` share: operators at the held point, and the end of a step."""
 
 import math
 
@@ -10,8 +10,8 @@ from fmu_bearing.engine.fidelities.condensed.contact_forces import (
     find_pushes,
     note_contacts,
 )
-from fmu_bearing.engine.fidelities.condensed.held import hold, turning_at
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest, derivatives
+from fmu_bearing.engine.fidelities.condensed.held import turning_at
+from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.operator import (
     clear_operator,
     find_operator,
@@ -22,12 +22,11 @@ from fmu_bearing.engine.fidelities.condensed.transverse import (
     find_friction,
     find_transverse,
 )
-from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import EQ, FOUR, STRIDE, C, F, L, P, Q, S, T, U, W, Y
+from fmu_bearing.engine.layout import EQ, FOUR, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.body_slopes import land_slopes
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -132,45 +131,6 @@ def hold_operator(p, s, w):
     jacobian_with_cage(p, c, lv, speed, w, jac)
     find_friction(p, lv, jac)
     find_operator(p, lv, jac, lv[L.Y0 + Y.OM], w)
-
-
-@kernel
-def start_condensed(p, u, s, w, t):
-    """Start of both: the start of fidelity full, held values, then the rings' own equilibrium.
-
-    Leaves that equilibrium in ``w[W.STAGE:]`` and the balls' places in ``w``; race heights are not applied.
-    Status code.
-    """
-    status = start(p, u, s, w, t)
-    if status != OK:
-        return status
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    status = hold(p, u, u[U.SPEED], True, s, w)
-    if status != OK:
-        return status
-    c = s[S.C : S.C + C.SIZE]
-    even_spacing(p, lv)
-    hold_operator(p, s, w)
-    for i in range(Y.SIZE):
-        w[W.STAGE + i] = 0.0
-    for i in range(L.N):
-        w[W.STAGE + Y.Q0 + i] = s[S.Y + Y.Q0 + i]
-    for j in range(STRIDE):
-        w[T.X + j] = s[S.Y + Y.X + j]
-        w[T.R + j] = s[S.Y + Y.R + j]
-    flat(p, c, lv, w)
-    if not at_rest(p, c, lv, u[U.SPEED], w):
-        # no rest (no preload, no pull): the quasi-static place serves, the first steps do what follows
-        for i in range(L.N):
-            w[W.STAGE + Y.Q0 + i] = s[S.Y + Y.Q0 + i]
-        for j in range(STRIDE):
-            w[T.X + j] = s[S.Y + Y.X + j]
-            w[T.R + j] = s[S.Y + Y.R + j]
-    for i in range(L.N):
-        lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-    # where there was no rest, the balls come to theirs between the rings as they are
-    derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w)
-    return OK
 
 
 @kernel

@@ -18,7 +18,7 @@ from fmu_bearing.engine.fidelities.response.sound import (
 from fmu_bearing.engine.fidelities.rings import held
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, STRIDE, C, L, S, W, Y
+from fmu_bearing.engine.layout import SP, C, L, S, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import OK
 
@@ -87,23 +87,13 @@ def linearise(p, s, w, speed):
 
 @kernel
 def begin_at_start(p, s, w, speed):
-    """Put the equilibrium to that of the start; a set comes to rest again with the balls' places there."""
+    """Put the equilibrium to where all was just put; a set comes to rest once more, its balls free."""
     own = members.set_state(p, s)
-    if not members.has_shaft(p):
-        for i in range(members.padded_size(p)):
-            own[members.history(p) + i] = own[SP.S_HEAD + i]
+    if members.has_shaft(p):
+        rest_from(p, s, w, speed, own, SP.S_HEAD)
         return
-    ws = members.set_work(p, w)
-    for b in range(members.count(p)):
-        sb = members.state(p, s, b)
-        lv = members.condensed(sb)
-        for j in range(STRIDE):
-            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
-            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
-    start = members.vector(p, SP.NEWMARK)
     for i in range(members.padded_size(p)):
-        ws[start + i] = own[SP.S_HEAD + i]
-    rest_from(p, s, w, speed, ws, start)
+        own[members.history(p) + i] = own[SP.S_HEAD + i]
 
 
 @kernel
@@ -112,13 +102,9 @@ def rest_at_inputs(p, s, w, speed):
     own = members.set_state(p, s)
     if not members.has_shaft(p):
         return rest_from(p, s, w, speed, own, members.history(p))
-    ws = members.set_work(p, w)
-    held_rest = members.vector(p, SP.NEWMARK)
-    for i in range(members.padded_size(p)):
-        ws[held_rest + i] = own[SP.S_HEAD + i] if i < members.coordinates(p) else 0.0
     held.take_offsets(p, own)
     if not rest_from(p, s, w, speed, own, members.history(p)):
-        rest_from(p, s, w, speed, ws, held_rest)
+        rest_from(p, s, w, speed, own, SP.S_HEAD)
     return True
 
 
@@ -136,10 +122,7 @@ def renew_from_zero(p, u, s, w, speed):
         status = held.hold_from_zero(p, u, s, w, again == 0)
         if status != OK:
             return status
-        if together:
-            rest_from(p, s, w, speed, own, SP.S_HEAD)
-        else:
-            begin_at_start(p, s, w, speed)
+        begin_at_start(p, s, w, speed)
         if linearise(p, s, w, speed):
             return OK
     own[members.march(p) + SP.LINES] = 0.0

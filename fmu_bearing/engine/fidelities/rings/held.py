@@ -6,15 +6,13 @@ Arguments: see `spindle.members`.
 import math
 
 from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, off
-from fmu_bearing.engine.fidelities.condensed.linearised import at_rest
-from fmu_bearing.engine.fidelities.condensed.operator import clear_operator
+from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
     even_spacing,
     flat,
     hold_operator,
     quasistatic_places,
-    start_condensed,
 )
 from fmu_bearing.engine.fidelities.condensed.uneven import (
     begin_uneven,
@@ -23,7 +21,7 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
     uneven_out_of_date,
 )
 from fmu_bearing.engine.fidelities.full.start import start
-from fmu_bearing.engine.fidelities.rings.rest import find_levers
+from fmu_bearing.engine.fidelities.rings.rest import at_rest, find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
@@ -210,13 +208,6 @@ def hold_point(p, u, b, at_once, s, w):
 
 
 @kernel
-def forget_excess(p, own):
-    """Begin without what is known of the excess of steady forces."""
-    for b in range(members.count(p)):
-        own[members.per_bearing(p, b) + SP.EXCESS] = 0.0
-
-
-@kernel
 def exceed(p, u, b, s, w):
     """Renew the steady force of bearing ``b`` where `rest_set` has found it at rest."""
     renew_excess(p, b, u[U.SPEED], s, w)
@@ -255,27 +246,18 @@ def rest_set(p, u, known, s, w):
 
 
 @kernel
-def put_at_mean(p, s, w):
-    """Put a single bearing to the rest on even races in its trial state; balls there to ``L.EVEN``."""
+def settle_alone(p, u, s, w, settled):
+    """Put a single bearing to rest on even races, from its quasi-static place; status code.
+
+    Where there is no such rest, and where it need not be ``settled``, it stays there.
+    """
     own = members.set_state(p, s)
-    lv = members.condensed(s)
-    keep_balls(w, lv, L.EVEN)
-    for i in range(SP.HELD_LOAD * L.COLUMN):
-        own[SP.S_HEAD + i] = 0.0
-    for i in range(L.N):
-        lv[L.MEAN + i] = w[W.STAGE + Y.Q0 + i]
-        own[SP.S_HEAD + i] = lv[L.MEAN + i]
-
-
-@kernel
-def rest_alone(p, u, s, w, settled):
-    """As `hold_from_zero`, for a single bearing."""
-    status = hold_all(p, u, False, s, w)
-    if status != OK:
-        return status
+    ws = members.set_work(p, w)
     lv = members.condensed(s)
     c = s[S.C : S.C + C.SIZE]
+    place = members.vector(p, SP.PLACE)
     given = c[C.PRELOAD]
+    status = OK
     if p[P.RIGID] != 0.0:
         # the load that the place of the ring means here, as at the start
         status = load_at_place(p, c, s[S.PLACE], u[U.SPEED], w[W.STILL_FOUND : W.STILL_END])
@@ -284,78 +266,87 @@ def rest_alone(p, u, s, w, settled):
             status = quasistatic_places(p, c, u[U.SPEED], w)
         if status != OK:
             break
+        if p[P.RIGID] != 0.0:
+            w[W.STAGE + Y.Q0] = s[S.PLACE]
         flat(p, c, lv, w)
-        if part == 1 or not settled or at_rest(p, c, lv, u[U.SPEED], w):
+        for i in range(L.COLUMN):
+            ws[place + i] = w[W.STAGE + Y.Q0 + i] if i < L.N else 0.0
+        if part == 1:
+            # the balls come to their rest between the rings as they are
+            derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w)
+        elif not settled or at_rest(p, s, w, u[U.SPEED]):
             break
     c[C.PRELOAD] = given
     if status != OK:
         return status
-    if p[P.RIGID] != 0.0:
-        w[W.STAGE + Y.Q0] = s[S.PLACE]
-    put_at_mean(p, s, w)
+    keep_balls(w, lv, L.EVEN)
+    for i in range(L.COLUMN):
+        own[SP.S_HEAD + i] = ws[place + i]
+    members.moved(p, 0, own, SP.S_HEAD, lv, L.MEAN)
     return OK
 
 
 @kernel
-def hold_from_zero(p, u, s, w, settled):
-    """As `hold_all`, but search the rest from zero coordinates, and put the set there; status code.
-
-    The balls' places, ball 0 at angle 0, go to ``L.EVEN``. A single bearing that need not be ``settled``
-    stays at its quasi-static place.
-    """
-    if not members.has_shaft(p):
-        return rest_alone(p, u, s, w, settled)
+def settle_together(p, u, s, w):
+    """Put a set to where `rest_set` has found its rest, and the balls' places there to ``L.EVEN``."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    speed = u[U.SPEED]
-    for i in range(3 * members.padded_size(p)):
-        own[SP.S_HEAD + i] = 0.0
-    forget_excess(p, own)
-    status = hold_all(p, u, False, s, w)
-    if status != OK:
-        return status
-    take_offsets(p, own)
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p)):
         own[SP.S_HEAD + i] = ws[z + i]
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
-        lv = members.condensed(members.state(p, s, b))
-        settle_bearing(p, s, w, b, speed, z, start_vector(p, SP.TRIAL_FORCES))
+        settle_bearing(p, s, w, b, u[U.SPEED], z, start_vector(p, SP.TRIAL_FORCES))
         y = wb[W.STAGE : W.STAGE + Y.SIZE]
         for i in range(SP.HOUSING):
             y[Y.Q0 + Q.OUTER + i] = ws[members.scratch(p, b) + SP.START_OUTER + i]
         place_balls(members.parameters(p, b), y, wb[W.FOUND : W.FOUND + EQ.SIZE])
+        lv = members.condensed(members.state(p, s, b))
         for j in range(STRIDE):
             lv[L.EVEN + j] = y[Y.X + j]
             lv[L.EVEN_R + j] = y[Y.R + j]
+
+
+@kernel
+def hold_from_zero(p, u, s, w, settled):
+    """As `hold_all`, but search the rest from zero coordinates, and put all there; status code.
+
+    The balls' places, ball 0 at angle 0, go to ``L.EVEN``; ``settled``: see `settle_alone`.
+    """
+    own = members.set_state(p, s)
+    for i in range(3 * members.padded_size(p)):
+        own[SP.S_HEAD + i] = 0.0
+    status = hold_all(p, u, False, s, w)
+    if status != OK:
+        return status
+    take_offsets(p, own)
+    if not members.has_shaft(p):
+        return settle_alone(p, u, s, w, settled)
+    settle_together(p, u, s, w)
     return OK
 
 
 @kernel
 def start_held(p, u, s, w, t):
-    """Start of fidelities rings and response: that of fidelity full, then what is held; status code."""
-    own = members.set_state(p, s)
-    for i in range(SP.PIECES, SP.MARCHED):
-        own[members.march(p) + i] = 0.0
-    for b in range(members.count(p)):
-        clear_operator(members.condensed(members.state(p, s, b)))
-    if not members.has_shaft(p):
-        status = start_condensed(p, u, s, w, t)
-        if status == OK:
-            put_at_mean(p, s, w)
-            find_levers(p, own)
-        return status
+    """Start of fidelities rings and response: that of fidelity full, then what is held; status code.
+
+    The balls' places at rest on even races, ball 0 at angle 0, go to ``L.EVEN``.
+    """
     status = start(p, u, s, w, t)
     if status != OK:
         return status
+    find_levers(p, members.set_state(p, s))
     for b in range(members.count(p)):
-        even_spacing(members.parameters(p, b), members.condensed(members.state(p, s, b)))
-    forget_excess(p, own)
+        sb = members.state(p, s, b)
+        lv = members.condensed(sb)
+        even_spacing(members.parameters(p, b), lv)
+        for j in range(STRIDE):
+            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
+            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     status = hold_all(p, u, True, s, w)
-    if status == OK:
-        find_levers(p, own)
-    return status
+    if status != OK or members.has_shaft(p):
+        return status
+    return settle_alone(p, u, s, w, True)
 
 
 @kernel

@@ -111,9 +111,10 @@ def rest_once(p, s, w, speed):
 
 @kernel
 def at_rest(p, s, w, speed):
-    """Find where the set rests without unbalance, from the guess in ``SP.PLACE``; whether found.
+    """Find where all rests without unbalance, from the guess in ``SP.PLACE``; whether found.
 
-    As ``condensed.linearised.at_rest`` does for a single bearing.
+    Newton's method with moves of a few micrometres at most. The rest is left in ``SP.PLACE``, and the balls'
+    places in their trial rows.
     """
     ws = members.set_work(p, w)
     found = False

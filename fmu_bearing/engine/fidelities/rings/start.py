@@ -10,7 +10,7 @@ from fmu_bearing.engine.fidelities.rings import equations, growth, held
 from fmu_bearing.engine.fidelities.rings.march import FIRST, longest_of_all
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import SP, STRIDE, C, H, L, P, S, W, Y
+from fmu_bearing.engine.layout import SP, C, H, L, P, S, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.status import NO_START, OK
 
@@ -80,12 +80,6 @@ def start_rings(p, u, s, w, t):
     if status != OK:
         return status
     own = members.set_state(p, s)
-    for b in range(members.count(p) if members.has_shaft(p) else 0):
-        sb = members.state(p, s, b)
-        lv = members.condensed(sb)
-        for j in range(STRIDE):
-            lv[L.EVEN + j] = sb[S.Y + Y.X + j]
-            lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
     if not begin_at_rest(p, s, w):
         return NO_START
     growth.search_at_once(p, s, w)

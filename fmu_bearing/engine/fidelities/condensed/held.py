@@ -11,21 +11,17 @@ of the full right-hand side with its Jacobian.
 import math
 
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
-from fmu_bearing.engine.fidelities.condensed.uneven import (
-    begin_uneven,
-    grown,
-    hold_losses,
-    hold_uneven,
-    uneven_out_of_date,
-)
+from fmu_bearing.engine.fidelities.condensed.uneven import grown, hold_losses
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import PT, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.place import quasistatic_point
-from fmu_bearing.engine.statics.rigid_preload import cold_place, load_at_place
+from fmu_bearing.engine.statics.axial import quasistatic
+from fmu_bearing.engine.statics.held import held as between_held_rings
+from fmu_bearing.engine.statics.place import place_balls, place_cage
+from fmu_bearing.engine.statics.rigid_preload import TOUCHING, cold_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
-from fmu_bearing.engine.steady.even import NONE, between_races, make_even, settle_evenly
+from fmu_bearing.engine.steady.even import between_races, make_even, settle_evenly
 
 _STANDSTILL = 1.0  # rad/s: slower shafts are given the ratios of this speed
 
@@ -61,34 +57,33 @@ def move_mount(p, u, s, w):
 
 
 @kernel
-def hold(p, u, speed, at_once, s, w):
-    """Renew everything held at ``speed`` (rad/s) and the inputs ``u``; status code, old values on failure.
+def under_load(p, c, speed, outer, y, w):
+    """State ``y`` at the quasi-static point under the axial load in ``c`` alone; status code.
 
-    ``at_once``: see `uneven.hold_uneven`.
+    ``outer``: axial place (m) of the outer ring, from where the balls' places count.
     """
-    lv = s[S.CONDENSED :]
-    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
-    y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    if p[P.RIGID] != 0.0 and u[U.PRELOAD] != c[C.PRELOAD]:
-        move_mount(p, u, s, w)
-    turning = held_speed(p, u, speed, lv, c)
-    status = OK
-    if p[P.RIGID] != 0.0:
-        # the mount gives the load that the present sizes and speed ask for
-        status = load_at_place(p, c, s[S.PLACE], turning, w[W.STILL_FOUND : W.STILL_END])
-    if status == OK:
-        status = quasistatic_point(p, c, turning, False, y, w)
-    if status == OK:
-        if p[P.RIGID] != 0.0:
-            y[Y.Q0] = s[S.PLACE]
-        hold_at(p, speed, turning, NONE, s, w)
-        if uneven_out_of_date(lv, c, speed):
-            first = w[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-            if quasistatic_point(p, c, turning, True, first, w) == OK:
-                begin_uneven(p, c, speed, turning, NONE, s, w)
-        hold_uneven(p, speed, at_once, s, w)
-    c[C.PRELOAD] = u[U.PRELOAD]
-    return status
+    axial = w[W.STILL_FOUND : W.STILL_END]
+    load = c[C.PRELOAD]
+    c[C.PRELOAD] = max(load, TOUCHING)
+    status = quasistatic(p, c, speed, axial)
+    c[C.PRELOAD] = load
+    if status != OK:
+        return status
+    ring = w[W.PATTERN + PT.STEP : W.PATTERN + PT.STEP + EQ.FREEDOMS]
+    for i in range(EQ.FREEDOMS):
+        ring[i] = axial[ST.AXIAL_SHIFT] if i == Q.X else 0.0
+    found = w[W.FOUND : W.FOUND + EQ.SIZE]
+    status = between_held_rings(p, c, speed, ring, w[W.LOAD : W.LOAD + EQ.FREEDOMS], found, w)
+    if status != OK:
+        return status
+    for i in range(Y.SIZE):
+        y[i] = 0.0
+    y[Y.Q0 + Q.OUTER] = outer
+    y[Y.Q0] = outer + ring[Q.X]
+    place_balls(p, y, found)
+    if p[P.CAGE] != 0.0:
+        place_cage(p, y, found)
+    return OK
 
 
 @kernel

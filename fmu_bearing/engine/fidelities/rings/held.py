@@ -5,7 +5,7 @@ Arguments: see `spindle.members`.
 
 import math
 
-from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold, hold_at, off
+from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, move_mount, off, under_load
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
 from fmu_bearing.engine.fidelities.condensed.shared import (
@@ -23,7 +23,7 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
 from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.rings.rest import at_rest, find_levers
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import (
     bearing_conditions,
@@ -41,12 +41,10 @@ from fmu_bearing.engine.spindle.steady import (
     rest_steadily,
     show_rest,
 )
-from fmu_bearing.engine.statics.axial import quasistatic
-from fmu_bearing.engine.statics.held import held
-from fmu_bearing.engine.statics.place import place_balls, place_cage
+from fmu_bearing.engine.statics.place import place_balls, quasistatic_point
 from fmu_bearing.engine.statics.rigid_preload import TOUCHING, load_at_place
 from fmu_bearing.engine.status import OK
-from fmu_bearing.engine.steady.even import BOTH, OUTER
+from fmu_bearing.engine.steady.even import BOTH, NONE, OUTER
 
 PIECE = 1e-3  # s of simulated time per piece of a renewal
 MOST = 1000.0  # pieces in a communication step: more than any renewal with all its searches has
@@ -58,65 +56,6 @@ _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
 # a bearing's own geometry may change by
 _GROWN = 5e-9
-
-
-@kernel
-def hold_bearing(p, u, b, load, at_once, s, w):
-    """Renew what bearing ``b`` holds, at the inputs ``u`` under the axial ``load`` (N); status code.
-
-    After `rest`, which leaves the place of its outer ring in the scratch. ``at_once``: see
-    `uneven.hold_uneven`.
-    """
-    pb = members.parameters(p, b)
-    sb = members.state(p, s, b)
-    wb = members.work(p, w, b)
-    ws = members.set_work(p, w)
-    lv = members.condensed(sb)
-    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
-    y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    given = ws[SP.INPUT : SP.INPUT + U.SIZE]
-    speed = u[U.SPEED]
-    bearing_inputs(p, u, b, given)
-    given[U.PRELOAD] = max(load, TOUCHING)
-    turning = held_speed(pb, given, speed, lv, c)
-    at = members.scratch(p, b)
-    first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-    place_held(p, b, turning, first, s, w)
-    aside = ws[at + SP.START_FORCE + Q.Y], ws[at + SP.START_FORCE + Q.Z]
-    axial = wb[W.STILL_FOUND : W.STILL_END]
-    status = quasistatic(pb, c, turning, axial)
-    if status != OK:
-        return status
-    ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
-    for i in range(SP.PLANE):
-        ring[i] = 0.0
-    ring[Q.X] = axial[ST.AXIAL_SHIFT]
-    outer = ws[at + SP.START_OUTER]
-    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-    force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
-    status = held(pb, c, turning, ring, force, found, wb)
-    if status != OK:
-        return status
-    for i in range(Y.SIZE):
-        y[i] = 0.0
-    # where the set's rest has put the outer ring: the balls' places count from there
-    y[Y.Q0 + Q.OUTER] = outer
-    y[Y.Q0] = outer + ring[Q.X]
-    place_balls(pb, y, found)
-    if pb[P.CAGE] != 0.0:
-        place_cage(pb, y, found)
-    hold_at(pb, speed, turning, OUTER, sb, wb)
-    # what the shaft puts across the axis counts as this bearing's load
-    c[C.LOAD_Y], c[C.LOAD_Z] = aside
-    if uneven_out_of_date(lv, c, speed):
-        begin_uneven(pb, c, speed, turning, BOTH, sb, wb)
-    c[C.LOAD_Y] = given[U.LOAD_Y]
-    c[C.LOAD_Z] = given[U.LOAD_Z]
-    hold_uneven(pb, speed, at_once, sb, wb)
-    own = members.set_state(p, s)
-    bearing_at = members.per_bearing(p, b)
-    own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
-    return OK
 
 
 @kernel
@@ -166,15 +105,6 @@ def take_offsets(p, own):
 
 
 @kernel
-def hold_alone(p, u, at_once, s, w):
-    """As `hold_points`, for a single bearing."""
-    status = hold(p, u, u[U.SPEED], at_once, s, w)
-    if status == OK and p[P.RIGID] != 0.0:
-        members.set_state(p, s)[members.history(p) + Q.X] = s[S.PLACE]
-    return status
-
-
-@kernel
 def hold_all(p, u, at_once, s, w):
     """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code.
 
@@ -200,11 +130,56 @@ def hold_points(p, u, known, at_once, s, w):
 @kernel
 def hold_point(p, u, b, at_once, s, w):
     """Renew what bearing ``b`` holds but its operator, of a set where `rest_set` has found it at rest."""
-    if not members.has_shaft(p):
-        return hold_alone(p, u, at_once, s, w)
-    show_rest(p, b, s, w)
-    load = -members.set_work(p, w)[members.scratch(p, b) + SP.START_FORCE]
-    return hold_bearing(p, u, b, load, at_once, s, w)
+    pb = members.parameters(p, b)
+    sb = members.state(p, s, b)
+    wb = members.work(p, w, b)
+    own = members.set_state(p, s)
+    ws = members.set_work(p, w)
+    lv = members.condensed(sb)
+    c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
+    y = lv[L.Y0 : L.Y0 + Y.SIZE]
+    together = members.has_shaft(p)
+    rigid = pb[P.RIGID] != 0.0
+    speed = u[U.SPEED]
+    given = ws[SP.INPUT : SP.INPUT + U.SIZE]
+    bearing_inputs(p, u, b, given)
+    if together:
+        show_rest(p, b, s, w)
+        given[U.PRELOAD] = max(-ws[members.scratch(p, b) + SP.START_FORCE], TOUCHING)
+    elif rigid and u[U.PRELOAD] != c[C.PRELOAD]:
+        move_mount(p, u, s, w)
+    turning = held_speed(pb, given, speed, lv, c)
+    status = OK
+    if rigid:
+        # the mount gives the load that the present sizes and speed ask for
+        status = load_at_place(pb, c, sb[S.PLACE], turning, wb[W.STILL_FOUND : W.STILL_END])
+    if status == OK:
+        outer = ws[members.scratch(p, b) + SP.START_OUTER] if together else c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
+        status = under_load(pb, c, turning, outer, y, wb)
+    if status == OK:
+        if rigid:
+            y[Y.Q0] = sb[S.PLACE]
+            own[members.history(p) + Q.X] = sb[S.PLACE]
+        hold_at(pb, speed, turning, OUTER if together else NONE, sb, wb)
+        if together:
+            # what the shaft puts across the axis counts as this bearing's load
+            at = members.scratch(p, b) + SP.START_FORCE
+            c[C.LOAD_Y], c[C.LOAD_Z] = ws[at + Q.Y], ws[at + Q.Z]
+        if uneven_out_of_date(lv, c, speed):
+            first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+            found = OK
+            if together:
+                place_held(p, b, turning, first, s, w)
+            else:
+                found = quasistatic_point(pb, c, turning, True, first, wb)
+            if found == OK:
+                begin_uneven(pb, c, speed, turning, BOTH if together else NONE, sb, wb)
+        c[C.LOAD_Y], c[C.LOAD_Z] = given[U.LOAD_Y], given[U.LOAD_Z]
+        hold_uneven(pb, speed, at_once, sb, wb)
+        at = members.per_bearing(p, b)
+        own[at + SP.HELD_OFFSET] = own[at + SP.OFFSET_COLD] + offset_change(p, u, b)
+    c[C.PRELOAD] = given[U.PRELOAD]
+    return status
 
 
 @kernel

@@ -1,9 +1,8 @@
 """One bearing of a set by itself: what it carries where its rings are held."""
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from fmu_bearing.arrays import REASONS
 from fmu_bearing.compiled import call
@@ -15,7 +14,7 @@ from fmu_bearing.scene.member import HELD, set_of
 from fmu_bearing.steady.rest import TOUCHING, parts, per_bearing
 
 _FREEDOMS = EQ.FREEDOMS
-_CLOSE = 1e-13  # m: places found by bisection; 1e-13 m is 1e-5 N at the stiffness of a spindle bearing
+_CLOSE = 1e-13  # m: where a bearing ceases to carry; 1e-5 N at the stiffness of a spindle bearing
 _FAR = 1e-3  # m: no bearing is pushed so far
 
 
@@ -87,15 +86,15 @@ class Member:
         """Axial place (m) under an axial load (N); without load the place where the balls just touch."""
         load = max(load, TOUCHING)
         low, high = self._between(load, inputs)
-        found = sum(_bisected(low, high, lambda place: self.carried(place, inputs) < load)) / 2.0
-        # one step of Newton's method takes bisection to rounding
-        missing = load - self.carried(found, inputs)
-        return found + missing / max(float(self._out[EQ.STIFFNESS]), 1.0)
+        return float(brentq(lambda place: self.carried(place, inputs) - load, low, high, xtol=1e-15))
 
     def lifted(self) -> float:
         """Axial place (m) at which the bearing ceases to carry, at standstill."""
         low, high = self._between(TOUCHING, self.still)
-        return _bisected(low, high, lambda place: self.carried(place) <= 0.0)[0]
+        while high - low > _CLOSE:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if self.carried(middle) > 0.0 else (middle, high)
+        return low
 
     def _between(self, load: float, inputs: NDArray[np.float64]) -> tuple[float, float]:
         """Displacements (m) that carry nothing, and at least ``load``."""
@@ -111,17 +110,6 @@ class Member:
                     "the balls are clamped at any place of the ring: rings far too warm or cold"
                 )
         return low, high
-
-
-def _bisected(low: float, high: float, below: Callable[[float], bool]) -> tuple[float, float]:
-    """Return two places (m) close to each other, of which ``below`` holds at the first alone."""
-    while high - low > _CLOSE:
-        middle = 0.5 * (low + high)
-        if below(middle):
-            low = middle
-        else:
-            high = middle
-    return low, high
 
 
 def _behind(run: Instance) -> tuple[float, float]:

@@ -118,8 +118,6 @@ def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], scene: Scen
 
 def _places(run: Arrays) -> list[NDArray[np.float64]]:
     """Return the balls' places in their pockets, over the room there, of each bearing; 0 without a cage."""
-    if not SP.has_shaft(run.p):
-        return [_in_pockets(run.p, run.s)]
     rows = rows_of(run.p)
     return [_in_pockets(run.p[int(row[SP.ROW_P]) :], run.s[int(row[SP.ROW_S]) :]) for row in rows]
 

@@ -63,8 +63,6 @@ def grow(p, u, s, w, speed):
 @kernel
 def offset_change(p, u, b):
     """How far (m) temperatures push the inner ring of bearing ``b`` into it, beyond 20 degC."""
-    if not members.has_shaft(p):
-        return 0.0
     block = int(p[P.SET])
     r = members.row(p, b)
     shaft = p[block + SP.SHAFT_EXPANSION] * (u[U.SHAFT_T] - REFERENCE_TEMPERATURE)

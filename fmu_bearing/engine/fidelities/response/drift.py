@@ -95,8 +95,6 @@ def component(p, own, lv, b, c, speed, offset, k):
         return (c[i] - lv[h + i]) / _GEOMETRY
     if k == 10:
         return (speed - lv[L.FOUND_SPEED]) / (_SPEED * abs(lv[L.FOUND_SPEED]) + 1e-3)
-    if not members.has_shaft(p):
-        return 0.0
     return (offset - own[members.per_bearing(p, b) + SP.HELD_OFFSET]) / _OFFSET
 
 
@@ -106,9 +104,7 @@ def note_away(p, u, s, w, b):
     own = members.set_state(p, s)
     lv = members.condensed(members.state(p, s, b))
     fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
-    offset = offset_change(p, u, b)
-    if members.has_shaft(p):
-        offset += own[members.per_bearing(p, b) + SP.OFFSET_COLD]
+    offset = own[members.per_bearing(p, b) + SP.OFFSET_COLD] + offset_change(p, u, b)
     now = drift_of(p, s)[bearing_of(b) + DR.NOW :]
     for k in range(DR.COMPONENTS):
         now[k] = component(p, own, lv, b, fresh, u[U.SPEED], offset, k)
@@ -120,7 +116,7 @@ def renewed(p, s, b, k):
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
     lv = members.condensed(members.state(p, s, b))
     new = members.condensed(members.state(p, back_of(p, s), b))
-    offset = of[members.per_bearing(p, b) + SP.HELD_OFFSET] if members.has_shaft(p) else 0.0
+    offset = of[members.per_bearing(p, b) + SP.HELD_OFFSET]
     conditions = new[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     return component(p, own, lv, b, conditions, new[L.FOUND_SPEED], offset, k)
 
@@ -145,13 +141,9 @@ def go_along(p, s, share):
         lv[L.TORQUE] += by * dr[at + DR.TORQUE]
         for i in range(DR.LOSSES):
             sb[S.LOSS + i] += by * dr[at + DR.LOSS + i]
-        if members.has_shaft(p):
-            own[members.per_bearing(p, b) + SP.OFFSET] += by * dr[at + DR.OFFSET]
-            members.moved(p, b, own, mean, lv, L.MEAN)
-            lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
-        else:
-            for i in range(L.N):
-                lv[L.MEAN + i] = own[mean + i]
+        own[members.per_bearing(p, b) + SP.OFFSET] += by * dr[at + DR.OFFSET]
+        members.moved(p, b, own, mean, lv, L.MEAN)
+        lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
 
 
 @kernel
@@ -165,7 +157,7 @@ def place_on_line(p, u, s, w):
         for k in range(DR.COMPONENTS):
             share += dr[at + DR.NOW + k] * dr[at + DR.CHANGE + k]
     share = min(max(share / dr[DR.SQUARE], -_BEYOND), _BEYOND)
-    aside = held.loads_apart(p, members.set_state(p, s)) if members.has_shaft(p) else 0.0
+    aside = held.loads_apart(p, members.set_state(p, s))
     for b in range(members.count(p)):
         at = bearing_of(b)
         for k in range(DR.COMPONENTS):
@@ -319,7 +311,7 @@ def take_along(p, s, level):
     dr[DR.RATE] *= along / square if known and square > 0.0 else 0.0
     dr[DR.LARGEST], dr[DR.SQUARE] = largest, square
     dr[DR.SINCE], dr[DR.STILL] = 0.0, 0.0
-    straight = _NEAREST < largest < _FARTHEST and not (members.has_shaft(p) and loads_changed(p, own, of))
+    straight = _NEAREST < largest < _FARTHEST and not loads_changed(p, own, of)
     dr[DR.KNOWN] = 1.0 if straight else 0.0
     allowed = _TWICE * max(largest, _FIRST) if known else _FIRST
     allowed = min(allowed, largest * _LEVEL / (level + 1e-12), largest * math.sqrt(_HEAT / (missed + 1e-12)))
@@ -340,9 +332,8 @@ def note_changes(p, s, dr, b):
     dr[at + DR.TORQUE] = new[L.TORQUE] - lv[L.TORQUE]
     for i in range(DR.LOSSES):
         dr[at + DR.LOSS + i] = kb[S.LOSS + i] - sb[S.LOSS + i]
-    if members.has_shaft(p):
-        place = members.per_bearing(p, b) + SP.OFFSET
-        dr[at + DR.OFFSET] = of[place] - own[place]
+    place = members.per_bearing(p, b) + SP.OFFSET
+    dr[at + DR.OFFSET] = of[place] - own[place]
 
 
 @kernel

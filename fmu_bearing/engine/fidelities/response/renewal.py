@@ -130,14 +130,12 @@ def take_over(p, s):
     drift.take_along(p, s, level)
     for b in range(members.count(p)):
         take_bearing(p, s, b)
-    if members.has_shaft(p):
-        copy(of, own, SP.SHAFT_STIFFNESS, SP.PORT_BEGIN)
-        for b in range(members.count(p)):
-            bearing_at = members.per_bearing(p, b)
-            own[bearing_at + SP.OFFSET] = of[bearing_at + SP.OFFSET]
-            own[bearing_at + SP.HELD_OFFSET] = of[bearing_at + SP.HELD_OFFSET]
-            own[bearing_at + SP.EXCESS] = of[bearing_at + SP.EXCESS]
-        copy(of, own, at + SP.HELD_NOSE, at + SP.LINES)
+    copy(of, own, SP.SHAFT_STIFFNESS, SP.PORT_BEGIN)
+    for b in range(members.count(p)):
+        bearing_at = members.per_bearing(p, b)
+        for place in (SP.OFFSET, SP.HELD_OFFSET, SP.EXCESS):
+            own[bearing_at + place] = of[bearing_at + place]
+    copy(of, own, at + SP.HELD_NOSE, at + SP.LINES)
     copy(of, own, members.history(p), members.history(p) + members.padded_size(p))
 
 

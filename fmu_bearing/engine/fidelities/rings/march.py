@@ -161,9 +161,8 @@ def accept(p, s, w, h):
     count_step(own, vectors - SP.MARCHED)
     for b in range(members.count(p)):
         accept_balls(members.parameters(p, b), members.state(p, s, b), h, members.work(p, w, b))
-        if members.has_shaft(p):
-            bearing_at = members.per_bearing(p, b)
-            own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
+        bearing_at = members.per_bearing(p, b)
+        own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
     equations.share_march(p, s)
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)

@@ -6,8 +6,9 @@
 ``trigonometry``  sine and cosine of the ball angles, branch-free
 ``conditions``    inputs turned into constants of one communication step
 ``pose``          where a ball is in a body's own frame, and how fast it moves there
+``contact``       axes of a contact, heights of both surfaces, load by Hertz's law and its slopes
 ``inlet``         rolling resistance of the oil at the inlets of the contacts
-``race``          Hertz contact, damping, traction strips, hysteresis
+``race``          load, damping, traction strips and hysteresis of all balls on one race
 ``traction``      Eyring's law, the multi-source paper's and heated oil on the same strips
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes
 ``cage``          pockets and land guidance

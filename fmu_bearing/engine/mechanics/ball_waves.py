@@ -17,6 +17,8 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.contact import first_zonal, next_zonal
+from fmu_bearing.engine.mechanics.race import press
 from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, store_three, three
 
@@ -24,33 +26,14 @@ _STILL = 1e-24  # rad2: below this turn sin x / x is 1
 
 
 @kernel
-def next_orders(x, here, back, before):
-    """Polynomials of the order after ``here`` at three times four places ``x``."""
-    x0, x1, x2 = x
-    h0, h1, h2 = here
-    b0, b1, b2 = before
-    return x0 * h0 - back * b0, x1 * h1 - back * b1, x2 * h2 - back * b2
-
-
-@kernel
 def zonal(p, form, orders, x):
-    """Height of the zonal harmonics and its derivative by ``x`` (m), each at three times four places ``x``.
-
-    ``form``: where their rows of ``P.FORM_ROW`` numbers begin (``prepare.surfaces.form_rows``). Legendre
-    polynomials without their leading coefficients follow Q_(n+1) = x Q_n - n^2/(4 n^2 - 1) Q_(n-1); what they
-    leave out is in the rows. Each order waits for the one before: three recurrences fill that time.
-    """
-    before = (splat(1.0), splat(1.0), splat(1.0))
-    here = x
-    height = (splat(0.0), splat(0.0), splat(0.0))
-    rise = scaled(p[form + P.FORM_RISE], before)
-    row = form
-    for _ in range(orders):
-        row += P.FORM_ROW
-        height = added(height, scaled(p[row + P.FORM_HEIGHT], here))
-        rise = added(rise, scaled(p[row + P.FORM_RISE], here))
-        here, before = next_orders(x, here, p[row + P.FORM_BACK], before), here
-    return height, rise
+    """Height of the zonal harmonics and its derivative by ``x`` (m), at three times four places ``x``."""
+    x0, x1, x2 = x
+    s0, s1, s2 = first_zonal(p, form, x0), first_zonal(p, form, x1), first_zonal(p, form, x2)
+    for order in range(1, orders + 1):
+        row = form + P.FORM_ROW * order
+        s0, s1, s2 = next_zonal(p, row, x0, s0), next_zonal(p, row, x1, s1), next_zonal(p, row, x2, s2)
+    return (s0[2], s1[2], s2[2]), (s0[3], s1[3], s2[3])
 
 
 @kernel
@@ -93,9 +76,6 @@ def add_ball_waves(p, c, lanes, race, w):
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
     scale = c[C.OVERSIZE_SCALE]
-    hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
-    half = p[P.RACES + race * P.RACE_SIZE + P.RACE_HALF_LENGTH]
-    damping = 1.5 * p[P.CONTACT_DAMPING]
     heights_under(p, lanes, row, w)
     for j in range(0, lanes, FOUR):
         a = three(w, W.AXES + j)
@@ -111,16 +91,9 @@ def add_ball_waves(p, c, lanes, race, w):
         rate += bump_t * load(w, row + R.COSA + j) / load(w, pose + X.RHO + j) * dot(dv, t)
         rate += bump_m * load(w, row + R.PER_GROOVE + j) * dot(dv, m)
         rate += bump_m * load(w, row + R.AT + j) - bump_t * load(w, row + R.AM + j)
-        pressed = max(approach, 0.0)
-        root = math.sqrt(pressed)
-        elastic = hertz * root * pressed
         store(w, row + R.BUMP_T + j, bump_t)
         store(w, row + R.BUMP_M + j, bump_m)
-        store(w, row + R.APPROACH + j, approach)
-        store(w, row + R.RATE + j, rate)
-        store(w, row + R.ELASTIC + j, elastic)
-        store(w, row + R.LOAD + j, max(elastic + hertz * root * damping * rate, 0.0))
-        store(w, row + R.HALF + j, half * root)
+        press(p, race, row + j, approach, rate, w)
 
 
 @kernel

@@ -8,13 +8,13 @@ import math
 
 from fmu_bearing.engine.choices import REGULARISED
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import consecutive, gather, load, select, splat, store, to_bits
+from fmu_bearing.engine.lanes import consecutive, load, select, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.mechanics.contact import contact_axes, damped, hertz, race_surface
 from fmu_bearing.engine.mechanics.inlet import inlet_factors, inlet_moments
 from fmu_bearing.engine.mechanics.pose import bearing_angle
-from fmu_bearing.engine.mechanics.powers import ROUND
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
-from fmu_bearing.engine.mechanics.triples import added, along, dot, scaled, store_three, three
+from fmu_bearing.engine.mechanics.triples import along, dot, store_three, three
 
 
 @kernel
@@ -28,34 +28,15 @@ def wave_time(p, speed):
 def wave_under(p, c, y_angle, race, turned, j, w):
     """Race height (m, towards the ball), slope (m/rad) and curvature (m/rad2) under four balls.
 
-    Cubic Hermite interpolation of a table of ``P.WAVE_INTERVALS`` values and slopes; the slope is the exact
-    derivative of the interpolant, so waviness conserves energy. ``turned`` is the race's own angle (rad).
+    ``turned`` is the race's own angle (rad).
     """
-    pose = W.POSE + race * X.SIZE
-    intervals = int(p[P.WAVE_INTERVALS])
-    within = intervals - 1
     per_radian = p[P.WAVE_INTERVALS] / TWO_PI
-    table = int(p[P.AT_WAVES]) + race * 2 * intervals
     scale = c[C.OVERSIZE_SCALE]
     # The ball's angle seen from the displaced ring's centre: h leaves the radial direction by ht/hr.
-    _, hr, ht = three(w, pose + X.H + j)
+    _, hr, ht = three(w, W.POSE + race * X.SIZE + X.H + j)
     angle = load(y_angle, j) + bearing_angle(hr, ht) - turned
-    # Adding ROUND leaves the interval's number in the low bits: no conversion, no branch.
-    place = angle * per_radian
-    number = (place - 0.5) + ROUND
-    t = place - (number - ROUND)
-    i0 = to_bits(number) & within
-    i1 = (i0 + 1) & within
-    h0 = gather(p, table, i0 << 1)
-    g0 = gather(p, table + 1, i0 << 1)
-    h1 = gather(p, table, i1 << 1)
-    g1 = gather(p, table + 1, i1 << 1)
-    d = h1 - h0
-    a = g0 + g1 - 2.0 * d
-    b = 3.0 * d - 2.0 * g0 - g1
-    height = scale * (h0 + t * (g0 + t * (b + t * a)))
-    slope = scale * per_radian * (g0 + t * (2.0 * b + t * 3.0 * a))
-    return height, slope, scale * per_radian * per_radian * (2.0 * b + t * 6.0 * a)
+    height, slope, curvature = race_surface(p, race, angle * per_radian)
+    return scale * height, scale * per_radian * slope, scale * per_radian * per_radian * curvature
 
 
 @kernel
@@ -74,19 +55,30 @@ def waves(p, c, y_angle, lanes, race, turned, w):
 
 
 @kernel
+def press(p, race, at, approach, rate, w):
+    """Write approach (m), its rate (m/s), loads and ellipse of four balls into a race's rows at ``at``."""
+    numbers = P.RACES + race * P.RACE_SIZE
+    stiffness = p[numbers + P.RACE_STIFFNESS]
+    elastic, _, root = hertz(stiffness, approach)
+    pressing = damped(stiffness, 1.5 * p[P.CONTACT_DAMPING], root, elastic, rate)
+    half = p[numbers + P.RACE_HALF_LENGTH] * root
+    store(w, at + R.APPROACH, approach)
+    store(w, at + R.RATE, rate)
+    store(w, at + R.ELASTIC, elastic)
+    store(w, at + R.LOAD, pressing)
+    store(w, at + R.HALF, half)
+
+
+@kernel
 def normal(p, c, y, lanes, race, w):
     """Contact direction, approach and its rate, load and sliding at the contact's middle."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    numbers = P.RACES + race * P.RACE_SIZE
-    hertz = p[numbers + P.RACE_STIFFNESS]
-    half = p[numbers + P.RACE_HALF_LENGTH]
     held = C.RACES + race * C.RACE_SIZE
     groove_x = c[held + C.GROOVE_X]
     groove_r = c[held + C.GROOVE_RADIUS]
     free = c[held + C.FREE]
     ball = c[C.BALL_RADIUS]
-    damping = 1.5 * p[P.CONTACT_DAMPING]
     sizes = int(p[P.AT_OVERSIZE])
     half_scale = 0.5 * c[C.OVERSIZE_SCALE]
     slide_to_roll = p[P.SLIDE_TO_ROLL]
@@ -99,21 +91,11 @@ def normal(p, c, y, lanes, race, w):
         dw = three(w, pose + X.DW + j)
         rho = load(w, pose + X.RHO + j)
         sx = load(w, pose + X.A + j) - groove_x
-        sr = rho - groove_r
-        distance = math.sqrt(sx * sx + sr * sr)
-        per_distance = 1.0 / distance
-        sina = sx * per_distance
-        cosa = sr * per_distance
-        e = added(scaled(sina, n), scaled(cosa, h))
-        m = added(scaled(cosa, n), scaled(-sina, h))
+        distance, per_distance, sina, cosa, e, m = contact_axes(sx, rho - groove_r, n, h)
         onward = dot(t, dv)
         oversize = half_scale * load(p, sizes + j)
         approach = distance - free + load(w, row + R.WAVE + j) + oversize
         rate = dot(e, dv) + load(w, row + R.SLOPE + j) * onward / rho
-        pressed = max(approach, 0.0)
-        root = math.sqrt(pressed)
-        elastic = hertz * root * pressed
-        pressing = max(elastic + hertz * root * damping * rate, 0.0)
         at = dot(t, dw)
         am = dot(m, dw)
         ut = onward + ball * am
@@ -125,11 +107,7 @@ def normal(p, c, y, lanes, race, w):
         store(w, row + R.PER_GROOVE + j, per_distance)
         store(w, row + R.SINA + j, sina)
         store(w, row + R.COSA + j, cosa)
-        store(w, row + R.APPROACH + j, approach)
-        store(w, row + R.RATE + j, rate)
-        store(w, row + R.ELASTIC + j, elastic)
-        store(w, row + R.LOAD + j, pressing)
-        store(w, row + R.HALF + j, half * root)
+        press(p, race, row + j, approach, rate, w)
         store(w, row + R.UT + j, ut)
         store(w, row + R.UM + j, dot(m, dv) - ball * at)
         store(w, row + R.AN + j, dot(e, dw))

@@ -13,6 +13,7 @@ from fmu_bearing.engine.lanes import load, plus_scaled, scaled_six, select, six,
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.cage import in_pocket
+from fmu_bearing.engine.mechanics.contact import damped_slopes
 from fmu_bearing.engine.mechanics.race import wave_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
 
@@ -235,10 +236,7 @@ def race_contact(p, c, y, race, turned, j, w):
     """
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    numbers = P.RACES + race * P.RACE_SIZE
     ball = c[C.BALL_RADIUS]
-    hertz = p[numbers + P.RACE_STIFFNESS]
-    damping = 1.5 * p[P.CONTACT_DAMPING]
     m = three(w, row + R.EM + j)
     frame = (three(w, row + R.EN + j), three(w, pose + X.T + j), m)
     sina = load(w, row + R.SINA + j)
@@ -249,10 +247,13 @@ def race_contact(p, c, y, race, turned, j, w):
     root = math.sqrt(max(load(w, row + R.APPROACH + j), 0.0))
     per_root = 1.0 / max(root, _SHALLOWEST)
     touching = load(w, row + R.LOAD + j) > 0.0
-    by_approach = hertz * (1.5 * root + 0.5 * damping * load(w, row + R.RATE + j) * per_root)
+    by_approach, by_rate = damped_slopes(
+        p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS], 1.5 * p[P.CONTACT_DAMPING],
+        root, per_root, load(w, row + R.RATE + j),
+    )  # fmt: skip
     stiffness = (
         select(touching, by_approach, 0.0),
-        select(touching, hertz * damping * root, 0.0),
+        select(touching, by_rate, 0.0),
         0.5 * per_root * per_root,
     )
     zero = splat(0.0)

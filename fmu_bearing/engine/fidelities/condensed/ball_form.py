@@ -15,6 +15,7 @@ import math
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import lane, load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, L, P, R, T, W, Y
+from fmu_bearing.engine.mechanics.contact import first_zonal, next_zonal
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
 
 _STILL = 1e-9  # of the shaft's speed: slower balls do not turn
@@ -72,26 +73,12 @@ def one_of(vectors, k):
 
 @kernel
 def pair_of_sums(p, form, orders, x, y):
-    """Height of the zonal harmonics and its derivative at ``x``, then at ``y``, both of four balls.
-
-    As :func:`ball_waves.zonal`. Two chains at once fill each other's waiting time.
-    """
-    x_before, x_here = splat(1.0), x
-    y_before, y_here = splat(1.0), y
-    x_height, x_rise = splat(0.0), splat(p[form + P.FORM_RISE])
-    y_height, y_rise = x_height, x_rise
-    row = form
-    for _ in range(orders):
-        row += P.FORM_ROW
-        height, rise = p[row + P.FORM_HEIGHT], p[row + P.FORM_RISE]
-        back = p[row + P.FORM_BACK]
-        x_height += height * x_here
-        x_rise += rise * x_here
-        y_height += height * y_here
-        y_rise += rise * y_here
-        x_here, x_before = x * x_here - back * x_before, x_here
-        y_here, y_before = y * y_here - back * y_before, y_here
-    return x_height, x_rise, y_height, y_rise
+    """Height of the zonal harmonics and its derivative at ``x``, then at ``y``, both of four balls."""
+    one, other = first_zonal(p, form, x), first_zonal(p, form, y)
+    for order in range(1, orders + 1):
+        row = form + P.FORM_ROW * order
+        one, other = next_zonal(p, row, x, one), next_zonal(p, row, y, other)
+    return one[2], one[3], other[2], other[3]
 
 
 @kernel

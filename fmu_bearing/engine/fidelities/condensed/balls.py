@@ -17,15 +17,17 @@ rate as the ball rolls over it. The height tau later is not the same: at omega t
 
 import math
 
-from fmu_bearing.engine.constants import GRAVITY, PI
+from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import gather, load, select, store, sum_four, sum_lanes, to_bits
+from fmu_bearing.engine.lanes import load, select, store, sum_four, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
+from fmu_bearing.engine.mechanics.contact import contact_axes, hertz, in_plane, race_surface
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
-from fmu_bearing.engine.mechanics.powers import ROUND
+from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
+from fmu_bearing.engine.mechanics.triples import store_three, three
 
 # N/m: keeps a ball without contact from being thrown far. It goes with the loads: a sweep leaves a ball short
 # of its rest by it, and the rings of loaded balls on a soft support would feel a spring to where these were.
@@ -72,75 +74,50 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
         add_ball_form(p, c, lv, rolled, speed, w)
     if p[P.WAVINESS] == 0.0:
         return
-    intervals = int(p[P.WAVE_INTERVALS])
-    within = intervals - 1  # low bits of a place in the table
-    per_radian = p[P.WAVE_INTERVALS] / (2.0 * PI)
+    per_radian = p[P.WAVE_INTERVALS] / TWO_PI
     for race in range(2):
-        table = int(p[P.AT_WAVES]) + race * 2 * intervals
         start = (theta - (inner_angle if race == 0 else outer_angle)) * per_radian
         ahead = tau * (orbit - speed if race == 0 else orbit) * per_radian
         row = T.INNER + race * STRIDE
         for j in range(0, lanes, FOUR):
-            place = start + load(lv, L.PHI + j)
-            # adding ROUND leaves the whole part in the low bits; beside a whole number either one will do
-            shifted = place - 0.5 + ROUND
-            t = place - (shifted - ROUND)
-            whole = to_bits(shifted)
-            one = (whole & within) << 1
-            two = (whole + 1 & within) << 1
-            h0 = gather(p, table, one)
-            g0 = gather(p, table + 1, one)
-            d = gather(p, table, two) - h0
-            g1 = gather(p, table + 1, two)
-            a = g0 + g1 - 2.0 * d
-            b = 3.0 * d - 2.0 * g0 - g1
-            height = h0 + t * (g0 + t * (b + t * a))
-            rise = g0 + t * (2.0 * b + t * (3.0 * a))
+            height, rise, _ = race_surface(p, race, start + load(lv, L.PHI + j))
             store(w, row + j, load(w, row + j) + scale * (height + ahead * rise))
 
 
 @kernel
-def touch(
-    hertz, groove_x, groove_r, free, pitch, ux, uy, uz, by, bz, vx, vy, vz, dby, dbz, lanes, heights, row, w
-):
+def touch(p, c, race, first, tilt, heights, row, q, w):
     """Write the contacts of all balls with one race into its rows from ``row`` on, see ``T.CONTACT``.
 
-    ``u``: the ring's displacement (m), ``by``, ``bz``: its tilts (rad); ``v``, ``dby``, ``dbz``: their rates
-    times tau; ``heights``: row of the race's heights.
+    ``first``, ``tilt``: coordinates of the ring's displacement and tilts in ``q``, and of their rates times
+    tau in ``T.AHEAD``; ``heights``: row of the race's heights.
     """
+    stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+    held = C.RACES + race * C.RACE_SIZE
+    groove_x, groove_r, free = c[held + C.GROOVE_X], c[held + C.GROOVE_RADIUS], c[held + C.FREE]
+    pitch = p[P.PITCH_RADIUS]
+    ux, uy, uz, by, bz = q[first + Q.X], q[first + Q.Y], q[first + Q.Z], q[tilt], q[tilt + 1]
+    v = T.AHEAD + first
+    vx, vy, vz, dby, dbz = w[v + Q.X], w[v + Q.Y], w[v + Q.Z], w[T.AHEAD + tilt], w[T.AHEAD + tilt + 1]
     nx = axis_cosine(by, bz)
-    for j in range(0, lanes, FOUR):
+    for j in range(0, int(p[P.LANES]), FOUR):
         x = load(w, T.X + j)
         radius = pitch + load(w, T.R + j)
         co = load(w, T.COS + j)
         si = load(w, T.SIN + j)
         qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(co, si, x, radius, ux, uy, uz, by, bz, nx)
-        sx = axial - groove_x
-        sr = rho - groove_r
-        distance = math.sqrt(sx * sx + sr * sr)
-        per = 1.0 / distance
-        sa = sx * per
-        ca = sr * per
-        ex = sa * nx + ca * hx
-        er = sa * nr + ca * hr
+        n, h = (nx, nr, nt), (hx, hr, ht)
+        distance, per, sa, ca, e, m = contact_axes(axial - groove_x, rho - groove_r, n, h)
+        ex, er, _ = e
         # the rate of approach; products of the ring's tilt and its rates along the track are left out
         leaving = ex * vx + er * (co * vz - si * vy) + (sa * qr - ca * axial) * (co * dby + si * dbz)
-        approach = max(distance - free + load(w, heights + j) - leaving, 0.0)
-        root = math.sqrt(approach)
-        pressed = hertz * root * approach
+        pressed, stiff, _ = hertz(stiffness, distance - free + load(w, heights + j) - leaving)
         at = row + j
-        store(w, at + T.QX, qx)
-        store(w, at + T.QR, qr)
-        store(w, at + T.QT, qt)
+        store_three(w, at + T.QX, (qx, qr, qt))
         store(w, at + T.LOAD, pressed)
-        store(w, at + T.STIFF, 1.5 * hertz * root)
+        store(w, at + T.STIFF, stiff)
         store(w, at + T.ACROSS, pressed * per)
-        store(w, at + T.EX, ex)
-        store(w, at + T.ER, er)
-        store(w, at + T.ET, sa * nt + ca * ht)
-        store(w, at + T.MX, ca * nx - sa * hx)
-        store(w, at + T.MR, ca * nr - sa * hr)
-        store(w, at + T.MT, ca * nt - sa * ht)
+        store_three(w, at + T.EX, e)
+        store_three(w, at + T.MX, m)
 
 
 @kernel
@@ -189,9 +166,10 @@ def balance(p, lv, speed, part, w):
         netr = -load_i * er - pair_i * mr - load_o * fr - pair_o * tr
         netr += pull * (p[P.PITCH_RADIUS] + r) - weight * load(w, T.COS + j)
         floor = _FLOOR / ((_PER_LIGHT * load_i * load_i + 1.0) * (_PER_LIGHT * load_o * load_o + 1.0))
-        kxx = kn * ex * ex + kt * mx * mx + kn2 * fx * fx + kt2 * tx * tx + floor
-        kxr = kn * ex * er + kt * mx * mr + kn2 * fx * fr + kt2 * tx * tr
-        krr = kn * er * er + kt * mr * mr + kn2 * fr * fr + kt2 * tr * tr + floor
+        kxx, kxr, krr = in_plane(0.0, 0.0, 0.0, kn, kt, ex, er, mx, mr)
+        kxx, kxr, krr = in_plane(kxx, kxr, krr, kn2, kt2, fx, fr, tx, tr)
+        kxx += floor
+        krr += floor
         per = 1.0 / (kxx * krr - kxr * kxr)
         dx = part * (netx * krr - netr * kxr) * per
         dr = part * (netr * kxx - netx * kxr) * per
@@ -230,11 +208,10 @@ def push(lv, lanes, pair, lean, row, force, w):
         dx = load(w, T.DX + j)
         dr = load(w, T.DR + j)
         mask = load(lv, L.MASK + j)
-        ex, er, et = load(w, at + T.EX), load(w, at + T.ER), load(w, at + T.ET)
-        mx, mr, mt = load(w, at + T.MX), load(w, at + T.MR), load(w, at + T.MT)
-        qx = load(w, at + T.QX) + dx
-        qr = load(w, at + T.QR) + dr
-        qt = load(w, at + T.QT)
+        ex, er, et = three(w, at + T.EX)
+        mx, mr, mt = three(w, at + T.MX)
+        qx, qr, qt = three(w, at + T.QX)
+        qx, qr = qx + dx, qr + dr
         along = mask * (load(w, at + T.LOAD) + load(w, at + T.STIFF) * (ex * dx + er * dr))
         across = mask * (pair + load(w, at + T.ACROSS) * (load(w, lean + j) + (mx * dx + mr * dr)))
         fx = along * ex + across * mx
@@ -261,24 +238,8 @@ def sweep(p, c, lv, speed, part, q, w):
     them.
     """
     lanes = int(p[P.LANES])
-    pitch = p[P.PITCH_RADIUS]
-    a = T.AHEAD
-    i = C.RACES
-    touch(
-        p[P.RACES + P.RACE_STIFFNESS], c[i + C.GROOVE_X], c[i + C.GROOVE_RADIUS], c[i + C.FREE], pitch,
-        q[Q.X], q[Q.Y], q[Q.Z], q[Q.INNER_BY], q[Q.INNER_BZ],
-        w[a + Q.X], w[a + Q.Y], w[a + Q.Z], w[a + Q.INNER_BY], w[a + Q.INNER_BZ],
-        lanes, T.INNER, T.CONTACT, w,
-    )  # fmt: skip
-    i = C.RACES + C.RACE_SIZE
-    o = Q.OUTER
-    a += o
-    touch(
-        p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], c[i + C.GROOVE_X], c[i + C.GROOVE_RADIUS], c[i + C.FREE],
-        pitch, q[o + Q.X], q[o + Q.Y], q[o + Q.Z], q[o + Q.BY], q[o + Q.BZ],
-        w[a + Q.X], w[a + Q.Y], w[a + Q.Z], w[a + Q.BY], w[a + Q.BZ],
-        lanes, T.OUTER, T.CONTACT_OUTER, w,
-    )  # fmt: skip
+    touch(p, c, 0, Q.INNER, Q.INNER_BY, T.INNER, T.CONTACT, q, w)
+    touch(p, c, 1, Q.OUTER, Q.OUTER + Q.BY, T.OUTER, T.CONTACT_OUTER, q, w)
     balance(p, lv, speed, part, w)
     push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.LEAN, T.CONTACT, T.FORCE, w)
     push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.LEAN_OUTER, T.CONTACT_OUTER, T.FORCE_OUTER, w)

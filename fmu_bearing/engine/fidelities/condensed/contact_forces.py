@@ -7,6 +7,7 @@ change. With low preload friction is 2 % of the load, and contacts at small angl
 """
 
 from fmu_bearing.engine.fidelities.condensed.families import acting, member
+from fmu_bearing.engine.fidelities.condensed.transverse import held_in_plane
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, T
 from fmu_bearing.engine.mechanics.equations import right_hand_side
@@ -24,15 +25,9 @@ _HEIGHT = 1e-9  # m: of differences, 1e-4 of an approach: errors of the second o
 def find_holds(p, orbit, w):
     """Put what contacts do to ball 0 per place x, r to ``T.HOLDS`` (1/s2), with its orbit's pull."""
     mass = p[P.BALL_MASS]
-    xx, xr, rr = 0.0, 0.0, -mass * orbit * orbit
+    xx, xr, rr = held_in_plane(p, orbit, w)
     for i in range(L.AWAYS * J.BALL):
         w[T.HOLDS + i] = 0.0
-    for at in (T.CONTACT, T.CONTACT_OUTER):
-        along, across = w[at + T.STIFF], w[at + T.ACROSS]
-        ex, er, mx, mr = w[at + T.EX], w[at + T.ER], w[at + T.MX], w[at + T.MR]
-        xx += along * ex * ex + across * mx * mx
-        xr += along * ex * er + across * mx * mr
-        rr += along * er * er + across * mr * mr
     w[T.HOLDS] = xx / mass
     w[T.HOLDS + 1] = xr / mass
     w[T.HOLDS + L.AWAYS] = xr / mass

@@ -15,6 +15,7 @@ import math
 
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, Y
+from fmu_bearing.engine.mechanics.contact import in_plane
 
 _LOADED = 1.0  # N at both races: with less a ball follows statically
 # Radians per step of the balls between held races: below them polynomials through three and five drives are
@@ -36,22 +37,24 @@ def clear_transverse(lv):
 
 
 @kernel
+def held_in_plane(p, orbit, w):
+    """Return what holds ball 0 at its contacts by places x, r (N/m): xx, xr, rr, with its orbit's pull."""
+    kxx, kxr, krr = 0.0, 0.0, -p[P.BALL_MASS] * orbit * orbit
+    for at in (T.CONTACT, T.CONTACT_OUTER):
+        xx, xr, rr = in_plane(
+            0.0, 0.0, 0.0,
+            w[at + T.STIFF], w[at + T.ACROSS], w[at + T.EX], w[at + T.ER], w[at + T.MX], w[at + T.MR],
+        )  # fmt: skip
+        kxx, kxr, krr = kxx + xx, kxr + xr, krr + rr
+    return kxx, kxr, krr
+
+
+@kernel
 def find_direction(p, lv, speed, w):
     """Find direction and frequency of ball 0 across the track from its contacts; False where it is loose."""
-    i = T.CONTACT
-    o = T.CONTACT_OUTER
-    if not (w[i + T.LOAD] > _LOADED and w[o + T.LOAD] > _LOADED):
+    if not (w[T.CONTACT + T.LOAD] > _LOADED and w[T.CONTACT_OUTER + T.LOAD] > _LOADED):
         return False
-    orbit = lv[L.RATIO] * speed
-    kxx = 0.0
-    kxr = 0.0
-    krr = -p[P.BALL_MASS] * orbit * orbit
-    for at in (i, o):
-        along, across = w[at + T.STIFF], w[at + T.ACROSS]
-        ex, er, mx, mr = w[at + T.EX], w[at + T.ER], w[at + T.MX], w[at + T.MR]
-        kxx += along * ex * ex + across * mx * mx
-        kxr += along * ex * er + across * mx * mr
-        krr += along * er * er + across * mr * mr
+    kxx, kxr, krr = held_in_plane(p, lv[L.RATIO] * speed, w)
     half = 0.5 * (kxx - krr)
     soft = 0.5 * (kxx + krr) - math.sqrt(half * half + kxr * kxr)
     if not (soft > 0.0):

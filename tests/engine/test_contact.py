@@ -5,10 +5,12 @@ import pytest
 from mpmath import mp
 from scipy.interpolate import CubicHermiteSpline
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import lane, load, splat, store
-from fmu_bearing.engine.layout import FOUR, P
+from fmu_bearing.engine.layout import FOUR, C, F, P, Q, R, S, W, Y
 from fmu_bearing.engine.mechanics.contact import (
+    approach_under,
     contact_axes,
     damped,
     damped_slopes,
@@ -17,6 +19,9 @@ from fmu_bearing.engine.mechanics.contact import (
     race_surface,
 )
 from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
+from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat, pose_at
+from fmu_bearing.engine.statics.quasistatic import deeper
+from tests.engine.helpers import Run
 
 FOUND = 19  # numbers that `contact` gives, of them
 ELASTIC, BY_APPROACH = 9, 13
@@ -147,11 +152,12 @@ def test_one_ball_and_four_have_equal_bits_and_the_geometry_at_40_digits(seed):
     np.testing.assert_allclose(four[9:] / size[9:], wanted[9:] / size[9:], atol=1e-8)
 
 
-def test_an_open_contact_carries_nothing():
+def test_an_open_contact_carries_nothing_and_the_law_turns_round():
     assert hertz(STIFFNESS, -1e-6) == (0.0, 0.0, 0.0)
     # a pull by damping is none
     load, _, root = hertz(STIFFNESS, 1e-6)
     assert damped(STIFFNESS, 1.5 * TAU, root, load, -10.0) == 0.0
+    assert approach_under(STIFFNESS, load) == pytest.approx(1e-6, rel=1e-14)
 
 
 @kernel
@@ -179,3 +185,30 @@ def test_a_race_is_a_cubic_spline_through_its_table():
             # derivatives of a cubic with coefficients up to 20, rounded
             np.testing.assert_allclose(out[: 3 * FOUR].reshape(3, FOUR), wanted, atol=1e-11)
             np.testing.assert_array_equal(out[3 * FOUR :], out[: 3 * FOUR : FOUR])
+
+
+@pytest.mark.parametrize("name", ["7003C-spindle", "7009C-steel"])
+def test_statics_have_the_contacts_of_the_right_hand_side(scene, name):
+    """Loads of both races, with sizes and waves, of balls that are displaced between tilted rings."""
+    run = Run(scene(name), 0.0).init()
+    p, c, rng = run.p, run.s[S.C : S.C + C.SIZE].copy(), np.random.default_rng(8)
+    balls, lanes = int(p[P.BALLS]), int(p[P.LANES])
+    c[C.OVERSIZE_SCALE] = 1.0
+    # about the preloaded state, seen from the outer ring's centre; angles as statics have them
+    y = run.s[S.Y : S.Y + Y.SIZE].copy()
+    y[Y.X : Y.X + lanes] -= y[Y.Q0 + Q.OUTER]
+    ring = np.array([y[Y.Q0] - y[Y.Q0 + Q.OUTER], *rng.normal(0.0, 3e-7, 2), *rng.normal(0.0, 1e-4, 2)])
+    y[Y.Q0 :] = 0.0
+    y[Y.Q0 : Y.Q0 + ring.size] = ring
+    y[Y.TH : Y.TH + lanes] = 2.0 * np.pi * np.where(np.arange(lanes) < balls, np.arange(lanes), 0) / balls
+    call("right_hand_side", p, c, y, run.w, np.zeros(F.SIZE), 0.0, 0.0, 0.0)
+    elastic = [run.w[W.RACE + race * R.SIZE + R.ELASTIC :][:balls].copy() for race in range(2)]
+    for j in range(balls):
+        angle = 2.0 * np.pi * j / balls
+        depths = [deeper(p, c, race, j, angle) for race in range(2)]
+        pose = pose_at(np.cos(angle), np.sin(angle), ring, np.zeros(2), *depths)
+        radius = p[P.PITCH_RADIUS] + y[Y.R + j]
+        for race, seat in enumerate((inner_seat, outer_seat)):
+            # 1e-16 m of the approach; waves: an angle of 1e-5 rad round the displaced ring's centre
+            found = seat(p, c, pose, y[Y.X + j], radius).load
+            assert found == pytest.approx(elastic[race][j], rel=1e-4, abs=1e-3)

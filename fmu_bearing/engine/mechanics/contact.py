@@ -104,6 +104,12 @@ def damped_slopes(stiffness, damping, root, per_root, rate):
 
 
 @kernel
+def approach_under(stiffness, load):
+    """Approach (m) under a ``load`` (N): Hertz's law turned round."""
+    return (load / stiffness) ** (2.0 / 3.0)
+
+
+@kernel
 def in_plane(xx, xr, rr, along, across, ex, er, mx, mr):
     """Return in-plane stiffness (N/m) ``xx``, ``xr``, ``rr`` plus that of a contact.
 

@@ -31,18 +31,25 @@ def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
 
 
 @kernel
+def off_axis(axial, qx, qr, qt, nx, nr, nt):
+    """Distance (m) of a ball's centre q from a body's axis n, then the unit vector h; ``axial``: q n (m)."""
+    hx = qx - axial * nx
+    hr = qr - axial * nr
+    ht = qt - axial * nt
+    rho = math.sqrt(hx * hx + hr * hr + ht * ht)
+    inv = 1.0 / rho
+    return rho, hx * inv, hr * inv, ht * inv
+
+
+@kernel
 def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
     """Return what :func:`resolved` does, then the distance from the axis (m) and the radial unit vector h.
 
     In order: q (x, r, theta), n (r, theta), q n, distance, h (x, r, theta). Arguments as there.
     """
     qx, qr, qt, nr, nt, axial = resolved(co, si, x, radius, ux, uy, uz, by, bz, nx)
-    hx = qx - axial * nx
-    hr = qr - axial * nr
-    ht = qt - axial * nt
-    rho = math.sqrt(hx * hx + hr * hr + ht * ht)
-    inv = 1.0 / rho
-    return qx, qr, qt, nr, nt, axial, rho, hx * inv, hr * inv, ht * inv
+    rho, hx, hr, ht = off_axis(axial, qx, qr, qt, nx, nr, nt)
+    return qx, qr, qt, nr, nt, axial, rho, hx, hr, ht
 
 
 @kernel

@@ -10,6 +10,7 @@ from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, C, L, P, R, S, W, Y, Z
+from fmu_bearing.engine.mechanics.contact import approach_under
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
 
@@ -38,8 +39,8 @@ def kept(p, c, s, race, j):
     at = S.CONTACTS + race * R.KEPT + j
     free = c[C.RACES + race * C.RACE_SIZE + C.FREE]
     approach = max(s[at + R.KEPT_APPROACH], 0.0)
-    hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
-    return hertz, approach, free + approach, s[at + R.KEPT_SINA], s[at + R.KEPT_COSA]
+    stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+    return stiffness, approach, free + approach, s[at + R.KEPT_SINA], s[at + R.KEPT_COSA]
 
 
 @kernel
@@ -86,7 +87,7 @@ def contacts(p, s, z):
     for race in range(2):
         numbers = P.RACES + race * P.RACE_SIZE
         at = Z.CONTACT + Z.CONTACT_SIZE * race
-        root = (z[at + Z.LOAD_MAX] / p[numbers + P.RACE_STIFFNESS]) ** (1.0 / 3.0)
-        half = p[numbers + P.RACE_HALF_LENGTH] * root
+        approach = approach_under(p[numbers + P.RACE_STIFFNESS], z[at + Z.LOAD_MAX])
+        half = p[numbers + P.RACE_HALF_LENGTH] * math.sqrt(approach)
         reach = math.asin(min(1.0, half / p[numbers + P.RACE_PROFILE_RADIUS]))
         z[Z.SHOULDER + race] = p[numbers + P.RACE_SHOULDER] - z[at + Z.ANGLE_MEAN] - reach

@@ -10,7 +10,8 @@ from typing import NamedTuple
 from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL, SHARED_CONTROL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q
-from fmu_bearing.engine.mechanics.pose import axis_cosine
+from fmu_bearing.engine.mechanics.contact import approach_under, contact_axes, hertz, in_plane
+from fmu_bearing.engine.mechanics.pose import axis_cosine, off_axis
 
 _ITERATIONS = 60
 _BACKTRACKS = 8
@@ -42,14 +43,14 @@ class Pose(NamedTuple):
 class Seat(NamedTuple):
     """Load (N) and geometry of the contact with one race.
 
-    ``stiffness``: normal (N/m); ``distance``, ``rho``: of the ball from groove centre and axis (m);
-    ``e``: unit vector from the ball into the race; ``m``: along the major axis; ``cosine``: of the angle
-    between ``e`` and the direction away from the ring's axis.
+    ``stiffness``: normal (N/m); ``across``: that of the load's turning, across the track (N/m); ``rho``: of
+    the ball from the axis (m); ``e``: unit vector from the ball into the race; ``m``: along the major axis;
+    ``cosine``: of the angle between ``e`` and the direction away from the ring's axis.
     """
 
     load: float
     stiffness: float
-    distance: float
+    across: float
     rho: float
     ex: float
     er: float
@@ -117,28 +118,13 @@ def seat(p, c, race, deeper, qx, qr, qt, nx, nr, nt):
     ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``deeper``: see `Pose` (m).
     """
     held = C.RACES + race * C.RACE_SIZE
-    hertz = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     axial = qx * nx + qr * nr + qt * nt
-    hx = qx - axial * nx
-    hr = qr - axial * nr
-    ht = qt - axial * nt
-    rho = math.sqrt(hx * hx + hr * hr + ht * ht)
-    hx /= rho
-    hr /= rho
-    ht /= rho
-    sx = axial - c[held + C.GROOVE_X]
-    sr = rho - c[held + C.GROOVE_RADIUS]
-    distance = math.sqrt(sx * sx + sr * sr)
-    sine = sx / distance
-    cosine = sr / distance
-    approach = max(distance - c[held + C.FREE] + deeper, 0.0)
-    root = math.sqrt(approach)
-    return Seat(
-        hertz * approach * root, 1.5 * hertz * root, distance, rho,
-        sine * nx + cosine * hx, sine * nr + cosine * hr, sine * nt + cosine * ht,
-        cosine * nx - sine * hx, cosine * nr - sine * hr, cosine * nt - sine * ht,
-        cosine,
-    )  # fmt: skip
+    rho, hx, hr, ht = off_axis(axial, qx, qr, qt, nx, nr, nt)
+    sx, sr = axial - c[held + C.GROOVE_X], rho - c[held + C.GROOVE_RADIUS]
+    distance, per, _, cosine, e, m = contact_axes(sx, sr, (nx, nr, nt), (hx, hr, ht))
+    stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+    load, slope, _ = hertz(stiffness, distance - c[held + C.FREE] + deeper)
+    return Seat(load, slope, load * per, rho, e[0], e[1], e[2], m[0], m[1], m[2], cosine)
 
 
 @kernel
@@ -224,13 +210,8 @@ def ball_state(p, c, speed, pose, x, r):
     pi, po = friction(p, c, orbit, wr, qi, qo)
     fx = -qi * inner.ex - qo * outer.ex + pi * ci - po * co
     fr = -qi * inner.er - qo * outer.er - pi * si + po * so + p[P.BALL_MASS] * radius * orbit * orbit
-    ki = inner.stiffness
-    ko = outer.stiffness
-    ti = qi / inner.distance
-    to = qo / outer.distance
-    kxx = ki * si * si + ti * ci * ci + ko * so * so + to * co * co
-    kxr = (ki - ti) * si * ci + (ko - to) * so * co
-    krr = ki * ci * ci + ti * si * si + ko * co * co + to * so * so
+    kxx, kxr, krr = in_plane(0.0, 0.0, 0.0, inner.stiffness, inner.across, si, ci, ci, -si)
+    kxx, kxr, krr = in_plane(kxx, kxr, krr, outer.stiffness, outer.across, so, co, co, -so)
     return Ball(
         fx, fr, kxx, kxr, krr,
         qi, inner.ex, inner.er, inner.et, qo, outer.ex, outer.er, outer.et,
@@ -246,8 +227,7 @@ def thrown_out(p, c, pose, orbit):
     groove_radius = c[held + C.GROOVE_RADIUS]
     pitch = p[P.PITCH_RADIUS]
     force = p[P.BALL_MASS] * pitch * orbit * orbit
-    press = force / p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]
-    approach = math.exp(2.0 / 3.0 * math.log(press + 1e-30))
+    approach = approach_under(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], force)
     radius = groove_radius + c[held + C.FREE] - pose.deeper_outer + approach
     # a tilted ring's groove circle lies beside the circle of the upright one
     return groove_x - groove_radius * pose.outer_nr, radius - pitch + groove_x * pose.outer_nr

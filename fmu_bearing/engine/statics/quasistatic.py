@@ -13,7 +13,7 @@
 * status ``OK``, or ``NO_START`` where the residual stays above 1e-6 of the load.
 
 The ball rolls without slip at the middle of both contacts. Who carries the gyroscopic moment, and how the
-spin axis pitches, is ``P.RACE_CONTROL``. Geometry is that of fidelity `full` (``mechanics.pose``, ``race``);
+spin axis pitches, is ``P.RACE_CONTROL``. Geometry is that of fidelity `full` (``mechanics``);
 ball weight, drag, cage, rolling resistance and traction along the rolling direction are left out.
 """
 
@@ -22,7 +22,9 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.lanes import lane, splat
 from fmu_bearing.engine.layout import EQ, ST, STRIDE, C, P, Q, W
+from fmu_bearing.engine.mechanics.contact import approach_under, hertz, race_surface
 from fmu_bearing.engine.statics.ball_balance import ball_equilibrium, ball_state, pose_at
 from fmu_bearing.engine.statics.stiffness import add_turned, ball_share
 from fmu_bearing.engine.status import NO_START, OK
@@ -44,10 +46,8 @@ def axial_guess(p, c, force):
     apart = c[inner + C.GROOVE_X] - c[outer + C.GROOVE_X]
     across = c[inner + C.GROOVE_RADIUS] - c[outer + C.GROOVE_RADIUS]
     free = c[inner + C.FREE] + c[outer + C.FREE]
-    k = 2.0 / 3.0
-    series = math.exp(-k * math.log(p[P.RACES + P.RACE_STIFFNESS]))
-    series += math.exp(-k * math.log(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS]))
-    series = p[P.BALLS] * math.exp(-1.5 * math.log(series))
+    under = approach_under(p[P.RACES + P.RACE_STIFFNESS], 1.0)  # a newton, of both contacts
+    under += approach_under(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], 1.0)
     side = 1.0 if force >= 0.0 else -1.0
     # distance of the groove centres along x, where the balls just touch and where they certainly carry it
     low = math.sqrt(max(free * free - across * across, 0.0))
@@ -55,8 +55,8 @@ def axial_guess(p, c, force):
     for _ in range(30):
         reach = 0.5 * (low + high)
         length = math.sqrt(reach * reach + across * across)
-        approach = max(length - free, 0.0)
-        if series * approach * math.sqrt(approach) * reach / length > abs(force):
+        carried, _, _ = hertz(p[P.BALLS], (length - free) / under)
+        if carried * reach / length > abs(force):
             high = reach
         else:
             low = reach
@@ -67,20 +67,13 @@ def axial_guess(p, c, force):
 def deeper(p, c, race, j, angle):
     """How much oversize of ball ``j`` and waviness of a race at ``angle`` (rad) deepen the approach (m).
 
-    Both rings' own angles are zero. The table is that of ``mechanics.race.waves``, linear between its points.
+    Both rings' own angles are zero.
     """
-    scale = c[C.OVERSIZE_SCALE]
     height = 0.5 * p[int(p[P.AT_OVERSIZE]) + j]
     if p[P.WAVINESS] != 0.0:
-        intervals = int(p[P.WAVE_INTERVALS])
-        table = int(p[P.AT_WAVES]) + race * 2 * intervals
-        place = angle / (2.0 * PI) * intervals
-        below = int(place)
-        part = place - below
-        first = p[table + 2 * (below % intervals)]
-        second = p[table + 2 * ((below + 1) % intervals)]
-        height += first + part * (second - first)
-    return scale * height
+        wave, _, _ = race_surface(p, race, splat(angle / (2.0 * PI) * p[P.WAVE_INTERVALS]))
+        height += lane(wave, 0)
+    return c[C.OVERSIZE_SCALE] * height
 
 
 @kernel
@@ -92,8 +85,9 @@ def place_first(p, c, shift, offset, share, v):
     sx = c[inner + C.GROOVE_X] + shift - c[outer + C.GROOVE_X]
     sr = c[inner + C.GROOVE_RADIUS] - c[outer + C.GROOVE_RADIUS]
     length = math.sqrt(sx * sx + sr * sr)
-    ratio = p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS] / p[P.RACES + P.RACE_STIFFNESS]
-    part = 1.0 / (1.0 + math.exp(2.0 / 3.0 * math.log(ratio)))
+    one = approach_under(p[P.RACES + P.RACE_STIFFNESS], 1.0)
+    other = approach_under(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], 1.0)
+    part = other / (one + other)
     reach = (c[outer + C.FREE] + part * max(length - c[outer + C.FREE] - c[inner + C.FREE], 0.0)) / length
     for j in range(balls):
         angle = 2.0 * PI * j / balls

@@ -3,23 +3,18 @@
 The ball is massless and free in its axial plane; centrifugal and friction forces are held.
 """
 
-import math
-
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, ST, P
+from fmu_bearing.engine.mechanics.contact import hertz, in_plane
 from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat
 
 
 @kernel
-def contact_stiffness(hertz, approach, distance, sine, cosine):
-    """In-plane stiffness (N/m) of one contact: xx, xr, rr, with the turning of the load's direction."""
-    kn = 1.5 * hertz * math.sqrt(approach)
-    kt = kn * approach / (1.5 * distance)
-    return (
-        kn * sine * sine + kt * cosine * cosine,
-        (kn - kt) * sine * cosine,
-        kn * cosine * cosine + kt * sine * sine,
-    )
+def contact_stiffness(contact):
+    """In-plane stiffness (N/m) of one contact, see :func:`series_stiffness`: xx, xr, rr."""
+    stiffness, approach, distance, sine, cosine = contact
+    load, slope, _ = hertz(stiffness, approach)
+    return in_plane(0.0, 0.0, 0.0, slope, load / distance, sine, cosine, cosine, -sine)
 
 
 @kernel
@@ -29,12 +24,10 @@ def series_stiffness(inner, outer):
     Of each contact: stiffness constant (N/m^1.5), approach (m), distance of the ball's centre from that of
     the groove (m), sine and cosine of the contact angle. Zero when a contact is open.
     """
-    hertz_i, approach_i, distance_i, sine_i, cosine_i = inner
-    hertz_o, approach_o, distance_o, sine_o, cosine_o = outer
-    if approach_i <= 0.0 or approach_o <= 0.0:
+    if inner[1] <= 0.0 or outer[1] <= 0.0:
         return 0.0, 0.0, 0.0
-    ixx, ixr, irr = contact_stiffness(hertz_i, approach_i, distance_i, sine_i, cosine_i)
-    oxx, oxr, orr = contact_stiffness(hertz_o, approach_o, distance_o, sine_o, cosine_o)
+    ixx, ixr, irr = contact_stiffness(inner)
+    oxx, oxr, orr = contact_stiffness(outer)
     sxx = ixx + oxx
     sxr = ixr + oxr
     srr = irr + orr
@@ -60,7 +53,7 @@ def contact_tensor(seat):
     kn = seat.stiffness
     ex, er, et = seat.ex, seat.er, seat.et
     mx, mr, mt = seat.mx, seat.mr, seat.mt
-    kt = seat.load / seat.distance
+    kt = seat.across
     kc = seat.load * seat.cosine / seat.rho
     tx = er * mt - et * mr
     tr = et * mx - ex * mt

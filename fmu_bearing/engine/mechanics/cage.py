@@ -6,6 +6,7 @@ from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store
 from fmu_bearing.engine.layout import FOUR, C, P, W, X
+from fmu_bearing.engine.mechanics.contact import hertz
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI, cosine_and_sine
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, store_three, three
 
@@ -70,7 +71,7 @@ def pockets(p, c, angle, lanes, turned, w):
         vn = dot(n, dv)
         vt = dot(t, dv)
         rate = px * vn + pt * vt
-        elastic = stiffness * push * math.sqrt(push)
+        elastic, _, _ = hertz(stiffness, push)
         pressing = max(elastic * (1.0 + damping * rate), 0.0)
         # contact point on the ball: radius along g; sliding there without its normal part
         g = added(scaled(px, n), scaled(pt, t))

@@ -5,6 +5,7 @@ import math
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q, R, W, Y
+from fmu_bearing.engine.mechanics.contact import hertz
 from fmu_bearing.engine.mechanics.springs import spring_energy
 
 
@@ -47,8 +48,8 @@ def ball_energy(p, y, w):
             row = W.RACE + race * R.SIZE
             total += 0.4 * w[row + R.ELASTIC + j] * max(w[row + R.APPROACH + j], 0.0)
         if caged:
-            push = w[W.POCKET + j]
-            total += 0.4 * p[P.POCKET_STIFFNESS] * push * push * push**0.5
+            pressing, _, _ = hertz(p[P.POCKET_STIFFNESS], w[W.POCKET + j])
+            total += 0.4 * pressing * w[W.POCKET + j]
     return total
 
 

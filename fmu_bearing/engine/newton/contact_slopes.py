@@ -13,7 +13,7 @@ from fmu_bearing.engine.lanes import load, plus_scaled, scaled_six, select, six,
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.cage import in_pocket
-from fmu_bearing.engine.mechanics.contact import damped_slopes
+from fmu_bearing.engine.mechanics.contact import damped_slopes, hertz
 from fmu_bearing.engine.mechanics.race import wave_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
 
@@ -317,16 +317,14 @@ def pocket_contact(p, c, y, turned, j, w):
     frame = (added(scaled(px, n), scaled(pt, t)), bore, added(scaled(px, t), scaled(-pt, n)))
     ve, vt, vm = components(three(w, pose + X.DV + j), frame)
     _, wt, wm = components(three(w, pose + X.DW + j), frame)
-    push = max(apart - p[P.POCKET_CLEARANCE], 0.0)
-    root = math.sqrt(push)
+    elastic, slope, _ = hertz(c[C.POCKET], apart - p[P.POCKET_CLEARANCE])
     damped = 1.0 + p[P.POCKET_DAMPING] * ve
     touching = damped > 0.0
-    rigid = c[C.POCKET] * root
-    pressing = max(rigid * push * damped, 0.0)
+    pressing = max(elastic * damped, 0.0)
     zero = splat(0.0)
     stiffness = (
-        select(touching, 1.5 * rigid * damped, 0.0),
-        select(touching, rigid * push * p[P.POCKET_DAMPING], 0.0),
+        select(touching, slope * damped, 0.0),
+        select(touching, elastic * p[P.POCKET_DAMPING], 0.0),
         zero,
     )
     pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)

@@ -8,12 +8,10 @@ and the heats stay (below 1 rad/s they go to zero with the speed squared). A ren
 of the full right-hand side with its Jacobian.
 """
 
-import math
-
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
 from fmu_bearing.engine.fidelities.condensed.uneven import grown, hold_losses
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, ST, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, ST, STRIDE, C, L, P, Q, R, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.held import held as between_held_rings
@@ -87,17 +85,11 @@ def under_load(p, c, speed, outer, y, w):
 
 
 @kernel
-def across_track(p, c, y, race, w):
-    """Friction (N) of a race on ball 0 across its track, as ``balls.balance`` counts it.
-
-    From the forces of the last right-hand side, at the state ``y``.
-    """
-    ring = y[Y.Q0 + (Q.OUTER if race == 1 else Q.INNER)]
-    held = C.RACES + race * C.RACE_SIZE
-    sx = y[Y.X] - ring - c[held + C.GROOVE_X]
-    sr = p[P.PITCH_RADIUS] + y[Y.R] - c[held + C.GROOVE_RADIUS]
+def across_track(race, w):
+    """Friction (N) of a race on ball 0 across its track, in the last right-hand side; see `balls.balance`."""
+    row = W.RACE + race * R.SIZE
     force = W.FORCE + race * W.FORCE_SIZE
-    return (w[force + W.FR] * sx - w[force + W.FX] * sr) / math.sqrt(sx * sx + sr * sr)
+    return w[force + W.FR] * w[row + R.SINA] - w[force + W.FX] * w[row + R.COSA]
 
 
 @kernel
@@ -132,8 +124,8 @@ def hold_at(p, speed, turning, ring_held, s, w):
     hold_rolling(p, lv, y, turning, w)
     # nothing holds a loose ball across its track
     share = 1.0 / (turning * turning) if between_races(w) else 0.0
-    lv[L.PAIR_INNER] = share * across_track(p, c, y, 0, w)
-    lv[L.PAIR_OUTER] = share * across_track(p, c, y, 1, w)
+    lv[L.PAIR_INNER] = share * across_track(0, w)
+    lv[L.PAIR_OUTER] = share * across_track(1, w)
     # the rings' motion is found with balls that are free in their pockets
     lag = y[Y.TH]
     lv[L.LAG] = lag

@@ -192,6 +192,26 @@ def same_outputs(several, single, fidelity, looser):
             assert value(ours, name) == pytest.approx(theirs.get(name), rel=looser * 3e-4, abs=1e-9), name
 
 
+#: More of the mounting.
+MOUNTS = {
+    "tilt support": {"tilt_support": {"stiffness_N_m_rad": 2e4, "damping_ratio": 0.1}},
+}
+
+
+@pytest.mark.parametrize("mount", MOUNTS)
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+def test_every_output_of_a_run_on_such_a_mounting(fidelity, mount):
+    made = set_of_one(RPM, -50.0, cage=False, changes=TIGHT, mount=MOUNTS[mount])
+    same_outputs(*made, fidelity, 1.0)
+
+
+@pytest.mark.parametrize("mount", MOUNTS)
+def test_figures_at_rest_and_modes_on_such_a_mounting(mount):
+    made = set_of_one(RPM, -50.0, cage=False, mount=MOUNTS[mount])
+    at_rest(*made, AT_REST)
+    same_modes(*made)
+
+
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
 def test_torque_and_levels_with_a_cage(fidelity):
     """Over 60 ms; cages are chaotic in `full`."""

@@ -107,6 +107,8 @@ ASSUMED: dict[str, Moves] = {
     "spindle.housing.pedestal_rotational_ratio_mm2": by_share,
     "spindle.housing.pedestal_damping_ratio": by_share,
     "spindle.housing.temperature_degC": by(10.0),
+    "spindle.tilt_support.stiffness_N_m_rad": by_share,
+    "spindle.tilt_support.damping_ratio": by_share,
     "spindle.shaft.temperature_degC": by(10.0),
     "spindle.shaft.damping_ratio": by_share,
     "spindle.shaft.flexible": to(False, True),

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
+from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model, shaft_sections
 from fmu_bearing.engine.choices import RESPONSE, RINGS
 from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.prepare import bodies
@@ -149,6 +149,29 @@ def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
     return bodies.of_mass(housing.mass, 0.0, housing.diameter, housing.length), middle
 
 
+def tilt_support(scene: Scene, shaft: ShaftModel) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return stiffness and damping of the set's support against tilting, each of shape (n, n), SI units.
+
+    Over the shaft's n coordinates. Damping over the critical one counts the shaft with its inner rings that
+    tilts about their centre of mass, as it would on this support alone.
+    """
+    spindle = set_of(scene)
+    given = spindle.tilt_support
+    if given is None:
+        return np.zeros_like(shaft.stiffness), np.zeros_like(shaft.damping)
+    place = spindle.middle_mm if given.position_mm is None else given.position_mm
+    tilts = shaft.at(1e-3 * place)[Q.INNER_BY :]
+    mass, moment, about = bodies.rings_at_port(scene)
+    for one in shaft_sections(scene, spindle.shaft):
+        middle = one.start + 0.5 * one.length
+        mass, moment = mass + one.mass, moment + one.mass * middle
+        about += one.transverse + one.mass * middle**2
+    stiffness = si(given).stiffness
+    critical = 2.0 * math.sqrt(stiffness * (about - moment**2 / mass))
+    held = tilts.T @ tilts
+    return stiffness * held, given.damping_ratio * critical * held
+
+
 def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.float64]]:
     """Return tables of the block over all ``n`` coordinates by their places in its head."""
     spindle = set_of(scene)
@@ -159,9 +182,11 @@ def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.f
     sliding = _sliding(spindle)
     behind = shaft.count + count
     free = np.zeros((n - behind, n - behind))
+    upright, damped = tilt_support(scene, shaft)
     wide = [
         block_diag(own, np.zeros((count, count)), free)
-        for own in (shaft.stiffness, shaft.damping, shaft.gyroscopic)  # a housing does not spin
+        # a housing does not spin
+        for own in (shaft.stiffness + upright, shaft.damping + damped, shaft.gyroscopic)
     ]
     # springs are between sliding rings and housing
     pressed = np.zeros((len(sliding), n))

@@ -127,6 +127,8 @@ def _shaft(tables: Tables) -> Keys:
     for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
         if getattr(set_of(tables).shaft, key) != Shaft.model_fields[key].default:
             yield f"spindle.shaft.{key}"
+    if set_of(tables).tilt_support is not None:
+        yield "spindle.tilt_support"
 
 
 def _model(tables: Tables) -> str:
@@ -290,7 +292,7 @@ EXCLUSIONS = (
     ),
     Exclusion(
         _PORT,
-        {"shaft": "sections, bending or heavy spots of the shaft"},
+        {"shaft": "sections, bending, heavy spots or a tilt support of the shaft"},
         "they are given in the model which owns the shaft",
         "leave the key out, or give `spindle.shaft.external` = false",
         _shaft,

@@ -13,10 +13,8 @@ _BACK = 'or give sound.radiator = "bare"'
 
 def middle_mm(spindle: Spindle) -> float:
     """Middle of the housing and its pedestal from the shaft's nose, mm."""
-    if spindle.housing.position_mm is not None:
-        return spindle.housing.position_mm
-    places = [one.position_mm for one in spindle.bearing]
-    return 0.5 * (min(places) + max(places))
+    given = spindle.housing.position_mm
+    return spindle.middle_mm if given is None else given
 
 
 def envelope(spindle: Spindle) -> tuple[float, float, float] | None:

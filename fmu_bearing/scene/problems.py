@@ -56,6 +56,7 @@ _COUNTERPARTS = {
     ("mounting", "radial_load_z_N"): ("spindle", "load", "force_z_N"),
     ("mounting", "pedestal_stiffness_N_m"): ("spindle", "housing", "pedestal_stiffness_N_m"),
     ("mounting", "rotor"): ("spindle", "shaft"),
+    ("mounting", "tilt_support"): ("spindle", "tilt_support"),
 }
 _FORCE_X = ("spindle", "load", "force_x_N")  # a single bearing's axial force is its preload
 

@@ -1,4 +1,4 @@
-"""The shaft of a set of bearings: cylindrical sections, stiffness, heavy spots; or that of another model."""
+"""The shaft of a set: sections, stiffness, heavy spots, tilt support; or that of another model."""
 
 from collections.abc import Iterator
 from typing import Annotated
@@ -7,6 +7,7 @@ from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.mounting import TiltSupport
 
 LONG = 5000.0  # mm: of a shaft, at most
 
@@ -32,6 +33,21 @@ class Unbalance(Part):
         le=360,
         examples=[0.0],
         description="Angle about +X from 12 o'clock where the shaft's angle is zero, deg.",
+    )
+
+
+class ShaftTiltSupport(TiltSupport):
+    """Moments between shaft and ground that hold the shaft against tilting: a bearing that is not in the set.
+
+    It holds one plane of the shaft; all planes of a rigid shaft have the same tilt.
+    """
+
+    position_mm: float | None = Field(
+        default=None,
+        ge=0,
+        le=LONG,
+        examples=[150.0],
+        description="Plane that it holds, from the shaft's nose (absent: the middle of the bearings), mm.",
     )
 
 

@@ -11,7 +11,7 @@ from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.mounting import Flexure
 from fmu_bearing.scene.seats import LARGEST_UM, Fit
-from fmu_bearing.scene.shaft import LONG, Shaft
+from fmu_bearing.scene.shaft import LONG, Shaft, ShaftTiltSupport
 
 _MOST = 16  # bearings of a set
 _HEAVY = 1e7  # N: beyond twice C0 of any set
@@ -282,6 +282,9 @@ class Spindle(Part):
     preload: Preload | None = Field(default=None, description="Absent: the bearings just touch.")
     housing: SetHousing = Field(default_factory=SetHousing, description="What holds the outer rings.")
     load: Load = Field(default_factory=Load, description="Force on the shaft.")
+    tilt_support: ShaftTiltSupport | None = Field(
+        default=None, description="Support of the shaft against tilting; absent: the bearings alone hold it."
+    )
     flexure: Flexure | None = Field(
         default=None, description="Bending of the rings of every bearing; absent: rigid rings."
     )
@@ -306,6 +309,9 @@ class Spindle(Part):
                     f"= {other.position_mm:g} must exceed that of the bearing before it, "
                     f"{one.position_mm:g}: bearings are given from the nose to the rear",
                 )
+        support = self.tilt_support
+        if not given and support is not None and (support.position_mm or 0.0) > length:
+            yield Conflict("tilt_support.position_mm", f"is beyond the shaft's end at {length:g} mm")
         if not self.shaft.external:
             yield from self._held()
         yield from self._springs()
@@ -396,6 +402,12 @@ class Spindle(Part):
         number = len(self.bearing)
         across = number * bearing.most_radial
         return number * bearing.most_preload, across, across
+
+    @property
+    def middle_mm(self) -> float:
+        """Middle of the bearings from the shaft's nose."""
+        places = [one.position_mm for one in self.bearing]
+        return 0.5 * (min(places) + max(places))
 
     @property
     def directions(self) -> str:

@@ -17,6 +17,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.prepare.bodies import inner_ring
+from fmu_bearing.prepare.spindle import tilt_support
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.table import tenths
@@ -399,7 +400,8 @@ def _stiffness(
     shaft = _shaft(scene, set_of(scene).shaft.flexible if flexible is None else flexible)
     first = shaft.count
     # housing and sliding rings have no springs to the shaft
-    found = block_diag(shaft.stiffness, tied.stiffness[tied.shaft_count :, tied.shaft_count :])
+    upright = shaft.stiffness + tilt_support(scene, shaft)[0]
+    found = block_diag(upright, tied.stiffness[tied.shaft_count :, tied.shaft_count :])
     for one, matrix, plane, driven, sign in zip(
         bearings, matrices, shaft.planes, tied.motions, tied.signs, strict=True
     ):

@@ -25,7 +25,7 @@ SEATS = {"outer_seat_stiffness_N_m": 1e7, "inner_seat_stiffness_N_m": 1e7}
 @pytest.mark.parametrize("radial", [0.0, -50.0])
 def test_a_set_of_one_is_the_mounted_bearing(rpm, radial, flexure):
     """Both are steady: at 40,000 r/min that moves modes by 1 %."""
-    several, one = set_of_one(rpm, radial, flexure=flexure)
+    several, one = set_of_one(rpm, radial, mount={"flexure": flexure})
     alone, system = linearised(one), linearised(several)
     assert alone.steady and system.steady
     wanted = [value for value in np.linalg.eigvals(alone.matrix) if abs(value.imag) > 1e4]
@@ -40,7 +40,7 @@ def test_a_set_of_one_is_the_mounted_bearing(rpm, radial, flexure):
 @pytest.mark.parametrize("rpm", [20_000.0, -20_000.0])
 def test_rings_of_a_set_bend_as_those_of_the_mounted_bearing(rpm):
     """Names with the bearing's number, the same waves round the ring and the same damping."""
-    several, one = set_of_one(rpm, flexure=BENT | SEATS)
+    several, one = set_of_one(rpm, mount={"flexure": BENT | SEATS})
     wanted, found = (
         [mode for mode in modes(given).modes if "flexure" in mode.name] for given in (one, several)
     )

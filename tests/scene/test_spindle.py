@@ -77,6 +77,10 @@ def changed(path, value, **arguments):
         (tables(positions=(40.0, 45.0)), "is 5 mm behind the bearing before it; each is 10 mm wide"),
         (tables(positions=(70.0, 40.0)), "bearings are given from the nose to the rear"),
         (tables(positions=(40.0, 500.0)), "is beyond the shaft's end at 400 mm"),
+        (
+            tables(tilt_support={"stiffness_N_m_rad": 1e5, "damping_ratio": 0.0, "position_mm": 500.0}),
+            "spindle.tilt_support.position_mm = 500.0 is beyond the shaft's end at 400 mm",
+        ),
         (changed(("spindle", "bearing", 0, "seat"), "sliding"), "a sliding seat needs a spring"),
         (
             changed(("spindle", "preload"), {"kind": "spring", "force_N": 5.0}),

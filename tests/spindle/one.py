@@ -18,8 +18,8 @@ _PEDESTAL = tuple(
 def as_set(single: Scene) -> Scene:
     """Return a mounted bearing with a rotor as a set of one on a pedestal of its own.
 
-    The rotor has the density of the inner ring. Left out: what a set has nothing for (support against tilt,
-    pedestal of two stiffnesses, misalignment, unbalance of `[imperfections]`), a housing and sound.
+    The rotor has the density of the inner ring. Left out: what a set has nothing for (pedestal of two
+    stiffnesses, misalignment, unbalance of `[imperfections]`), a housing and sound.
     """
     mount = single.mounting
     rotor = mount.rotor
@@ -34,6 +34,8 @@ def as_set(single: Scene) -> Scene:
             "position_mm": 0.5 * rotor.length_mm,
         },
     }
+    if mount.tilt_support is not None:
+        spindle["tilt_support"] = mount.tilt_support.model_dump()
     if mount.flexure is not None:
         spindle["flexure"] = mount.flexure.model_dump()
     return Scene.from_dict(single.model_dump(exclude={"mounting"}) | {"spindle": spindle})
@@ -45,18 +47,18 @@ def _rotor(single: Scene, diameter: float) -> Rotor:
     return Rotor(mass_kg=mass, length_mm=LENGTH, diameter_mm=diameter)
 
 
-def set_of_one(rpm, radial=0.0, cage=True, changes=None, flexure=None, **tables):
+def set_of_one(rpm, radial=0.0, cage=True, changes=None, mount=None, **tables):
     """Return the scene of the set and that of the mounted bearing.
 
-    ``radial``: upwards (N); ``changes``: of both, by dotted key; ``flexure``: how their rings bend;
-    ``tables``: more of both, by name.
+    ``radial``: upwards (N); ``changes``: of both, by dotted key; ``mount``: more of their mounting, by key of
+    its table; ``tables``: more of both, by name.
     """
     plain = scene("+", (MIDDLE,), None, rpm, changes=changes, load={"force_x_N": PRELOAD})
     if not cage:
         tables["bearing"] = plain.bearing.model_copy(update={"cage": None})
     mounting = Mounting(
         preload_N=PRELOAD, radial_load_z_N=radial, pedestal_stiffness_N_m=PEDESTAL,
-        rotor=_rotor(plain, DIAMETER), flexure=flexure,
+        rotor=_rotor(plain, DIAMETER), **(mount or {}),
     )  # fmt: skip
     single = Scene.from_dict(
         plain.model_copy(update=tables).model_dump(exclude={"spindle"}) | {"mounting": mounting.model_dump()}
@@ -72,8 +74,7 @@ def gate_as_set(name, radial=0.0, cage=True, changes=None):
     found = read_scene(GATES / f"{name}.toml")
     mount = found.mounted.model_copy(
         update={
-            "rotor": _rotor(found, found.bearing.bore_mm - 2.0), "tilt_support": None, "housing": None,
-            "radial_load_z_N": radial,
+            "rotor": _rotor(found, found.bearing.bore_mm - 2.0), "housing": None, "radial_load_z_N": radial,
         }
     )  # fmt: skip
     if mount.flexure is not None:

@@ -103,6 +103,7 @@ ASSUMED: dict[str, Moves] = {
     "spindle.housing.diameter_mm": by(5.0),
     "spindle.housing.length_mm": by_share,
     "spindle.housing.pedestal_stiffness_N_m": by_share,
+    "spindle.housing.pedestal_stiffness_ratio": by_share,
     "spindle.housing.pedestal_axial_ratio": by_share,
     "spindle.housing.pedestal_rotational_ratio_mm2": by_share,
     "spindle.housing.pedestal_damping_ratio": by_share,

@@ -27,7 +27,7 @@ from fmu_bearing.prepare.imperfections import (
 )
 from fmu_bearing.prepare.lengths import Lengths, lengths
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.prepare.spindle import as_set_of_one, pack_set
+from fmu_bearing.prepare.spindle import as_set_of_one, pack_set, pedestal_axes
 from fmu_bearing.prepare.still import turn_rate
 from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
@@ -290,12 +290,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.AXIAL_RATIO] = mounting.pedestal_axial_ratio
     p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
     p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
-    # along the turned axes y', z' as stiff as given, so their damping goes with the root
-    ratio, angle = mounting.pedestal_stiffness_ratio, mounting.pedestal_axis_angle
-    for first, along in ((P.PEDESTAL_Y, ratio), (P.PEDESTAL_DAMPING_Y, math.sqrt(ratio))):
-        p[first] = along * math.cos(angle) ** 2 + math.sin(angle) ** 2
-        p[first + 1] = along * math.sin(angle) ** 2 + math.cos(angle) ** 2
-        p[first + 2] = (along - 1.0) * math.sin(angle) * math.cos(angle)
+    p[P.PEDESTAL_Y : P.PEDESTAL_Y + 6] = pedestal_axes(scene.mounted)
     if scene.mounted.tilt_support is not None:
         support = si(scene.mounted.tilt_support)
         p[P.TILT_STIFFNESS] = support.stiffness

@@ -14,7 +14,8 @@ from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.assembly import shares
 from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import one_of, set_of
-from fmu_bearing.scene.spindle import SetBearing, Spindle
+from fmu_bearing.scene.mounting import Mounting
+from fmu_bearing.scene.spindle import SetBearing, SetHousing, Spindle
 
 __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set"]
 
@@ -136,6 +137,18 @@ def _rows(
         )  # fmt: skip
         driven = _driven(one, rings)
         found.append((masses[:driven], every[:driven]))
+    return found
+
+
+def pedestal_axes(given: Mounting | SetHousing) -> list[float]:
+    """Return what a pedestal has along y, along z and between both over its radial stiffness, and damping.
+
+    Along its turned axes y', z' it is as stiff as given, so the damping goes with the root.
+    """
+    found, angle = [], math.radians(given.pedestal_axis_angle_deg)
+    ratio, c, s = given.pedestal_stiffness_ratio, math.cos(angle), math.sin(angle)
+    for along in (ratio, math.sqrt(ratio)):
+        found += [along * c**2 + s**2, along * s**2 + c**2, (along - 1.0) * s * c]
     return found
 
 
@@ -294,6 +307,7 @@ def _block(
     block[SP.HOUSING_MASS] = body.mass + sum(p[P.OUTER_MASS] for p in bearings)
     block[SP.HOUSING_TRANSVERSE] = body.transverse + sum(p[P.OUTER_TRANSVERSE] for p in bearings)
     block[SP.HOUSING_POLAR] = body.polar + sum(p[P.OUTER_POLAR] for p in bearings)
+    block[SP.PEDESTAL_Y : SP.PEDESTAL_Y + 6] = pedestal_axes(spindle.housing)
     block[SP.AXIAL_RATIO] = housing.pedestal_axial_ratio
     block[SP.ROTATIONAL_RATIO] = housing.pedestal_rotational_ratio
     block[SP.PEDESTAL_ZETA] = housing.pedestal_damping_ratio

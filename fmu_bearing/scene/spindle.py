@@ -199,6 +199,21 @@ class SetHousing(Part):
         examples=[1e8],
         description="Radial stiffness under the housing, or under each ring with a pedestal of its own, N/m.",
     )
+    pedestal_stiffness_ratio: float = Field(
+        default=1.0,
+        ge=0.01,
+        le=100,
+        examples=[1.0],
+        description="Radial stiffness along a pedestal's axis y' over the one along z', which is the "
+        "pedestal's stiffness; 1: the same all round.",
+    )
+    pedestal_axis_angle_deg: float = Field(
+        default=0.0,
+        ge=-90,
+        le=90,
+        examples=[0.0],
+        description="Turn of a pedestal's axes y', z' about X against Y, Z, deg.",
+    )
     pedestal_axial_ratio: float = Field(
         default=1.0,
         ge=0.01,

@@ -75,18 +75,24 @@ class Housing:
     heavy: np.ndarray
 
     @classmethod
-    def cylinder(cls, mass, diameter, length, position, stiffness, axial, rotational, zeta, carried=0.0):
+    def cylinder(
+        cls, mass, diameter, length, position, stiffness, axial, rotational, zeta, carried=0.0, axes=(1.0, 0.0)
+    ):  # fmt: skip
         """Solid cylinder on a pedestal at its middle; ``carried``: more inertia (6) that zeta counts.
 
-        ``axial``, ``rotational`` (m2): stiffness over ``stiffness``, the radial one (N/m).
+        ``axial``, ``rotational`` (m2): stiffness over ``stiffness``, the radial one along z' (N/m); ``axes``:
+        stiffness along y' over that one, and the turn (rad) of y', z' about X.
         """
         polar = mass * diameter**2 / 8.0
         across = 0.5 * polar + mass * length**2 / 12.0
         inertia = np.array([mass] * 3 + [polar, across, across])
-        springs = stiffness * np.array([axial, 1.0, 1.0] + [rotational] * 3)
+        springs = stiffness * np.array([axial, axes[0], 1.0] + [rotational] * 3)
         dampers = 2.0 * zeta * np.sqrt(springs * (inertia + carried))
-        middle = of_housing(1.0, position)
-        m, d, k = (middle.T @ np.diag(one) @ middle for one in (inertia, dampers, springs))
+        middle, turned = of_housing(1.0, position), np.eye(6)
+        turned[1:3, 1:3] = [[np.cos(axes[1]), np.sin(axes[1])], [-np.sin(axes[1]), np.cos(axes[1])]]
+        along = turned @ middle  # motion along the pedestal's axes
+        m = middle.T @ np.diag(inertia) @ middle
+        d, k = (along.T @ np.diag(one) @ along for one in (dampers, springs))
         return cls(m, d, k, mass * middle[2])
 
 

@@ -4,6 +4,8 @@
 start; ``dense_answer`` the Newton system's answer in the engine's layout.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from fmu_bearing.compiled import call
@@ -14,7 +16,7 @@ from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.statics.place import place_balls, place_cage
 from fmu_bearing.engine.status import OK
-from fmu_bearing.prepare.bodies import outer_ring
+from fmu_bearing.prepare.bodies import inner_ring, outer_ring
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import si
 from fmu_bearing.scene.mounting import Mounting
@@ -141,6 +143,8 @@ def bearing_of(scene, number, **parameters):
     mounting = Mounting(
         preload_N=0.0,
         pedestal_stiffness_N_m=housing.pedestal_stiffness_N_m if own else 1e8,
+        pedestal_stiffness_ratio=housing.pedestal_stiffness_ratio,
+        pedestal_axis_angle_deg=housing.pedestal_axis_angle_deg,
         pedestal_axial_ratio=housing.pedestal_axial_ratio,
         pedestal_rotational_ratio_mm2=housing.pedestal_rotational_ratio_mm2,
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
@@ -203,8 +207,29 @@ def housing_of(scene):
     return oracle.Housing.cylinder(
         housing.mass, housing.diameter, housing.length, middle, housing.pedestal_stiffness,
         housing.pedestal_axial_ratio, housing.pedestal_rotational_ratio, housing.pedestal_damping_ratio,
-        carried,
+        carried, (housing.pedestal_stiffness_ratio, housing.pedestal_axis_angle),
     )  # fmt: skip
+
+
+def held_upright(scene, shaft):
+    """A rigid shaft, or one that is rigid but for its own coordinates, with its support against tilting."""
+    given = scene.spindle.tilt_support
+    if given is None:
+        return shaft
+    # the one rigid motion that no force along y or z goes with: about the centre of mass
+    ring = inner_ring(scene)
+    inertia = [ring.mass] * 3 + [ring.transverse] * 2
+    mass = shaft.mass + sum(plane.T @ np.diag(inertia) @ plane for plane in shaft.planes)
+    heavy, about = mass[2, [2, 3]], mass[3, 3]
+    zeta, stiffness = given.damping_ratio, given.stiffness_N_m_rad
+    damping = 2.0 * zeta * np.sqrt(stiffness * (about - heavy[1] ** 2 / heavy[0]))
+    held = shaft.at(1e-3 * given.position_mm)[3:]
+    held = np.hstack([held, np.zeros((2, len(shaft.mass) - held.shape[1]))])
+    return replace(
+        shaft,
+        damping=shaft.damping + damping * held.T @ held,
+        stiffness=shaft.stiffness + stiffness * held.T @ held,
+    )
 
 
 def spindle_of(scene, shaft=None, offsets=None, bearings=None, speed_rate=0.0, **parameters):
@@ -213,7 +238,7 @@ def spindle_of(scene, shaft=None, offsets=None, bearings=None, speed_rate=0.0, *
     ``shaft``, ``offsets`` (m), ``bearings``: in place of the scene's; ``parameters``: as of ``bearing_of``.
     """
     spindle, load = scene.spindle, si(scene.spindle.load)
-    shaft = shaft_model(scene, spindle) if shaft is None else shaft
+    shaft = held_upright(scene, shaft_model(scene, spindle) if shaft is None else shaft)
     usual, spring = offsets_of(scene)
     offsets = usual if offsets is None else offsets
     if bearings is None:

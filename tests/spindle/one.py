@@ -11,15 +11,19 @@ LENGTH, DIAMETER = 180.0, 15.0  # mm: of a shaft that is centred in the bearing,
 PRELOAD, PEDESTAL = 500.0, 1e8  # N, N/m
 MIDDLE = 0.5 * LENGTH
 _PEDESTAL = tuple(
-    f"pedestal_{key}" for key in ("stiffness_N_m", "axial_ratio", "rotational_ratio_mm2", "damping_ratio")
-)
+    f"pedestal_{key}"
+    for key in (
+        "stiffness_N_m", "stiffness_ratio", "axis_angle_deg", "axial_ratio", "rotational_ratio_mm2",
+        "damping_ratio",
+    )
+)  # fmt: skip
 
 
 def as_set(single: Scene) -> Scene:
     """Return a mounted bearing with a rotor as a set of one on a pedestal of its own.
 
-    The rotor has the density of the inner ring. Left out: what a set has nothing for (pedestal of two
-    stiffnesses, misalignment, unbalance of `[imperfections]`), a housing and sound.
+    The rotor has the density of the inner ring. Left out: what a set has nothing for (misalignment,
+    unbalance of `[imperfections]`), a housing and sound.
     """
     mount = single.mounting
     rotor = mount.rotor

@@ -10,6 +10,7 @@ from fmu_bearing.prepare.spindle import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
+from tests.oracles.cartesian_forces import turned_axes
 from tests.spindle.rest import oracle
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
@@ -88,6 +89,22 @@ def test_a_housing_sinks_under_all_that_it_carries():
     apart = moved.displacement[2] - still.displacement[2]
     tilt = run.y(0)[Y.Q0 + Q.OUTER + Q.BY]
     assert apart == pytest.approx(sunk + 0.055 * tilt, rel=1e-3)
+
+
+@pytest.mark.parametrize("fidelity", [0.0, *FIDELITIES.values()], ids=["full", *FIDELITIES])
+def test_a_housing_goes_where_two_springs_at_an_angle_carry_it(fidelity):
+    """A load above its middle, between a pair that is its own mirror: it does not tilt."""
+    ratio, angle, stiffness = 0.4, 30.0, BODY["pedestal_stiffness_N_m"]
+    axes = {"pedestal_stiffness_ratio": ratio, "pedestal_axis_angle_deg": angle}
+    load = {"force_y_N": 150.0, "force_z_N": -50.0, "position_mm": 55.0}
+    run = SetRun(scene(load=load, changes={"spindle.housing": BODY | axes}), FIDELITY=fidelity).init()
+    springs = turned_axes(ratio * stiffness, stiffness, np.radians(angle))
+    wanted = np.linalg.solve(springs, [load["force_y_N"], load["force_z_N"]])
+    found = [run.value(f"housing.displacement.{axis}") for axis in "yz"]
+    # forces across have 0.008 N of traction, see above; without balls of their own 3e-4, on equal springs too
+    assert found == pytest.approx(wanted, rel=1e-3 if fidelity else 0.0, abs=0.02 / (ratio * stiffness))
+    # 1.5 um along Y and 0.5 um along Z on equal springs: the soft axis takes them aside
+    assert wanted == pytest.approx([2.86e-6, 0.29e-6], abs=0.01e-6)
 
 
 def test_pedestals_of_their_own_stand_in_series_with_their_bearings():

@@ -80,7 +80,7 @@ def loads_differ(p, u, own):
     for i in range(SP.PLANE):
         if own[SP.NOSE + i] != u[U.NOSE + i]:
             return True
-    return has_housing(p) and own[SP.FEET + Q.Y] != u[U.PEDESTAL]
+    return has_housing(p) and own[SP.FEET + Q.Z] != u[U.PEDESTAL] * p[int(p[P.SET]) + SP.PEDESTAL_Z]
 
 
 @kernel
@@ -96,16 +96,21 @@ def take_loads(p, u, own):
     if not has_housing(p):
         return
     radial = u[U.PEDESTAL]
-    for i in range(SP.HOUSING):
+    for i in range(SP.FOOT):
         stiffness = radial
         inertia = p[block + SP.HOUSING_MASS]
         if i == Q.X:
             stiffness = radial * p[block + SP.AXIAL_RATIO]
-        elif i >= Q.TURN:
+        elif Q.TURN <= i < SP.HOUSING:
             stiffness = radial * p[block + SP.ROTATIONAL_RATIO]
             inertia = p[block + (SP.HOUSING_POLAR if i == Q.TURN else SP.HOUSING_TRANSVERSE)]
         own[SP.FEET + i] = stiffness
         own[SP.FEET_DAMPING + i] = 2.0 * p[block + SP.PEDESTAL_ZETA] * math.sqrt(stiffness * inertia)
+    # along y, along z and between both, as `conditions` has them of one bearing
+    for k in range(3):
+        i = SP.BETWEEN if k == 2 else Q.Y + k
+        own[SP.FEET + i] *= p[block + SP.PEDESTAL_Y + k]
+        own[SP.FEET_DAMPING + i] *= p[block + SP.PEDESTAL_DAMPING_Y + k]
 
 
 @kernel

@@ -126,22 +126,15 @@ def weights(p, pb):
 
 
 @kernel
-def pedestal_stiffness(c, i):
-    """Stiffness of a ring's own pedestal along or about row ``i`` of x y z by bz."""
+def pedestal_stiffness(c, i, k):
+    """Entry of the stiffness of a ring's own pedestal, by rows ``i`` and ``k`` of the ring's six."""
+    if i != k:
+        return c[C.PEDESTAL_YZ] if i + k == Q.Y + Q.Z and i * k != 0 else 0.0
     if i == Q.X:
         return c[C.PEDESTAL_AXIAL]
     if i == Q.Y:
         return c[C.PEDESTAL_Y]
     return c[C.PEDESTAL_Z] if i == Q.Z else c[C.PEDESTAL_ROTATIONAL]
-
-
-@kernel
-def ring_stiffness(c, k):
-    """Stiffness of a ring's own pedestal along or about row ``k`` of both rings, one of the outer ring's."""
-    row = k - Q.OUTER
-    if row == Q.TURN:
-        return c[C.PEDESTAL_ROTATIONAL]
-    return pedestal_stiffness(c, row if row < Q.TURN else row - 1)
 
 
 @kernel
@@ -194,8 +187,9 @@ def settle_bearing(p, s, w, b, speed, z, g):
         force[i] += ws[at + SP.START_MORE + i]
     for k in range(Q.RINGS):
         ws[pull + k] += ws[at + SP.START_MORE + k]
-        if k >= Q.OUTER and on_pedestal(p, b):
-            ws[pull + k] -= ring_stiffness(c, k) * ws[outer + k - Q.OUTER]
+    for i in range(SP.HOUSING if on_pedestal(p, b) else 0):
+        for k in range(SP.HOUSING):
+            ws[pull + Q.OUTER + i] -= pedestal_stiffness(c, i, k) * ws[outer + k]
     mine = g + first_unknown(p, b)
     for i in range(free_rows(p, b)):
         ws[mine + i] = ws[pull + Q.OUTER + outer_row(i)]
@@ -264,12 +258,17 @@ def equations(p, s, w, damping):
                             ws[at + m * width + h] += share * ws[spare + k * count + h]
         mine = first_unknown(p, b)
         for i in range(free_rows(p, b)):
-            ws[at + (mine + i) * width + mine + i] += pedestal_stiffness(c, i)
+            for k in range(free_rows(p, b)):
+                ws[at + (mine + i) * width + mine + k] += pedestal_stiffness(c, outer_row(i), outer_row(k))
         r = members.row(p, b)
-        t = int(p[r + SP.ROW_AT_T])
-        for k in range(Q.OUTER, int(p[r + SP.ROW_DRIVEN]) if on_pedestal(p, b) else 0):
-            for m in range(n):
-                share = ring_stiffness(c, k) * p[t + m * SP.LANES + k]
+        t = int(p[r + SP.ROW_AT_T]) + Q.OUTER
+        stands = on_pedestal(p, b) and int(p[r + SP.ROW_DRIVEN]) == SP.DRIVEN
+        for entry in range(SP.HOUSING * SP.HOUSING if stands else 0):
+            i = entry // SP.HOUSING
+            k = entry % SP.HOUSING
+            stiffness = pedestal_stiffness(c, i, k)
+            for m in range(n if stiffness != 0.0 else 0):
+                share = stiffness * p[t + m * SP.LANES + i]
                 for h in range(n):
                     ws[at + m * width + h] += share * p[t + h * SP.LANES + k]
     for i in range(count):

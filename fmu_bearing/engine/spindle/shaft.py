@@ -24,12 +24,15 @@ def weighs(p):
 def feet(p, stiffness, at, x, first, scale, out, to):
     """Add to ``out[to:]`` the pedestal's matrix times ``scale`` and the housing's motion ``x[first:]``.
 
-    Six numbers each. ``stiffness[at:]``: stiffness or damping along x y z, about x y z, in the pedestal's
-    plane; motion and forces at X = 0.
+    Six numbers each. ``stiffness[at:]``: ``SP.FOOT`` numbers, stiffness or damping along x y z, about x y z,
+    between y and z, in the pedestal's plane; motion and forces at X = 0.
     """
     lever = p[int(p[P.SET]) + SP.HOUSING_X]
-    across = scale * stiffness[at + Q.Y] * (x[first + Q.Y] + lever * x[first + Q.BZ])
-    upward = scale * stiffness[at + Q.Z] * (x[first + Q.Z] - lever * x[first + Q.BY])
+    y = x[first + Q.Y] + lever * x[first + Q.BZ]
+    z = x[first + Q.Z] - lever * x[first + Q.BY]
+    between = scale * stiffness[at + SP.BETWEEN]
+    across = scale * stiffness[at + Q.Y] * y + between * z
+    upward = scale * stiffness[at + Q.Z] * z + between * y
     out[to] += scale * stiffness[at] * x[first]
     out[to + Q.Y] += across
     out[to + Q.Z] += upward

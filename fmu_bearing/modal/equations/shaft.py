@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.layout import SP, P
+from fmu_bearing.engine.layout import SP, P, Q
 from fmu_bearing.prepare.spindle import in_housing
 
 
@@ -82,8 +82,8 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
         own = run.s[int(head[SP.AT_S]) :]
         here = in_housing(1, float(head[SP.HOUSING_X]))
         six = slice(shaft, shaft + SP.HOUSING)
-        stiffness[six, six] += here.T @ (own[SP.FEET : SP.FEET + SP.HOUSING, None] * here)
-        damping[six, six] += here.T @ (own[SP.FEET_DAMPING : SP.FEET_DAMPING + SP.HOUSING, None] * here)
+        stiffness[six, six] += here.T @ _foot(own[SP.FEET :]) @ here
+        damping[six, six] += here.T @ _foot(own[SP.FEET_DAMPING :]) @ here
     motions, inertia = [], []
     for row in rows:
         first, count = int(row[SP.ROW_AT_T]), int(row[SP.ROW_DRIVEN])
@@ -94,6 +94,13 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
         _matrix(p, SP.AT_NOSE, n, SP.PLANE).T, shaft, housed,
         np.array([row[SP.ROW_SIGN] for row in rows]), np.array([row[SP.ROW_POSITION] for row in rows]),
     )  # fmt: skip
+
+
+def _foot(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the matrix of a housing's pedestal in its own plane from its ``SP.FOOT`` numbers, shape (6, 6)."""
+    found = np.diag(numbers[: SP.HOUSING])
+    found[Q.Y, Q.Z] = found[Q.Z, Q.Y] = numbers[SP.BETWEEN]
+    return found
 
 
 def _matrix(p: NDArray[np.float64], place: int, rows: int, columns: int) -> NDArray[np.float64]:

@@ -197,6 +197,7 @@ def same_outputs(several, single, fidelity, looser):
 MOUNTS = {
     "tilt support": {"tilt_support": {"stiffness_N_m_rad": 2e4, "damping_ratio": 0.1}},
     "pedestal": {"pedestal_stiffness_ratio": 2.5, "pedestal_axis_angle_deg": 30.0},
+    "misaligned": {"misalignment_y_mrad": 0.3, "misalignment_z_mrad": -0.2},
 }
 
 

@@ -68,12 +68,15 @@ def pack_set(
     bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
     for p in bearings:
         p[P.SET] = p[P.ALONE] = 0.0
-    for p, one in zip(bearings, spindle.bearing, strict=True):
-        if one.seat != "pedestal":
+    seats = [p[P.MISALIGNMENT_Y : P.MISALIGNMENT_Y + 2].copy() for p in bearings]
+    for p, seat, one in zip(bearings, seats, spindle.bearing, strict=True):
+        if one.seat == "pedestal":
+            seat[:] = 0.0  # its springs tilt the ring
+        else:
             _hold(p)
     follows = bearings[0][P.FIDELITY] in (RINGS, RESPONSE)
     rows = _rows(spindle, shaft, bearings, follows)
-    block = _block(scene, shaft, bearings, rows)
+    block = _block(scene, shaft, bearings, rows, seats)
     bearings[0][P.SET] = sum(p.size for p in bearings)
     return np.concatenate([*bearings, block])
 
@@ -82,7 +85,7 @@ def _hold(p: NDArray[np.float64]) -> None:
     """Take the pedestal from under an outer ring: its seat holds it."""
     for place in (
         P.PEDESTAL_Y, P.PEDESTAL_Z, P.PEDESTAL_YZ, P.PEDESTAL_DAMPING_Y, P.PEDESTAL_DAMPING_Z,
-        P.PEDESTAL_DAMPING_YZ, P.AXIAL_RATIO, P.ROTATIONAL_RATIO,
+        P.PEDESTAL_DAMPING_YZ, P.AXIAL_RATIO, P.ROTATIONAL_RATIO, P.MISALIGNMENT_Y, P.MISALIGNMENT_Z,
     ):  # fmt: skip
         p[place] = 0.0
 
@@ -240,6 +243,7 @@ def _block(
     shaft: ShaftModel,
     bearings: list[NDArray[np.float64]],
     rows: list[tuple[NDArray[np.float64], NDArray[np.float64]]],
+    seats: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
     spindle = set_of(scene)
     count, n = len(bearings), rows[0][1].shape[1]
@@ -278,6 +282,7 @@ def _block(
         row[SP.ROW_SEAT] = _SEATS[one.seat]
         row[SP.ROW_SHARE] = shares(spindle)[k]
         row[SP.ROW_STICKOUT] = 1e-6 * one.stickout_um
+        row[SP.ROW_LEAN : SP.ROW_LEAN + 2] = seats[k]
         row[SP.ROW_DRIVEN] = mass.size
         row[SP.ROW_MASS : SP.ROW_MASS + mass.size] = mass
         for place, table in zip((SP.ROW_AT_T, SP.ROW_AT_COLUMNS), motions[k], strict=True):

@@ -79,7 +79,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
     set's, for what depends on the width of a contact.
     """
     spindle = set_of(scene)
-    housing = spindle.housing
+    housing, one = spindle.housing, spindle.bearing[number]
     mounting = Mounting(
         preload_N=0.0,
         pedestal_stiffness_N_m=housing.pedestal_stiffness_N_m or HELD,
@@ -88,6 +88,9 @@ def one_of(scene: Given, number: int = 0) -> Given:
         pedestal_axial_ratio=housing.pedestal_axial_ratio,
         pedestal_rotational_ratio_mm2=housing.pedestal_rotational_ratio_mm2,
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
+        # a mirror across the axis changes the sign of tilts
+        misalignment_y_mrad=one.sign * one.misalignment_y_mrad,
+        misalignment_z_mrad=one.sign * one.misalignment_z_mrad,
         flexure=spindle.flexure,
     )
     own = {"preload_N": usual_loads(spindle)[number], "fit": fit_of_member(scene, number)}

@@ -102,6 +102,31 @@ class Flexure(Part):
                 yield Conflict(key, f"must rise, each order once: {sorted(set(orders))}")
 
 
+#: Of a pedestal, and of the seat of an outer ring: of one bearing and of those of a set.
+AxesRatio = Annotated[
+    float,
+    Field(
+        ge=0.01,
+        le=100,
+        examples=[1.0],
+        description="Radial stiffness along the pedestal's axis y' over the one along z', which is the "
+        "pedestal's stiffness; 1: the same all round.",
+    ),
+]
+AxesAngle = Annotated[
+    float,
+    Field(
+        ge=-90,
+        le=90,
+        examples=[0.0],
+        description="Turn of the pedestal's axes y', z' about X against Y, Z, deg.",
+    ),
+]
+_TILTS = "Tilt about {} of the outer ring's seat against the shaft, mrad."
+SeatTiltY = Annotated[float, Field(ge=-10, le=10, examples=[0.0], description=_TILTS.format("Y"))]
+SeatTiltZ = Annotated[float, Field(ge=-10, le=10, examples=[0.0], description=_TILTS.format("Z"))]
+
+
 class Mounting(Part):
     """Preload, radial load, pedestal, and the bodies fixed to the rings."""
 
@@ -120,21 +145,8 @@ class Mounting(Part):
     pedestal_stiffness_N_m: float = Field(
         ge=1e4, le=1e12, examples=[1e8], description="Radial stiffness under the outer ring, N/m."
     )
-    pedestal_stiffness_ratio: float = Field(
-        default=1.0,
-        ge=0.01,
-        le=100,
-        examples=[1.0],
-        description="Radial stiffness along the pedestal's axis y' over the one along z', which is the "
-        "pedestal's stiffness; 1: the same all round.",
-    )
-    pedestal_axis_angle_deg: float = Field(
-        default=0.0,
-        ge=-90,
-        le=90,
-        examples=[0.0],
-        description="Turn of the pedestal's axes y', z' about X against Y, Z, deg.",
-    )
+    pedestal_stiffness_ratio: AxesRatio = 1.0
+    pedestal_axis_angle_deg: AxesAngle = 0.0
     pedestal_axial_ratio: float = Field(
         default=1.0,
         ge=0.01,
@@ -170,20 +182,8 @@ class Mounting(Part):
         examples=[0.0],
         description="Upward load on the inner ring; up to 2 C0, 3 kN at least, N.",
     )
-    misalignment_y_mrad: float = Field(
-        default=0.0,
-        ge=-10,
-        le=10,
-        examples=[0.0],
-        description="Tilt about Y of the outer ring's seat against the shaft, mrad.",
-    )
-    misalignment_z_mrad: float = Field(
-        default=0.0,
-        ge=-10,
-        le=10,
-        examples=[0.0],
-        description="Tilt about Z of the outer ring's seat against the shaft, mrad.",
-    )
+    misalignment_y_mrad: SeatTiltY = 0.0
+    misalignment_z_mrad: SeatTiltZ = 0.0
     rotor: Rotor | None = Field(default=None, description="Rotor on the inner ring; absent: the ring alone.")
     tilt_support: TiltSupport | None = Field(
         default=None, description="Support against tilting; absent: the balls alone hold the inner ring."

@@ -9,7 +9,7 @@ from pydantic import Field
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material
-from fmu_bearing.scene.mounting import Flexure
+from fmu_bearing.scene.mounting import AxesAngle, AxesRatio, Flexure, SeatTiltY, SeatTiltZ
 from fmu_bearing.scene.seats import LARGEST_UM, Fit
 from fmu_bearing.scene.shaft import LONG, Shaft, ShaftTiltSupport
 
@@ -72,6 +72,8 @@ class SetBearing(Part):
         description="Outer ring held in the housing, sliding along it against a spring, or on a pedestal of "
         "its own as in [mounting].",
     )
+    misalignment_y_mrad: SeatTiltY = 0.0
+    misalignment_z_mrad: SeatTiltZ = 0.0
     inner_ring_temperature_degC: float | None = Field(
         default=None,
         ge=-40,
@@ -199,21 +201,8 @@ class SetHousing(Part):
         examples=[1e8],
         description="Radial stiffness under the housing, or under each ring with a pedestal of its own, N/m.",
     )
-    pedestal_stiffness_ratio: float = Field(
-        default=1.0,
-        ge=0.01,
-        le=100,
-        examples=[1.0],
-        description="Radial stiffness along a pedestal's axis y' over the one along z', which is the "
-        "pedestal's stiffness; 1: the same all round.",
-    )
-    pedestal_axis_angle_deg: float = Field(
-        default=0.0,
-        ge=-90,
-        le=90,
-        examples=[0.0],
-        description="Turn of a pedestal's axes y', z' about X against Y, Z, deg.",
-    )
+    pedestal_stiffness_ratio: AxesRatio = 1.0
+    pedestal_axis_angle_deg: AxesAngle = 0.0
     pedestal_axial_ratio: float = Field(
         default=1.0,
         ge=0.01,

@@ -69,10 +69,11 @@ def said(run, *words, code=2):
         (SET, "spindle.load", "pedestal_stiffness_N_m = 3.0", "it belongs in [spindle.housing]"),
         (SET, "spindle.load", "radial_load_z_N = 3.0", "a set on one shaft has force_z_N in [spindle.load]"),
         (SET, "operation", "rotor = 3.0", "a set on one shaft has [spindle.shaft]"),
+        (SET, "operation", "misalignment_y_mrad = 3.0", "it belongs in [spindle.bearing]"),
         (
             SET,
             "operation",
-            "misalignment_y_mrad = 3.0",
+            "preload_mode = 3.0",
             "it is of [mounting], which one bearing has, and this scene is of a set on one shaft",
         ),
     ],

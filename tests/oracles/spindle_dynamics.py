@@ -102,7 +102,8 @@ class Mounted:
 
     ``plane``: motion of the shaft there (5 x n); ``offset`` (m), ``growth`` (m/s): axial place of the inner
     ring with the shaft at zero, own axes, and how it changes with time; ``seat``: "fixed", "sliding" or
-    "pedestal"; ``spring``: force (N) and stiffness (N/m) behind a sliding ring.
+    "pedestal"; ``spring``: force (N) and stiffness (N/m) behind a sliding ring; ``lean``: tilts about y and z
+    (rad) of the seat that holds the outer ring, own axes.
     """
 
     bearing: object
@@ -113,6 +114,7 @@ class Mounted:
     seat: str = "fixed"
     spring: tuple = (0.0, 0.0)
     growth: float = 0.0
+    lean: tuple = (0.0, 0.0)
 
     @property
     def free(self):
@@ -218,6 +220,7 @@ class Spindle:
         n = one.bearing.balls
         places, rates = (self.motions[k] @ part for part in self.split(state))
         places[6 * n] += one.offset + one.growth * t
+        places[6 * n + 9 : 6 * n + 11] += one.lean
         rates[6 * n] += one.growth
         balls = np.concatenate([places[: 3 * n], rates[: 6 * n]]).reshape(9, n)
         return balls, places[6 * n :], rates[6 * n :], *self.drive.at(t), self.drive.speed_rate

@@ -136,10 +136,16 @@ class Bearing:
         return balls
 
 
+def seat_tilts(one):
+    """Tilts y z (mrad) of the seat of a set's bearing in its own axes: a mirror changes their sign."""
+    sign = 1.0 if one.carries == "+x" else -1.0
+    return sign * one.misalignment_y_mrad, sign * one.misalignment_z_mrad
+
+
 def bearing_of(scene, number, **parameters):
     """Bearing of a set's scene, from 0; ``parameters`` replace the engine's by their names in ``P``."""
     one, housing = scene.spindle.bearing[number], scene.spindle.housing
-    own = one.seat == "pedestal"
+    own, tilts = one.seat == "pedestal", seat_tilts(one)
     mounting = Mounting(
         preload_N=0.0,
         pedestal_stiffness_N_m=housing.pedestal_stiffness_N_m if own else 1e8,
@@ -148,6 +154,8 @@ def bearing_of(scene, number, **parameters):
         pedestal_axial_ratio=housing.pedestal_axial_ratio,
         pedestal_rotational_ratio_mm2=housing.pedestal_rotational_ratio_mm2,
         pedestal_damping_ratio=housing.pedestal_damping_ratio,
+        misalignment_y_mrad=tilts[0] if own else 0.0,
+        misalignment_z_mrad=tilts[1] if own else 0.0,
     )
     full = scene.fidelity.model_copy(update={"model": "full"})
     alone = scene.model_copy(update={"spindle": None, "mounting": mounting, "fidelity": full, "sound": None})
@@ -247,6 +255,7 @@ def spindle_of(scene, shaft=None, offsets=None, bearings=None, speed_rate=0.0, *
         oracle.Mounted(
             bearings[k], float(one.sign), 1e-3 * one.position_mm, shaft.planes[k], float(offsets[k]),
             one.seat, spring,
+            lean=(0.0, 0.0) if one.seat == "pedestal" else tuple(1e-3 * x for x in seat_tilts(one)),
         )
         for k, one in enumerate(spindle.bearing)
     ]  # fmt: skip

@@ -22,14 +22,17 @@ _PEDESTAL = tuple(
 def as_set(single: Scene) -> Scene:
     """Return a mounted bearing with a rotor as a set of one on a pedestal of its own.
 
-    The rotor has the density of the inner ring. Left out: what a set has nothing for (misalignment,
-    unbalance of `[imperfections]`), a housing and sound.
+    The rotor has the density of the inner ring. Left out: what a set has nothing for (unbalance of
+    `[imperfections]`), a housing and sound.
     """
     mount = single.mounting
     rotor = mount.rotor
     spindle = {
         "shaft": {"sections_mm": [[rotor.length_mm, rotor.diameter_mm, 0.0]]},
-        "bearing": [{"position_mm": 0.5 * rotor.length_mm, "carries": "+x", "seat": "pedestal"}],
+        "bearing": [
+            {"position_mm": 0.5 * rotor.length_mm, "carries": "+x", "seat": "pedestal"}
+            | {key: getattr(mount, key) for key in ("misalignment_y_mrad", "misalignment_z_mrad")}
+        ],
         "housing": {key: getattr(mount, key) for key in _PEDESTAL},
         "load": {
             "force_x_N": mount.preload_N,

@@ -38,6 +38,9 @@ def loaded(seat, cage=True, rpm=15e3, **changes):
 MOUNTED = {
     "spindle.housing.pedestal_stiffness_ratio": 0.4,
     "spindle.housing.pedestal_axis_angle_deg": 30.0,
+    "spindle.bearing[1].misalignment_y_mrad": 0.2,
+    "spindle.bearing[2].misalignment_y_mrad": -0.1,
+    "spindle.bearing[2].misalignment_z_mrad": 0.3,
     "spindle.tilt_support": {"stiffness_N_m_rad": 2e4, "damping_ratio": 0.1, "position_mm": 55.0},
 }
 

@@ -107,6 +107,29 @@ def test_a_housing_goes_where_two_springs_at_an_angle_carry_it(fidelity):
     assert wanted == pytest.approx([2.86e-6, 0.29e-6], abs=0.01e-6)
 
 
+@pytest.mark.parametrize("fidelity", [0.0, *FIDELITIES.values()], ids=["full", *FIDELITIES])
+def test_a_misaligned_seat_is_a_misaligned_pedestal_that_does_not_give(fidelity):
+    given = scene(
+        rpm=10e3, load={"force_x_N": 100.0, "force_y_N": 30.0, "force_z_N": -50.0},
+        bearings=[{"misalignment_y_mrad": 0.2}, {"misalignment_z_mrad": -0.3}],
+    )  # fmt: skip
+    straight = given.replace(
+        {f"spindle.bearing[{k}].misalignment_{axis}_mrad": 0.0 for k in (1, 2) for axis in "yz"}
+    )
+    stiff = {f"spindle.bearing[{k}].seat": "pedestal" for k in (1, 2)} | {
+        "spindle.housing": {"pedestal_stiffness_N_m": 1e12, "pedestal_rotational_ratio_mm2": 1e4}
+    }
+    runs = [SetRun(one, FIDELITY=fidelity).init() for one in (given, given.replace(stiff), straight)]
+    tilts = [[one.value(f"shaft.nose.tilt.{axis}") for axis in "yz"] for one in runs]
+    forces = [[one.value(name, b) for b in range(2) for name in FORCES] for one in runs]
+    # 500 N press a pedestal by 0.5 nm, over a distance of 30 mm
+    assert tilts[0] == pytest.approx(tilts[1], abs=1e-8)
+    assert forces[0] == pytest.approx(forces[1], abs=0.01)
+    # the shaft follows the mean of the seats part of the way, and bearings carry moments against each other
+    assert np.abs(np.subtract(tilts[0], tilts[2])).min() > 2e-5
+    assert np.abs(np.subtract(forces[0], forces[2])).max() > 2.0
+
+
 def test_pedestals_of_their_own_stand_in_series_with_their_bearings():
     soft = {"spindle.bearing[1].seat": "pedestal", "spindle.bearing[2].seat": "pedestal"}
     stiffness = 1e8

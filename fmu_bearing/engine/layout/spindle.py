@@ -89,6 +89,7 @@ ROW_POSITION = _row()  # m
 ROW_SEAT = _row()
 ROW_SHARE = _row()  # of the preload: its load over the preload asked
 ROW_STICKOUT = _row()  # m
+ROW_LEAN = _row(2)  # rad: tilts y z of the seat that holds its outer ring, in its own axes
 ROW_DRIVEN = _row()  # how many rows are driven: of the inner ring, or of both
 ROW_MASS = _row(LANES)  # kg, kg m2: inertia of each of these
 ROW_AT_T = _row()  # their motion by columns of LANES

@@ -19,11 +19,11 @@ def copy_rows(p, s, w):
         r = members.row(p, b)
         at = members.scratch(p, b)
         bearing_at = members.per_bearing(p, b)
-        members.moved(p, b, own, SP.S_HEAD, ws, at)
+        members.place_rows(p, b, own, own, SP.S_HEAD, ws, at)
         members.moved(p, b, own, SP.S_HEAD + lanes, ws, at + SP.LANES)
         for i in range(int(p[r + SP.ROW_DRIVEN])):
             axial = 1.0 if i == Q.X else 0.0
-            sb[S.Y + Y.Q0 + i] = ws[at + i] + axial * own[bearing_at + SP.OFFSET]
+            sb[S.Y + Y.Q0 + i] = ws[at + i]
             sb[S.Y + Y.V0 + i] = ws[at + SP.LANES + i] + axial * own[bearing_at + SP.OFFSET_RATE]
 
 

@@ -31,7 +31,7 @@ bz, then the outer ring's x y z, rotation, by bz where it is driven, then zeros.
 from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four
-from fmu_bearing.engine.layout import FOUR, SP, H, L, P, S, W
+from fmu_bearing.engine.layout import FOUR, SP, H, L, P, Q, S, W
 
 
 @kernel
@@ -286,6 +286,26 @@ def moved(p, b, x, at, out, to):
     store(out, to, one)
     store(out, to + FOUR, two)
     store(out, to + 2 * FOUR, three)
+
+
+@kernel
+def lean(p, b, out, to):
+    """Tilt the outer ring of bearing ``b``, of its driven rows' places ``out[to:]``, with a seat that holds it.
+
+    A ring on a pedestal of its own is tilted by that.
+    """
+    if has_shaft(p):
+        at = row(p, b) + SP.ROW_LEAN
+        out[to + Q.OUTER + Q.BY] += p[at]
+        out[to + Q.OUTER + Q.BZ] += p[at + 1]
+
+
+@kernel
+def place_rows(p, b, own, x, at, out, to):
+    """Put the places of bearing ``b``'s driven rows by the coordinates ``x[at:]`` to ``out[to:]``."""
+    moved(p, b, x, at, out, to)
+    lean(p, b, out, to)
+    out[to + Q.X] += own[per_bearing(p, b) + SP.OFFSET]
 
 
 @kernel

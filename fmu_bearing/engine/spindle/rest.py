@@ -79,7 +79,7 @@ def put_rings(p, b, ws, own, z):
     """Put the places of the rings of bearing ``b`` for the unknowns ``ws[z:]`` into its scratch."""
     r = members.row(p, b)
     at = members.scratch(p, b)
-    members.moved(p, b, ws, z, ws, at + SP.START_PULL)
+    members.place_rows(p, b, own, ws, z, ws, at + SP.START_PULL)
     for i in range(SP.HOUSING):
         ws[at + SP.START_OUTER + i] = 0.0
     for i in range(int(p[r + SP.ROW_DRIVEN])):
@@ -90,8 +90,6 @@ def put_rings(p, b, ws, own, z):
         ws[at + SP.START_OUTER + outer_row(i)] = ws[mine + i]
     for i in range(SP.PLANE):
         place = ws[at + SP.START_PULL + i]
-        if i == Q.X:
-            place += own[members.per_bearing(p, b) + SP.OFFSET]
         ws[at + SP.START_RING + i] = place - ws[at + SP.START_OUTER + outer_row(i)]
     for i in range(2):
         ws[at + SP.START_TILT + i] = ws[at + SP.START_OUTER + Q.BY + i]
@@ -189,7 +187,10 @@ def settle_bearing(p, s, w, b, speed, z, g):
         ws[pull + k] += ws[at + SP.START_MORE + k]
     for i in range(SP.HOUSING if on_pedestal(p, b) else 0):
         for k in range(SP.HOUSING):
-            ws[pull + Q.OUTER + i] -= pedestal_stiffness(c, i, k) * ws[outer + k]
+            away = ws[outer + k]
+            if k >= Q.BY:
+                away -= members.parameters(p, b)[P.MISALIGNMENT_Y + k - Q.BY]
+            ws[pull + Q.OUTER + i] -= pedestal_stiffness(c, i, k) * away
     mine = g + first_unknown(p, b)
     for i in range(free_rows(p, b)):
         ws[mine + i] = ws[pull + Q.OUTER + outer_row(i)]

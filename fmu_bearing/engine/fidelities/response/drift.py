@@ -142,8 +142,7 @@ def go_along(p, s, share):
         for i in range(DR.LOSSES):
             sb[S.LOSS + i] += by * dr[at + DR.LOSS + i]
         own[members.per_bearing(p, b) + SP.OFFSET] += by * dr[at + DR.OFFSET]
-        members.moved(p, b, own, mean, lv, L.MEAN)
-        lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
+        members.place_rows(p, b, own, own, mean, lv, L.MEAN)
 
 
 @kernel

@@ -58,8 +58,7 @@ def rest_from(p, s, w, speed, x, at):
         lv = members.condensed(members.state(p, s, b))
         if found:
             keep_balls(members.work(p, w, b), lv, L.EVEN)
-        members.moved(p, b, own, mean, lv, L.MEAN)
-        lv[L.MEAN] += own[members.per_bearing(p, b) + SP.OFFSET]
+        members.place_rows(p, b, own, own, mean, lv, L.MEAN)
     return found
 
 

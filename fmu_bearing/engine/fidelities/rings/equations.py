@@ -56,10 +56,9 @@ def show_rings(p, s):
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         bearing_at = members.per_bearing(p, b)
-        members.moved(p, b, own, SP.S_HEAD, lv, L.Q0)
+        members.place_rows(p, b, own, own, SP.S_HEAD, lv, L.Q0)
         members.moved(p, b, own, SP.S_HEAD + lanes, lv, L.V0)
         members.moved(p, b, own, SP.S_HEAD + 2 * lanes, lv, L.A0)
-        lv[L.Q0] += own[bearing_at + SP.OFFSET]
         lv[L.V0] += own[bearing_at + SP.OFFSET_RATE]
 
 
@@ -127,6 +126,7 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
     members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
     members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
+    members.lean(p, b, wb, W.STAGE + Y.Q0)
     bearing_at = members.per_bearing(p, b)
     wb[W.STAGE + Y.Q0] += own[bearing_at + SP.OFFSET] + ahead * own[bearing_at + SP.OFFSET_RATE]
     wb[W.STAGE + Y.V0] += own[bearing_at + SP.OFFSET_RATE]

@@ -11,8 +11,10 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.interface import variables
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.imperfections import Imperfections
 from tests.conftest import GATES
 from tests.spindle.one import MIDDLE, PRELOAD, gate_as_set, set_of_one
+from tests.spindle.test_dynamics_oracle import ECCENTRIC
 
 RPM = 20e3
 BALLS = 11.4  # m/s: speed of the balls
@@ -131,8 +133,10 @@ def same_modes(several, single, close=1e-6):
         assert other.name in (name, f"{name} of bearing 1"), (one.label, other.label)
 
 
-def run_of(scene, fidelity):
+def run_of(scene, fidelity, scale=1.0):
     run = Instance(prepare(scene, fidelity=fidelity))
+    if scale != 1.0:
+        run.set("imperfection.scale", scale)
     run.initialise()
     return run
 
@@ -163,9 +167,9 @@ def test_every_output_of_a_run_without_cage(fidelity, radial):
     same_outputs(*set_of_one(RPM, radial, cage=False, changes=TIGHT), fidelity, 1.0)
 
 
-def same_outputs(several, single, fidelity, looser):
-    """Compare all outputs of a run; ``looser``: factor on what they may differ by."""
-    ours, theirs = run_of(several, fidelity), run_of(single, fidelity)
+def same_outputs(several, single, fidelity, looser, scale=1.0):
+    """Compare all outputs of a run; ``looser``: factor on what they may differ by; ``scale``: of flaws."""
+    ours, theirs = (run_of(one, fidelity, scale) for one in (several, single))
     names = outputs_of(single)
     rate = single.operation.speed_rpm * math.pi / 30.0
     assert len(names) > 80
@@ -213,6 +217,15 @@ def test_figures_at_rest_and_modes_on_such_a_mounting(mount):
     made = set_of_one(RPM, -50.0, cage=False, mount=MOUNTS[mount])
     at_rest(*made, AT_REST)
     same_modes(*made)
+
+
+@pytest.mark.parametrize("scale", [1.0, 3.0])
+@pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
+def test_every_output_of_a_run_with_an_unbalance(fidelity, scale):
+    """Of shaft and inner ring, as of rotor and ring; both are scaled as other imperfections are."""
+    flaws = Imperfections(**ECCENTRIC)
+    made = set_of_one(RPM, -50.0, cage=False, changes=TIGHT, imperfections=flaws)
+    same_outputs(*made, fidelity, 1.0, scale)
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])

@@ -21,6 +21,8 @@ __all__ = ["expansions", "housing_of", "in_housing", "one_of", "pack_set"]
 
 _SEATS = {"fixed": SP.FIXED, "sliding": SP.SLIDING, "pedestal": SP.PEDESTAL}
 _TURN, _OUTER = Q.TURN, Q.OUTER
+#: Inertia of the driven rows of each bearing, and their motion by the coordinates, shape (rows, n).
+Rows = list[tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 def expansions(scene: Scene) -> tuple[float, float]:
@@ -68,6 +70,7 @@ def pack_set(
     bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
     for p in bearings:
         p[P.SET] = p[P.ALONE] = 0.0
+        p[P.ECCENTRICITY] = 0.0  # that of all that turns is the set's, see `_matrices`
     seats = [p[P.MISALIGNMENT_Y : P.MISALIGNMENT_Y + 2].copy() for p in bearings]
     for p, seat, one in zip(bearings, seats, spindle.bearing, strict=True):
         if one.seat == "pedestal":
@@ -107,9 +110,7 @@ def in_housing(sign: int, position: float) -> NDArray[np.float64]:
     return found
 
 
-def _rows(
-    spindle: Spindle, shaft: ShaftModel, bearings: list[NDArray[np.float64]], rings: bool
-) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+def _rows(spindle: Spindle, shaft: ShaftModel, bearings: list[NDArray[np.float64]], rings: bool) -> Rows:
     """Return inertia and motion of the driven rows, per bearing.
 
     ``rings``: of fidelities rings and response, where an outer ring on a pedestal of its own has six
@@ -188,9 +189,9 @@ def tilt_support(scene: Scene, shaft: ShaftModel) -> tuple[NDArray[np.float64], 
     return stiffness * held, given.damping_ratio * critical * held
 
 
-def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.float64]]:
-    """Return tables of the block over all ``n`` coordinates by their places in its head."""
-    spindle = set_of(scene)
+def _matrices(scene: Scene, shaft: ShaftModel, rows: Rows) -> dict[int, NDArray[np.float64]]:
+    """Return tables of the block over all coordinates by their places in its head."""
+    spindle, n = set_of(scene), rows[0][1].shape[1]
     body, middle = housing_of(scene)
     count = SP.HOUSING if spindle.housing.moves else 0
     here = in_housing(1, middle)
@@ -211,13 +212,19 @@ def _matrices(scene: Scene, shaft: ShaftModel, n: int) -> dict[int, NDArray[np.f
         if count:
             pressed[k, shaft.count] = -one.sign
     stiffness = 0.0 if spindle.preload is None else spindle.preload.stiffness_N_m or 0.0
-    spots = np.zeros((2, n))
+    spots = np.zeros((4, n))
     for spot, plane in zip(spindle.shaft.unbalance, shaft.spots, strict=True):
         amount, angle = si(spot).amount, si(spot).angle
         y, z = amount * plane[Q.Y], amount * plane[Q.Z]
         # heavy spot at 12 o'clock where its angle is zero: direction (0, -sin, cos)
         spots[0, : shaft.count] += -math.sin(angle) * y + math.cos(angle) * z
         spots[1, : shaft.count] += -math.cos(angle) * y - math.sin(angle) * z
+    if scene.imperfections is not None:
+        along_y, along_z = si(scene.imperfections).unbalance * (
+            shaft.across + sum(mass[Q.Y : Q.Z + 1, None] * motion[Q.Y : Q.Z + 1, : shaft.count]
+                               for mass, motion in rows)
+        )  # fmt: skip
+        spots[2, : shaft.count], spots[3, : shaft.count] = along_z, -along_y
     none = np.zeros(n - behind)
     return {
         SP.AT_MASS: block_diag(shaft.mass, mass[:count, :count], free),
@@ -242,12 +249,12 @@ def _block(
     scene: Scene,
     shaft: ShaftModel,
     bearings: list[NDArray[np.float64]],
-    rows: list[tuple[NDArray[np.float64], NDArray[np.float64]]],
+    rows: Rows,
     seats: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
     spindle = set_of(scene)
     count, n = len(bearings), rows[0][1].shape[1]
-    tables = _matrices(scene, shaft, n)
+    tables = _matrices(scene, shaft, rows)
     total = tables[SP.AT_MASS] + sum(motion.T @ np.diag(mass) @ motion for mass, motion in rows)
     tables[SP.AT_SCALE] = np.diag(total)[:, None] / total[0, 0]
     tables[SP.AT_INVERSE] = np.asarray(np.linalg.inv(total), dtype=np.float64)

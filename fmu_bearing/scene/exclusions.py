@@ -87,7 +87,7 @@ class Exclusion:
         return f"{', '.join(first)} or {last}" if first else last
 
 
-def _set_unbalance(tables: Tables) -> Keys:
+def _unbalance(tables: Tables) -> Keys:
     if tables.imperfections is not None and tables.imperfections.unbalance_um > 0.0:
         yield "imperfections.unbalance_um"
 
@@ -210,14 +210,6 @@ EXCLUSIONS = (
         "leave `against` out, or give `ground`",
     ),
     Exclusion(
-        _SET,
-        {"unbalance": "an unbalance in `[imperfections]`"},
-        "it is the eccentricity of one rotor, and a set has heavy spots on its shaft",
-        "leave the key out and give `[[spindle.shaft.unbalance]]` with `position_mm` and `amount_g_mm` (mass "
-        "of the rotor in kg times its eccentricity in um)",
-        _set_unbalance,
-    ),
-    Exclusion(
         _RESTING,
         {"housing": "its housing as the radiator"},
         "only a housing that moves radiates",
@@ -296,6 +288,13 @@ EXCLUSIONS = (
         "they are given in the model which owns the shaft",
         "leave the key out, or give `spindle.shaft.external` = false",
         _shaft,
+    ),
+    Exclusion(
+        _PORT,
+        {"unbalance": "an unbalance in `[imperfections]`"},
+        "it is the eccentricity of all that turns, which belongs to the model that owns the shaft",
+        "leave the key out and give the unbalance to that model",
+        _unbalance,
     ),
     BENDING,
     ROUND,

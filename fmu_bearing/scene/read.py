@@ -367,7 +367,7 @@ def _resolve(
     fit_file.give_class(data)
     flaws = data.get("imperfections")
     if spindle is not None and isinstance(flaws, dict):
-        flaws.setdefault("unbalance_um", 0.0)  # a grade's is that of one rotor; a set has it on its shaft
+        flaws.setdefault("unbalance_um", 0.0)  # a grade's is of one bearing's rotor
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
     _give_preload(data, lines)
 

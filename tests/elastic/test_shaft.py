@@ -108,7 +108,7 @@ def test_a_rigid_motion_meets_the_rigid_shaft():
         motion[5 + 4 * k : 9 + 4 * k] = placed(1.0, place)[1:]
     np.testing.assert_allclose(motion.T @ soft.mass @ motion, rigid.mass, atol=1e-13)
     np.testing.assert_allclose(motion.T @ soft.gyroscopic @ motion, rigid.gyroscopic, atol=1e-14)
-    np.testing.assert_allclose(soft.heavy @ motion, rigid.heavy, atol=1e-13)
+    np.testing.assert_allclose(soft.across @ motion, rigid.across, atol=1e-13)
     np.testing.assert_allclose(soft.stiffness @ motion, 0.0, atol=1e-9 * soft.stiffness.max())
     np.testing.assert_allclose(soft.damping @ motion, 0.0, atol=1e-9 * soft.damping.max())
     for place in (-0.02, 0.013, 0.1, 0.23, 0.25):

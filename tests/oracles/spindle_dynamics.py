@@ -76,7 +76,8 @@ class Housing:
 
     @classmethod
     def cylinder(
-        cls, mass, diameter, length, position, stiffness, axial, rotational, zeta, carried=0.0, axes=(1.0, 0.0)
+        cls, mass, diameter, length, position, stiffness, axial, rotational, zeta, carried=0.0,
+        axes=(1.0, 0.0),
     ):  # fmt: skip
         """Solid cylinder on a pedestal at its middle; ``carried``: more inertia (6) that zeta counts.
 
@@ -125,7 +126,10 @@ class Mounted:
 
 @dataclass(frozen=True)
 class Drive:
-    """What is prescribed: rotation, force and moment at the nose (5), heavy spots as (kg m, rad), weight."""
+    """What is prescribed: rotation, force and moment at the nose (5), heavy spots as (kg m, rad), weight.
+
+    ``eccentricity``: of shaft and inner rings (m), at 12 o'clock where the angle is zero.
+    """
 
     speed: float
     angle: float = 0.0
@@ -133,6 +137,7 @@ class Drive:
     nose: np.ndarray = field(default_factory=lambda: np.zeros(5))
     spots: tuple = ()
     gravity: bool = True
+    eccentricity: float = 0.0
 
     def at(self, t):
         """Angle and speed at a time."""
@@ -240,11 +245,17 @@ class Spindle:
         return found
 
     def outside(self, t):
-        """Forces on shaft and housing from outside but weight: nose, heavy spots."""
+        """Forces on shaft and housing from outside but weight: nose, heavy spots, eccentricity."""
         found = np.zeros(self.count)
         found[self.of_shaft] = self.shaft.nose.T @ self.drive.nose
         for spot, push in zip(self.shaft.spots, self.pushes(t), strict=True):
             found[self.of_shaft] += spot.T @ push
+        if self.drive.eccentricity:
+            angle, speed = self.drive.at(t)
+            co, si, rate = np.cos(angle), np.sin(angle), self.drive.speed_rate
+            push = self.drive.eccentricity * (speed**2 * np.array([-si, co]) + rate * np.array([co, si]))
+            turning = self.shaft.across + sum(one.bearing.masses[0] * one.plane[1:3] for one in self.mounted)
+            found[self.of_shaft] += push @ turning
         return found
 
     def springs(self):

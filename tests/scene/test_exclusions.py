@@ -78,7 +78,6 @@ HOUSING = {"sound.radiator": "housing"}
 #: by subject: a function of scene and folder, or values of the scene.
 DOORS = (
     (pair(), SINGLE, {"against": lambda scene, folder: error_motion(scene, against="outer ring")}),
-    (pair(), SINGLE, {"unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}}}),
     (sounding("compact", pair()), sounding("compact", pair(**SPRINGS)), {"housing": HOUSING}),
     (sounding("compact", pair(**SPRINGS)), sounding("compact", pair()), {"housing": HOUSING}),
     (sounding("paper", pair()), sounding("compact", pair()), {"housing": HOUSING}),
@@ -101,6 +100,9 @@ DOORS = (
     }),
     (read_scene(PORT), pair(), {"load": {"spindle.load.force_x_N": 5.0}}),
     (read_scene(PORT), pair(), {"shaft": {"spindle.shaft.flexible": True}}),
+    (read_scene(PORT), pair(), {
+        "unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}},
+    }),
     (BENT, BENT.with_rigid_rings(), {"fidelities": {"fidelity.model": "response"}}),
     (with_fidelity(SINGLE, model="rings"), SINGLE, {"vibration test": lambda scene, folder: rig(scene)}),
     (sounding("compact"), sounding("bem"), {"plane": {"sound.reflecting_plane_mm": -50.0}}),

@@ -128,10 +128,6 @@ def changed(path, value, **arguments):
             "spindle.shaft.unbalance[1].position_mm = 900 is beyond the shaft's end",
         ),
         (changed(("operation", "lowest_speed_rpm"), 5e3), "lowest_speed_rpm = 5000.0 has no effect"),
-        (
-            changed(("imperfections",), {"grade": "P4", "seed": 1, "unbalance_um": 0.5}),
-            "imperfections.unbalance_um = 0.5 is refused: it is the eccentricity of one rotor",
-        ),
         (changed(("mounting",), {}), "mounting: cannot be given with [spindle]"),
         (changed(("spindle",), None), "mounting is missing: the table [mounting]"),
     ],

@@ -267,6 +267,7 @@ def spindle_of(scene, shaft=None, offsets=None, bearings=None, speed_rate=0.0, *
         nose=oracle.at_plane(1.0, load.position).T @ force,
         spots=spots,
         gravity=scene.fidelity.terms.gravity,
+        eccentricity=0.0 if scene.imperfections is None else 1e-6 * scene.imperfections.unbalance_um,
     )
     return oracle.Spindle(mounted, shaft, drive, housing_of(scene))
 

@@ -22,8 +22,7 @@ _PEDESTAL = tuple(
 def as_set(single: Scene) -> Scene:
     """Return a mounted bearing with a rotor as a set of one on a pedestal of its own.
 
-    The rotor has the density of the inner ring. Left out: what a set has nothing for (unbalance of
-    `[imperfections]`), a housing and sound.
+    The rotor has the density of the inner ring. A housing and sound are left out.
     """
     mount = single.mounting
     rotor = mount.rotor
@@ -86,8 +85,7 @@ def gate_as_set(name, radial=0.0, cage=True, changes=None):
     )  # fmt: skip
     if mount.flexure is not None:
         mount = mount.model_copy(update={"flexure": mount.flexure.model_copy(update={"inner_ring": []})})
-    flaws = found.imperfections.model_copy(update={"unbalance_um": 0.0})
-    found = found.model_copy(update={"mounting": mount, "imperfections": flaws, "sound": None})
+    found = found.model_copy(update={"mounting": mount, "sound": None})
     if not cage:
         found = found.model_copy(update={"bearing": found.bearing.model_copy(update={"cage": None})})
     found = found.replace(changes or {})

@@ -15,7 +15,7 @@ from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import bearing_arrays, dense_answer, place_from, spindle_of
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
-from tests.spindle.test_dynamics_oracle import NO_CAGE, SEATS, bent
+from tests.spindle.test_dynamics_oracle import ECCENTRIC, NO_CAGE, SEATS, bent
 
 LOAD = {"force_x_N": 100.0, "force_y_N": 30.0, "force_z_N": -100.0, "position_mm": -10.0}
 HEAVY = [{"position_mm": 100.0, "amount_g_mm": 2.0, "angle_deg": 40.0}]
@@ -42,6 +42,7 @@ MOUNTED = {
     "spindle.bearing[2].misalignment_y_mrad": -0.1,
     "spindle.bearing[2].misalignment_z_mrad": 0.3,
     "spindle.tilt_support": {"stiffness_N_m_rad": 2e4, "damping_ratio": 0.1, "position_mm": 55.0},
+    "imperfections": ECCENTRIC,
 }
 
 

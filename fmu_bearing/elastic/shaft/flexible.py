@@ -59,14 +59,14 @@ def flexible_model(
     full = spread(mass)
     full[0, 0] = sum(one.mass for one in sections)
     rise = np.tile([1.0, 0.0], len(whole.nodes))
-    heavy = second.T @ (basis.T @ (whole.mass @ rise))
+    lift = basis.T @ (whole.mass @ rise)
     rigid = spread(stiffness)
     return ShaftModel(
         full,
         2.0 * damping_ratio / whole.free_frequency() * rigid,
         rigid,
         first.T @ spin @ second - second.T @ spin @ first,
-        heavy,
+        np.array([lift @ first, lift @ second]),
         at(0.0),
         tuple(at(place) for place in bearings),
         tuple(at(place) for place in spots),

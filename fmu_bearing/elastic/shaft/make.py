@@ -21,15 +21,15 @@ def shaft_model(scene: Scene, spindle: Spindle) -> ShaftModel:
     if spindle.shaft.flexible:
         given = spindle.shaft
         return flexible_model(sections, bearings, spots, given.fixed_modes, given.damping_ratio)
-    mass, heavy = np.zeros((FREEDOMS, FREEDOMS)), np.zeros(FREEDOMS)
+    mass, across = np.zeros((FREEDOMS, FREEDOMS)), np.zeros((2, FREEDOMS))
     gyroscopic, polar = np.zeros((FREEDOMS, FREEDOMS)), 0.0
     for one in sections:
         middle = placed(1.0, one.start + 0.5 * one.length)
         mass += middle.T @ np.diag([one.mass] * 3 + [one.transverse] * 2) @ middle
-        heavy += one.mass * middle[2]
+        across += one.mass * middle[1:3]
         polar += one.polar
     # I_t b'' + I_p Omega x b': about y the rate about z, about z minus that about y
     gyroscopic[3, 4], gyroscopic[4, 3] = polar, -polar
     none = np.zeros((FREEDOMS, FREEDOMS))
     planes, heavy_spots = (tuple(placed(1.0, place) for place in places) for places in (bearings, spots))
-    return ShaftModel(mass, none, none, gyroscopic, heavy, placed(1.0, 0.0), planes, heavy_spots, polar)
+    return ShaftModel(mass, none, none, gyroscopic, across, placed(1.0, 0.0), planes, heavy_spots, polar)

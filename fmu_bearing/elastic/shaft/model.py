@@ -32,8 +32,8 @@ class ShaftModel:
     ----------
     mass, damping, stiffness, gyroscopic : ndarray, shape (n, n)
         ``gyroscopic`` per rad/s of the shaft's speed.
-    heavy : ndarray, shape (n,)
-        Force that an acceleration of 1 m/s2 along Z takes, kg; weight is -g times it.
+    across : ndarray, shape (2, n)
+        Force that an acceleration of 1 m/s2 along Y, and along Z, takes, kg.
     nose : ndarray, shape (5, n)
         x y z, tilts about y and z of the shaft at X = 0.
     planes : tuple of ndarray, shape (5, n)
@@ -52,7 +52,7 @@ class ShaftModel:
     damping: NDArray[np.float64]
     stiffness: NDArray[np.float64]
     gyroscopic: NDArray[np.float64]
-    heavy: NDArray[np.float64]
+    across: NDArray[np.float64]
     nose: NDArray[np.float64]
     planes: tuple[NDArray[np.float64], ...]
     spots: tuple[NDArray[np.float64], ...]
@@ -62,7 +62,12 @@ class ShaftModel:
     @property
     def count(self) -> int:
         """Number of coordinates."""
-        return len(self.heavy)
+        return len(self.mass)
+
+    @property
+    def heavy(self) -> NDArray[np.float64]:
+        """Force that an acceleration of 1 m/s2 along Z takes (kg), shape (n,); weight is -g times it."""
+        return np.asarray(self.across[1])
 
     @property
     def tilts(self) -> NDArray[np.bool_]:

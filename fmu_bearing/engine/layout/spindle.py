@@ -28,7 +28,7 @@ HOUSED = _at()  # 1: the housing moves
 COUNT = _at()  # coordinates of shaft, housing and sliding rings,
 PADDED_SIZE = _at()  # in whole groups of four
 SPRUNG = _at()  # 1: there is such a stiffness
-UNBALANCED = _at()  # 1: it has heavy spots
+UNBALANCED = _at()  # 1: it has heavy spots, or all that turns is eccentric
 PORT = _at()  # 1: another model moves the shaft
 LINED = _at()  # 1: the state has room for lines (fidelity response)
 AT_S = _at()  # places of the set's own in s, w, z
@@ -48,7 +48,8 @@ AT_HEAVY = _at()  # a vector: force per acceleration along Z (kg)
 AT_NOSE = _at()  # PLANE padded rows: what the nose does
 AT_SPRINGS = _at()  # a vector: how far springs at sliding rings are pressed together
 AT_SCALE = _at()  # a vector: inertia over that along the axis
-AT_UNBALANCE = _at()  # two vectors: force over squared speed at angle zero, then a quarter turn on
+AT_UNBALANCE = _at()  # two vectors: force over squared speed at angle zero, then a quarter turn on; of heavy
+# spots, then two of the eccentricity of all that turns, which is scaled as other imperfections are
 # preload and what grows with temperature
 PRELOAD_KIND = _at()
 ONE_WAY = _at()  # 1: all bearings carry the same way

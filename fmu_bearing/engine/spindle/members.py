@@ -290,7 +290,7 @@ def moved(p, b, x, at, out, to):
 
 @kernel
 def lean(p, b, out, to):
-    """Tilt the outer ring of bearing ``b``, of its driven rows' places ``out[to:]``, with a seat that holds it.
+    """Tilt the outer ring of bearing ``b``, of driven rows' places ``out[to:]``, with the seat that holds it.
 
     A ring on a pedestal of its own is tilted by that.
     """

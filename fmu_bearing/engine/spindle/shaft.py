@@ -62,18 +62,30 @@ def twice_energy(p, at, x, first):
 
 
 @kernel
+def unbalance(p, i):
+    """Force of the unbalance on coordinate ``i`` over squared speed: at angle zero, and a quarter turn on.
+
+    Of heavy spots, and of the eccentricity in `[imperfections]`, by the scale of these.
+    """
+    lanes = members.padded_size(p)
+    at = members.table(p, SP.AT_UNBALANCE) + i
+    scale = p[P.IMPERFECTION_SCALE]
+    first = p[at] + scale * p[at + 2 * lanes]
+    return first, p[at + lanes] + scale * p[at + 3 * lanes]
+
+
+@kernel
 def push(p, angle, speed, rate, out, to):
-    """Add the force of the shaft's heavy spots to ``out[to:]``; ``rate``: of the speed (rad/s2)."""
+    """Add the force of the unbalance to ``out[to:]``; ``rate``: of the speed (rad/s2)."""
     if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0:
         return
-    lanes = members.padded_size(p)
-    at = members.table(p, SP.AT_UNBALANCE)
     co = math.cos(angle)
     si = math.sin(angle)
     square = speed * speed
-    for i in range(lanes):
-        along_it = co * p[at + i] + si * p[at + lanes + i]
-        ahead = co * p[at + lanes + i] - si * p[at + i]
+    for i in range(members.padded_size(p)):
+        first, second = unbalance(p, i)
+        along_it = co * first + si * second
+        ahead = co * second - si * first
         out[to + i] += square * along_it - rate * ahead
 
 

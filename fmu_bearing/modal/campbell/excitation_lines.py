@@ -75,12 +75,13 @@ def rates(
 
 
 def unbalance(scene: Scene) -> float:
-    """Eccentricity (m) of what turns; of a set all heavy spots, wherever they lie, over shaft and rings."""
+    """Eccentricity (m) of what turns; of a set with heavy spots, wherever they lie, over shaft and rings."""
+    own: float = 0.0 if scene.imperfections is None else si(scene.imperfections).unbalance
     if (turning := scene.assembly.shaft) is None:
-        return 0.0 if scene.imperfections is None else si(scene.imperfections).unbalance
+        return own
     amount: float = sum(1e-6 * spot.amount_g_mm for spot in turning.unbalance)  # kg m
     shaft = sum(section.mass for section in shaft_sections(scene, turning))
-    return amount / (shaft + len(scene.assembly.members) * inner_ring(scene).mass)
+    return own + amount / (shaft + len(scene.assembly.members) * inner_ring(scene).mass)
 
 
 def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: float = 0.0) -> list[Line]:

@@ -97,7 +97,7 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
 
 
 def _foot(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the matrix of a housing's pedestal in its own plane from its ``SP.FOOT`` numbers, shape (6, 6)."""
+    """Return the matrix of a housing's pedestal in its own plane, shape (6, 6): of ``SP.FOOT`` numbers."""
     found = np.diag(numbers[: SP.HOUSING])
     found[Q.Y, Q.Z] = found[Q.Z, Q.Y] = numbers[SP.BETWEEN]
     return found

@@ -304,7 +304,7 @@ def _shares(
     shaft = scene.assembly.shaft
     heavy = shaft is not None and bool(shaft.unbalance)
     energies = {}
-    for name in (*flaws.sources, *(["unbalance"] if heavy else [])):
+    for name in dict.fromkeys([*flaws.sources, *(["unbalance"] if heavy else [])]):
         own = scene.replace({"spindle.shaft.unbalance": []}) if heavy and name != "unbalance" else scene
         energies[name] = estimator.spectrum(_drawn(own, flaws.alone(name), fidelity)).sum(axis=1)
     whole = sum(energies.values(), np.full(len(estimator.places), 1e-30))

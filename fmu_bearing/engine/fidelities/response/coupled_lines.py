@@ -22,6 +22,7 @@ from fmu_bearing.engine.newton.jacobian import is_angle
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import add_driven, shaft_matrix
 from fmu_bearing.engine.spindle.elimination import keep_columns
+from fmu_bearing.engine.spindle.shaft import unbalance
 
 
 @kernel
@@ -168,19 +169,19 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
 
 @kernel
 def unbalance_line(p, s, w, speed):
-    """Line of the shaft's heavy spots."""
+    """Line of the unbalance."""
     if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0 or abs(speed) < STILL:
         return
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     lanes = members.padded_size(p)
-    spots = members.table(p, SP.AT_UNBALANCE)
     set_equations(p, s, w, speed)
     re = members.matrix(p) + n * lanes
     im, _ = members.complex_matrix(p)
     for i in range(n):
-        ws[re + i] = speed * speed * p[spots + i]
-        ws[im + n * lanes + i] = -speed * speed * p[spots + lanes + i]
+        first, second = unbalance(p, i)
+        ws[re + i] = speed * speed * first
+        ws[im + n * lanes + i] = -speed * speed * second
     keep_line(p, s, w, 0, 0.0, 1.0, 0.0, speed)
 
 

@@ -20,9 +20,9 @@ _PEDESTAL = tuple(
 
 
 def as_set(single: Scene) -> Scene:
-    """Return a mounted bearing with a rotor as a set of one on a pedestal of its own.
+    """Return a mounted bearing with a rotor as a set of one, on a pedestal of its own or in a housing.
 
-    The rotor has the density of the inner ring. A housing and sound are left out.
+    The rotor has the density of the inner ring; the housing's mass is at the bearing. Sound is left out.
     """
     mount = single.mounting
     rotor = mount.rotor
@@ -40,6 +40,10 @@ def as_set(single: Scene) -> Scene:
             "position_mm": 0.5 * rotor.length_mm,
         },
     }
+    if mount.housing is not None:
+        body = mount.housing.model_dump(exclude={"front_face_mm"})
+        spindle["housing"] |= body | {"position_mm": 0.5 * rotor.length_mm}
+        spindle["bearing"][0]["seat"] = "fixed"
     if mount.tilt_support is not None:
         spindle["tilt_support"] = mount.tilt_support.model_dump()
     if mount.flexure is not None:

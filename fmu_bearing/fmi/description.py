@@ -216,9 +216,9 @@ def _about(scene: "Scene") -> str:
     bearings = (
         f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {assembly.arrangement}"
     )
-    if assembly.shaft.external:
-        return f"{bearings}, for a shaft of another model: vibration, friction torque and heat"
     more = "friction torque, heat and sound" if scene.sound is not None else "friction torque and heat"
+    if assembly.shaft.external:
+        return f"{bearings}, for a shaft of another model: vibration, {more}"
     return f"Shaft on {bearings}: vibration, {more}"
 
 

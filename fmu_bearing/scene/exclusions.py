@@ -1,7 +1,7 @@
 """What a scene cannot have: which scenes, what, why, and the way out. One table for all such refusals.
 
-It holds what a kind of scenes cannot have whatever their other values are, for a physical reason or because
-it is not built yet. Values that are missing, or too large beside others, are conflicts of their own tables.
+It holds what a kind of scenes cannot have whatever their other values are. Values that are missing, or too
+large beside others, are conflicts of their own tables.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -33,7 +33,6 @@ Subject = Literal[
     "sensitivity",
     "shaft",
     "short runs",
-    "sound",
     "statics",
     "tradeoff",
     "unbalance",
@@ -106,11 +105,6 @@ def _plane(tables: Tables) -> Keys:
     yield from _baffle(tables)
     if tables.sound is not None and tables.sound.reflecting_plane_mm is not None:
         yield "sound.reflecting_plane_mm"
-
-
-def _sound(tables: Tables) -> Keys:
-    if tables.sound is not None:
-        yield "sound"
 
 
 def _fidelities(tables: Tables) -> Keys:
@@ -252,13 +246,6 @@ EXCLUSIONS = (
         "these fidelities use coordinates of the shaft, which another model moves",
         'give `fidelity.model` = "full" or "auto"',
         _fidelities,
-    ),
-    Exclusion(
-        _PORT,
-        {"sound": "sound"},
-        "it is not computed for bearings on another model's shaft yet",
-        f"leave `[sound]` out, or {_OWN_SHAFT}",
-        _sound,
     ),
     Exclusion(
         _PORT,

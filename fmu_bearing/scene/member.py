@@ -112,12 +112,14 @@ def still_of(scene: Given) -> Given:
 def radiating(scene: Given, number: int) -> Given:
     """Return the scene of one bearing of a set, from 0, as its body radiates, bare and without microphones.
 
-    A rotor without mass replaces the shaft, and fills its bore. A single bearing is returned as it is.
+    A rotor without mass replaces the shaft, also one of another model, and fills its bore; its length, which
+    does not radiate, is read by nothing. A single bearing is returned as it is.
     """
     if scene.spindle is None:
         return scene
     alone = one_of(scene, number)
-    shaft = Rotor(mass_kg=0.0, length_mm=set_of(scene).shaft.length_mm, diameter_mm=scene.bearing.bore_mm)
+    length = set_of(scene).shaft.length_mm or scene.bearing.width_mm
+    shaft = Rotor(mass_kg=0.0, length_mm=length, diameter_mm=scene.bearing.bore_mm)
     return alone.model_copy(update={"mounting": alone.mounted.model_copy(update={"rotor": shaft})})
 
 

@@ -87,7 +87,6 @@ DOORS = (
         "report": lambda scene, folder: make(scene, folder / "a.html"),
     }),
     (read_scene(PORT), pair(), {"fidelities": {"fidelity.model": "rings"}}),
-    (read_scene(PORT), pair(), {"sound": {"sound": {"microphone": [MICROPHONE]}}}),
     (read_scene(PORT), pair(), {
         "error motion": lambda scene, folder: error_motion(scene),
         "recording": lambda scene, folder: record(scene, 1e-3),

@@ -48,6 +48,34 @@ def test_led_along_a_shafts_motion_bearings_give_its_forces(seat):
     assert abs(own.imbalance) < 1e-5 * own.heat
 
 
+def test_led_along_a_shafts_motion_bearings_sound_as_on_that_shaft():
+    microphone = {"name": "P", "x_mm": 55.0, "y_mm": 205.0, "z_mm": 0.0}
+    sound = {"radiation_model": "compact", "microphone": [microphone]}
+    given = loaded("fixed", **{"fidelity.tolerance": 1e-5, "sound": sound})
+    own, led = (Instance(prepare(one)) for one in (given, as_port(given)))
+    block = own.p[int(own.p[P.SET]) :]
+    places = int(block[SP.AT_S]) + SP.S_HEAD + np.array([0, int(block[SP.PADDED_SIZE])])
+
+    def lead():
+        for first, into in zip(places, (SP.U_PORT, SP.U_PORT_RATE), strict=True):
+            led.u[into : into + SP.PLANE] = own.s[first : first + SP.PLANE]
+
+    own.initialise()
+    lead()
+    led.initialise()
+    own.set("nose.force.z", own.get("nose.force.z") - 100.0)
+    pressures = []
+    for _ in range(400):
+        own.step(STEP)
+        lead()
+        led.step(STEP)
+        pressures.append([one.get("mic[1].pressure") for one in (own, led)])
+    ours, theirs = np.array(pressures).T
+    assert np.ptp(ours) > 1e-3  # Pa
+    # two solutions within the engine's tolerance
+    np.testing.assert_allclose(theirs, ours, rtol=0.0, atol=1e-3 * np.ptp(ours))
+
+
 def test_force_at_the_port_is_that_of_all_bearings():
     _, led, _ = followed(loaded("sliding in housing"), 2e-4)
     wanted = np.zeros(SP.PLANE)

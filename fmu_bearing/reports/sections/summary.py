@@ -60,7 +60,9 @@ def tiles(subject: Subject, microphones: Microphones | None, sure: Spread | None
 
 def cards(subject: Subject, judged: Iterable[Verdict]) -> tuple[list[Card], dict[str, float]]:
     """Return a card for each bearing of a set, with the gravest verdict on it, and all figures by name."""
-    found, named, judged = [], {}, list(judged)
+    judged = list(judged)
+    found: list[Card] = []
+    named: dict[str, float] = {}
     for number, prefix in enumerate(subject.prefixes.values() if subject.several else ()):
         rows = _tiles(_figures(subject, number))
         named |= {prefix + row["key"]: row["value"] for row in rows}

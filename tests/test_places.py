@@ -83,7 +83,17 @@ def counted(function):
 #: Kernels outside the engine, and what lays parameters and names out.
 OTHERS = [
     ENGINE.parents[1] / "benchmarks" / "first_order.py",
-    *(ENGINE.parent / name for name in ("accuracy/reference.py", "interface/outputs.py", "instance.py")),
+    *(
+        ENGINE.parent / name
+        for name in (
+            "accuracy/reference.py",
+            "interface/bearing_outputs.py",
+            "interface/inputs.py",
+            "interface/microphones.py",
+            "interface/outputs.py",
+            "instance.py",
+        )
+    ),
 ]
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.elastic.shaft import placed
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.engine.layout import SP, U
+from fmu_bearing.engine.layout import SP, Q, U
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.interface.variable import Variable
 from fmu_bearing.scene import Scene, si
@@ -144,7 +144,7 @@ def largest_moment(scene: Scene, start: NDArray[np.float64]) -> float:
     bearings = scene.bearings()
     ratings = sum(static_rating(*one.scene.bearing.for_ratings) for one in bearings)
     reach = max(one.position + 1e-3 * one.scene.bearing.pitch_diameter_mm for one in bearings)
-    own = np.abs(start[U.NOSE + 3 : U.NOSE + SP.PLANE]).max()
+    own = np.abs(start[U.NOSE + Q.INNER_BY : U.NOSE + SP.PLANE]).max()
     return float(f"{max(_OVERLOAD * ratings * reach, 2.0 * own):.2g}")
 
 

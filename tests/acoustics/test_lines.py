@@ -46,7 +46,7 @@ def test_pressures_are_those_of_the_paths(block, omega):
     channels = rng.normal(size=radiation.channels) + 1j * rng.normal(size=radiation.channels)
     clear_channels(ps, ws)
     for channel, value in enumerate(channels):
-        add_channel(ps, ws, channel, value.real, value.imag)
+        add_channel(ps, ws, channel, complex(value))
     assert radiate(ps, ws, omega)
     assert beats.weight_of_rows(ps, ws) < bound(ps, ws, omega) ** 2
     found = rows_of(ps, ws, int(ps[SD.H_W_ROWS]), SL.ROW_ALONE)

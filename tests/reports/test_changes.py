@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing import changes
+from fmu_bearing import changes, read_scene
 from fmu_bearing.accuracy import changes as room
 from fmu_bearing.accuracy.alternatives import Alternative
 from fmu_bearing.accuracy.changed import shown_hours, shown_level, shown_ratio
@@ -17,7 +17,8 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent
 from fmu_bearing.reports.sections import what_to_change
 from fmu_bearing.reports.sections.what_to_change import section, shown
-from tests.reports.reading import numbers
+from tests.conftest import EXAMPLES
+from tests.reports.reading import not_run, numbers
 
 
 @pytest.fixture(scope="module")
@@ -130,6 +131,19 @@ def test_a_scene_that_bends_has_no_levels_unless_asked(scene, monkeypatch):
     assert charts == ["changes-torque"]  # rings of ceramics have no rating either
     (table,) = [block for block in page.blocks if block.sort == "table"]
     assert "--changes" in table.note and "rings of steel" in table.note
+
+
+def test_a_set_has_no_levels_unless_asked(monkeypatch):
+    monkeypatch.setattr(
+        room,
+        "alternatives",
+        lambda scene: [Alternative("preload", "less", {"spindle.preload.preload_N": 80.0})],
+    )
+    page = section(not_run(read_scene(EXAMPLES.parent / "spindle_set" / "7003C-DB.toml")), silent)
+    charts = [block.key for block in page.blocks if block.sort == "chart"]
+    assert charts == ["changes-life", "changes-torque"]
+    (table,) = [block for block in page.blocks if block.sort == "table"]
+    assert "--changes" in table.note and "those of a set" in table.note
 
 
 def test_a_recording_whose_speed_changes_has_none(rings):

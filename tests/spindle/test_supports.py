@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from fmu_bearing import statics
+from fmu_bearing import read_scene, simulate, statics
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import P, Q, S, U, Y
 from fmu_bearing.prepare.spindle import one_of
 from fmu_bearing.scene.mounting import Mounting, Rotor
+from fmu_bearing.scene.read import with_fidelity
+from tests.conftest import ROOT
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
 from tests.oracles.cartesian_forces import turned_axes
@@ -162,3 +164,31 @@ def test_a_single_bearing_on_its_pedestal_stands_as_a_mounted_one():
     )  # creeping balls: 0.004 N
     apart = y[Y.Q0 : Y.Q0 + 3] - y[ring : ring + 3]
     assert found.bearings[0].displacement[1:3] == pytest.approx(apart[1:], rel=1e-3, abs=1e-12)
+
+
+@pytest.mark.heavy  # 10 s of CPU
+def test_fidelities_agree_on_a_set_that_is_held_as_one_bearing_can_be():
+    """A QBC on a bending shaft, misaligned, held against tilting, its housing on two springs at an angle."""
+    axes = {"pedestal_stiffness_N_m": 2e8, "pedestal_stiffness_ratio": 0.5, "pedestal_axis_angle_deg": -20.0}
+    given = read_scene(ROOT / "examples" / "spindle_set" / "7003C-QBC.toml").replace(
+        {
+            "sound": None,
+            "imperfections.unbalance_um": 1.0,
+            "spindle.bearing[2].misalignment_y_mrad": 0.1,
+            "spindle.housing": BODY | {"mass_kg": 5.0} | axes,
+            "spindle.tilt_support": {"stiffness_N_m_rad": 5e4, "damping_ratio": 0.05},
+        }
+    )
+    names = [f"{body}.velocity.{axis}" for body in ("shaft.nose", "housing") for axis in "yz"]
+    found = []
+    for fidelity in ("full", "rings", "response"):
+        run = simulate(
+            with_fidelity(given, model=fidelity), 0.06, step=5e-5, outputs=[*names, "energy.residual"]
+        )
+        assert abs(run["energy.residual"][-1]) < 1e-5
+        found.append([run[name][400:].std() for name in names])
+    full, rings, response = np.array(found)
+    # about 1.8 and 2.2 mm/s of the nose, 71 and 59 um/s of the housing
+    assert rings == pytest.approx(full, rel=0.05)
+    assert response == pytest.approx(full, rel=0.05)
+    assert abs(full[2] / full[3] - 1.0) > 0.1

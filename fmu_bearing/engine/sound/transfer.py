@@ -25,12 +25,12 @@ def clear_channels(ps, ws):
 
 
 @kernel
-def add_channel(ps, ws, channel, re, im):
-    """Add ``re`` + i ``im`` to a channel of the line."""
+def add_channel(ps, ws, channel, value):
+    """Add a complex number to a channel of the line."""
     wide = int(ps[SD.H_CHANNELS])
     at = int(ps[SD.H_W_CHANNELS])
-    ws[at + channel] += re
-    ws[at + wide + channel] += im
+    ws[at + channel] += value.real
+    ws[at + wide + channel] += value.imag
     at += 2 * wide
     ws[at] = min(ws[at], channel)
     ws[at + 1] = max(ws[at + 1], channel)

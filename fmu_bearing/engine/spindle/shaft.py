@@ -69,9 +69,9 @@ def unbalance(p, i):
     """
     lanes = members.padded_size(p)
     at = members.table(p, SP.AT_UNBALANCE) + i
+    eccentric = at + 2 * lanes
     scale = p[P.IMPERFECTION_SCALE]
-    first = p[at] + scale * p[at + 2 * lanes]
-    return first, p[at + lanes] + scale * p[at + 3 * lanes]
+    return p[at] + scale * p[eccentric], p[at + lanes] + scale * p[eccentric + lanes]
 
 
 @kernel

@@ -199,8 +199,8 @@ def guided(lv, k, y):
 
 @kernel
 def pattern_answer(lv, omega):
-    """Place of a pattern at ``omega`` (rad/s) by what drives it: real and imaginary part (s2)."""
+    """Place of a pattern at ``omega`` (rad/s) by what drives it: complex (s2)."""
     re = lv[L.SIDE_SQUARE] - omega * omega
     im = omega * lv[L.SIDE_RATE]
     per = 1.0 / (re * re + im * im)
-    return re * per, -im * per
+    return complex(re * per, -im * per)

@@ -16,15 +16,11 @@ So waves that move no ring sound too. ``x``: scratch of the lines, see `layout.l
 
 from fmu_bearing.engine.choices import CONTACTS
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer
-from fmu_bearing.engine.fidelities.response.lines import (
-    form_sums,
-    orders,
-    size_sums,
-    wave_of,
-)
+from fmu_bearing.engine.fidelities.response.lines import form_sums, orders, size_sums, wave_of
 from fmu_bearing.engine.fidelities.response.samples import order_of
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, LN, SD, C, L, P, Q
+from fmu_bearing.engine.mechanics.triples import added, scaled
 from fmu_bearing.engine.sound.transfer import add_channel
 
 _SMALL = 2e-3  # of the largest order of a place: left out, 0.02 dB
@@ -63,61 +59,54 @@ def reach_of_heights(x):
 
 
 @kernel
-def add_ball_motion(p, lv, ps, ws, mu, omega, speed, place, away, rolled):
+def add_ball_motion(p, lv, ps, ws, mu, omega, speed, place, rolled):
     """Add the accelerations of all balls to the channels of their harmonic ``mu``.
 
-    ``place``: complex places x, r (m) that a ball would rest at, times the number of balls or summed over
-    them; ``away``: across the track; ``rolled``: velocity (m/s) that rolling gives there. ``omega``: of the
-    line (rad/s), seen from outside.
+    ``place``: complex places x, r and across the track (m) that a ball would rest at, times the number of
+    balls or summed over them; ``rolled``: velocity (m/s) that rolling gives across. ``omega``: of the line
+    (rad/s), seen from outside.
     """
     orbit = lv[L.RATIO] * speed
     seen = omega - mu * orbit  # by a ball
-    xr, xi, rr, ri = place
-    sr, si = away
+    x, r, across = place
     if lv[L.SIDE_SQUARE] != 0.0:
-        gr, gi = pattern_answer(lv, seen)
-        ahead = seen * p[P.CONTACT_DAMPING]
-        dr = lv[L.SIDE_SQUARE] * (sr - ahead * si) + lv[L.SIDE_RATE] * rolled[0]
-        di = lv[L.SIDE_SQUARE] * (si + ahead * sr) + lv[L.SIDE_RATE] * rolled[1]
-        lag_re, lag_im = gr * dr - gi * di - sr, gr * di + gi * dr - si
-        xr += lv[L.SIDE] * lag_re
-        xi += lv[L.SIDE] * lag_im
-        rr += lv[L.SIDE + 1] * lag_re
-        ri += lv[L.SIDE + 1] * lag_im
+        ahead = complex(1.0, seen * p[P.CONTACT_DAMPING])
+        driven = lv[L.SIDE_SQUARE] * (ahead * across) + lv[L.SIDE_RATE] * rolled
+        lag = pattern_answer(lv, seen) * driven - across
+        x += lv[L.SIDE] * lag
+        r += lv[L.SIDE + 1] * lag
     if int(ps[SD.H_FORM]) == CONTACTS:
         at = int(ps[SD.H_AT_SCALARS])
-        sine, cosine = ps[at + SD.SCALAR_SINE], ps[at + SD.SCALAR_COSINE]
-        re, im = -seen * (sine * xi + cosine * ri), seen * (sine * xr + cosine * rr)
-        add_contacts(ps, ws, SD.FAMILY_BALLS, mu, omega, re, im)
+        pressed = ps[at + SD.SCALAR_SINE] * x + ps[at + SD.SCALAR_COSINE] * r
+        add_contacts(ps, ws, SD.FAMILY_BALLS, mu, omega, complex(0.0, seen) * pressed)
         return
     squared = seen * seen
     turned = squared + orbit * orbit  # its radius changes the centripetal acceleration,
     coriolis = 2.0 * seen * orbit  # and its velocity turns
     if mu == 0:
-        at = SD.C_BALLS
-        add_channel(ps, ws, at + SD.MEAN_X, -squared * xr, -squared * xi)
-        add_channel(ps, ws, at + SD.MEAN_R, -turned * rr, -turned * ri)
+        add_channel(ps, ws, SD.C_BALLS + SD.MEAN_X, -squared * x)
+        add_channel(ps, ws, SD.C_BALLS + SD.MEAN_R, -turned * r)
         return
     at = SD.C_HARMONICS + SD.HARMONIC_SIZE * (abs(mu) - 1)
     half = 0.5 if mu > 0 else -0.5
-    add_harmonic(ps, ws, at + SD.HARMONIC_X_COS, half, -squared * xr, -squared * xi)
-    add_harmonic(ps, ws, at + SD.HARMONIC_R_COS, half, -turned * rr, -turned * ri)
-    add_harmonic(ps, ws, at + SD.HARMONIC_T_COS, half, -coriolis * ri, coriolis * rr)
+    add_harmonic(ps, ws, at + SD.HARMONIC_X_COS, half, -squared * x)
+    add_harmonic(ps, ws, at + SD.HARMONIC_R_COS, half, -turned * r)
+    add_harmonic(ps, ws, at + SD.HARMONIC_T_COS, half, complex(0.0, coriolis) * r)
 
 
 @kernel
-def add_contacts(ps, ws, family, mu, omega, re, im):
+def add_contacts(ps, ws, family, mu, omega, velocity):
     """Add the rate of one family's harmonic ``mu`` (form contacts).
 
-    ``re``, ``im``: its normal velocities (m/s) times exp(i mu theta), summed; ``omega`` (rad/s): of the line,
-    seen from outside.
+    ``velocity``: complex, along the normals (m/s) times exp(i mu theta), summed; ``omega`` (rad/s): of the
+    line, seen from outside.
     """
     at = (1 + 2 * int(ps[SD.H_HARMONICS])) * family
+    rate = complex(0.0, omega) * velocity
     if mu == 0:
-        add_channel(ps, ws, at, -omega * im, omega * re)
+        add_channel(ps, ws, at, rate)
     else:
-        half = 0.5 if mu > 0 else -0.5
-        add_harmonic(ps, ws, at + 2 * abs(mu) - 1, half, -omega * im, omega * re)
+        add_harmonic(ps, ws, at + 2 * abs(mu) - 1, 0.5 if mu > 0 else -0.5, rate)
 
 
 @kernel
@@ -132,26 +121,31 @@ def add_ring_contacts(p, lv, ps, ws, q, re, im, omega, speed, shift):
             continue
         for ring in range(2):
             first = Q.OUTER if ring == 1 else Q.INNER
-            if order == 0:
-                by = balls * ps[at + SD.SCALAR_SINE]
-                vr, vi = -by * omega * q[im + first], by * omega * q[re + first]
-            else:
+            moved = complex(q[re + first], q[im + first])
+            by = balls * ps[at + SD.SCALAR_SINE]
+            if order != 0:
                 # z cos - y sin of a ball's angle
-                by = 0.5 * balls * ps[at + SD.SCALAR_COSINE] * omega
-                yr, yi = order * q[re + first + Q.Y], order * q[im + first + Q.Y]
-                vr = -by * (q[im + first + Q.Z] + yr)
-                vi = by * (q[re + first + Q.Z] - yi)
-            add_contacts(ps, ws, SD.FAMILY_OUTER if ring == 1 else SD.FAMILY_INNER, mu, turned, vr, vi)
+                moved = complex(q[re + first + Q.Z], q[im + first + Q.Z])
+                moved += complex(0.0, order) * complex(q[re + first + Q.Y], q[im + first + Q.Y])
+                by = 0.5 * balls * ps[at + SD.SCALAR_COSINE]
+            family = SD.FAMILY_OUTER if ring == 1 else SD.FAMILY_INNER
+            add_contacts(ps, ws, family, mu, turned, complex(0.0, by * omega) * moved)
 
 
 @kernel
-def add_harmonic(ps, ws, channel, half, re, im):
+def add_harmonic(ps, ws, channel, half, value):
     """Add half of a sum times exp(i mu theta) to its cosine's and, a quarter turn on, to its sine's channel.
 
     ``half``: negative for a negative order mu.
     """
-    add_channel(ps, ws, channel, abs(half) * re, abs(half) * im)
-    add_channel(ps, ws, channel + 1, half * im, -half * re)
+    add_channel(ps, ws, channel, abs(half) * value)
+    add_channel(ps, ws, channel + 1, complex(0.0, -half) * value)
+
+
+@kernel
+def with_across(lv, x, r):
+    """Complex places x, r of a ball, then what they are across its track."""
+    return x, r, lv[L.SIDE] * x + lv[L.SIDE + 1] * r
 
 
 @kernel
@@ -170,77 +164,47 @@ def follow_rings(p, lv, x, ps, ws, q, re, im, omega, speed, shift):
         if abs(mu) > highest:
             continue
         sign = 1.0 if order >= 0 else -1.0  # order -l is the conjugate of order l
-        xr, xi, rr, ri = 0.0, 0.0, 0.0, 0.0
+        along, out = 0j, 0j
         for i in range(L.N):
             at = LN.FOLLOW + (abs(order) * L.N + i) * FOUR
-            a, b = q[re + i], q[im + i]
-            xr += x[at] * a - sign * x[at + 1] * b
-            xi += x[at] * b + sign * x[at + 1] * a
-            rr += x[at + 2] * a - sign * x[at + FOUR - 1] * b
-            ri += x[at + 2] * b + sign * x[at + FOUR - 1] * a
-        place = balls * xr, balls * xi, balls * rr, balls * ri
-        away = (
-            lv[L.SIDE] * place[0] + lv[L.SIDE + 1] * place[2],
-            lv[L.SIDE] * place[1] + lv[L.SIDE + 1] * place[FOUR - 1],
-        )
+            moved = complex(q[re + i], q[im + i])
+            along += complex(x[at], sign * x[at + 1]) * moved
+            out += complex(x[at + 2], sign * x[at + FOUR - 1]) * moved
+        place = with_across(lv, balls * along, balls * out)
         rolled = rolled_by_rings(lv, order, balls, q, re, im, omega)
-        add_ball_motion(p, lv, ps, ws, mu, turned, speed, place, away, rolled)
+        add_ball_motion(p, lv, ps, ws, mu, turned, speed, place, rolled)
 
 
 @kernel
 def rolled_by_rings(lv, order, balls, q, re, im, omega):
     """Velocity (m/s) across the track that rolling gives all balls, of one order round the orbit: complex."""
-    if abs(order) > 1:
-        return 0.0, 0.0
-    total_re, total_im = 0.0, 0.0
-    for i in range(L.N):
-        vr, vi = -omega * q[im + i], omega * q[re + i]
-        if order == 0:
-            by = lv[L.SIDE_GUIDE + i]
-            total_re += by * vr
-            total_im += by * vi
-        else:
+    total = 0j
+    for i in range(L.N if abs(order) <= 1 else 0):
+        by = complex(lv[L.SIDE_GUIDE + i], 0.0)
+        if order != 0:
             # cos and -sin of a ball's angle
-            by = 0.5 * lv[L.SIDE_GUIDE + L.COLUMN + i]
             aside = 0.5 * order * lv[L.SIDE_GUIDE + 2 * L.COLUMN + i]
-            total_re += by * vr - aside * vi
-            total_im += by * vi + aside * vr
-    return balls * total_re, balls * total_im
+            by = complex(0.5 * lv[L.SIDE_GUIDE + L.COLUMN + i], aside)
+        total += by * (complex(0.0, omega) * complex(q[re + i], q[im + i]))
+    return balls * total
 
 
 @kernel
 def place_by(lv, x, kind, order):
-    """How a ball's place of rest answers one kind of excitation through ``order``.
-
-    x, r, across; real and imaginary.
-    """
+    """How a ball's place of rest answers one kind of excitation through ``order``: complex x, r, across."""
     at = order_of(kind, abs(order))
+    to = at + LN.IMAGINARY
     sign = 1.0 if order >= 0 else -1.0
-    xr, rr = x[at + LN.PLACES], x[at + LN.PLACES + 1]
-    ar = lv[L.SIDE] * x[at + LN.AWAY] + lv[L.SIDE + 1] * x[at + LN.AWAY + 1]
-    at += LN.IMAGINARY
-    xi, ri = x[at + LN.PLACES], x[at + LN.PLACES + 1]
-    ai = lv[L.SIDE] * x[at + LN.AWAY] + lv[L.SIDE + 1] * x[at + LN.AWAY + 1]
-    return xr, sign * xi, rr, sign * ri, ar, sign * ai
-
-
-@kernel
-def added_places(sums, by, re, im):
-    """Add complex places ``by`` times ``re`` + i ``im`` to ``sums``."""
-    a, b, c, d, e, f = by
-    xr, xi, rr, ri, ar, ai = sums
+    _, _, across = with_across(
+        lv,
+        complex(x[at + LN.AWAY], sign * x[to + LN.AWAY]),
+        complex(x[at + LN.AWAY + 1], sign * x[to + LN.AWAY + 1]),
+    )
     return (
-        xr + a * re - b * im, xi + a * im + b * re, rr + c * re - d * im, ri + c * im + d * re,
-        ar + e * re - f * im, ai + e * im + f * re,
-    )  # fmt: skip
-
-
-@kernel
-def add_found(p, lv, ps, ws, mu, omega, speed, sums):
-    """Add the motion of the balls' harmonic ``mu``, which rest at the places ``sums``."""
-    xr, xi, rr, ri, ar, ai = sums
-    place = xr, xi, rr, ri
-    add_ball_motion(p, lv, ps, ws, mu, omega, speed, place, (ar, ai), (0.0, 0.0))
+        complex(x[at + LN.PLACES], sign * x[to + LN.PLACES]),
+        complex(x[at + LN.PLACES + 1], sign * x[to + LN.PLACES + 1]),
+        across,
+    )
 
 
 @kernel
@@ -248,14 +212,13 @@ def drive_by_inner(p, c, lv, x, ps, ws, n, a, reach, speed):
     """Fill the balls' channels of what wave ``n`` of the inner race does at ``a`` times ball 0's angle."""
     orbit = lv[L.RATIO] * speed
     harmonics = int(ps[SD.H_HARMONICS])
-    re, im = wave_of(p, 0, n, p[P.BALLS] * c[C.OVERSIZE_SCALE])
+    height = wave_of(p, 0, n, p[P.BALLS] * c[C.OVERSIZE_SCALE])
     for order in range(-reach, reach + 1):
         mu = a - n - order
         if abs(mu) > harmonics:
             continue
-        by = place_by(lv, x, LN.BY_HEIGHT, order)
-        sums = added_places((0.0, 0.0, 0.0, 0.0, 0.0, 0.0), by, re, im)
-        add_found(p, lv, ps, ws, mu, a * orbit - n * speed, speed, sums)
+        place = scaled(height, place_by(lv, x, LN.BY_HEIGHT, order))
+        add_ball_motion(p, lv, ps, ws, mu, a * orbit - n * speed, speed, place, 0j)
 
 
 @kernel
@@ -266,20 +229,20 @@ def drive_by_orbit(p, c, lv, x, ps, ws, a, reach, speed):
     scale = c[C.OVERSIZE_SCALE]
     harmonics = int(ps[SD.H_HARMONICS])
     highest = orders(p)
-    dr, di = size_sums(p, a, scale)
+    sizes = size_sums(p, a, scale)
     for mu in range(-harmonics, harmonics + 1):
         order = a - mu
-        sums = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        place = 0j, 0j, 0j
         if a % balls == 0:
             if abs(order) <= LN.REACH:
-                sums = added_places(sums, rest_of_orbit(lv, x, order), 2.0 * balls, 0.0)
+                place = scaled(2.0 * balls, rest_of_orbit(lv, x, order))
             for n in range(max(order - reach, 1), min(order + reach, highest) + 1):
-                re, im = wave_of(p, 1, n, balls * scale)
-                sums = added_places(sums, place_by(lv, x, LN.BY_HEIGHT + 1, order - n), re, im)
+                height = wave_of(p, 1, n, balls * scale)
+                place = added(place, scaled(height, place_by(lv, x, LN.BY_HEIGHT + 1, order - n)))
         if abs(order) <= reach:
             for race in range(2):
-                sums = added_places(sums, place_by(lv, x, LN.BY_HEIGHT + race, order), dr, di)
-        add_found(p, lv, ps, ws, mu, a * orbit, speed, sums)
+                place = added(place, scaled(sizes, place_by(lv, x, LN.BY_HEIGHT + race, order)))
+        add_ball_motion(p, lv, ps, ws, mu, a * orbit, speed, place, 0j)
 
 
 @kernel
@@ -287,9 +250,7 @@ def rest_of_orbit(lv, x, order):
     """Order of the balls' places as their loads leave them; the real part counts both its signs."""
     at = LN.REST + FOUR * abs(order)
     sign = 1.0 if order >= 0 else -1.0
-    xr, xi, rr, ri = x[at], sign * x[at + 1], x[at + 2], sign * x[at + FOUR - 1]
-    across_re = lv[L.SIDE] * xr + lv[L.SIDE + 1] * rr
-    return xr, xi, rr, ri, across_re, lv[L.SIDE] * xi + lv[L.SIDE + 1] * ri
+    return with_across(lv, complex(x[at], sign * x[at + 1]), complex(x[at + 2], sign * x[at + FOUR - 1]))
 
 
 @kernel
@@ -302,9 +263,9 @@ def drive_by_form(p, c, lv, x, ps, ws, m, a, reach, speed):
         mu = a - order
         if abs(mu) > harmonics:
             continue
-        sums = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        place = 0j, 0j, 0j
         for form in range(LN.FORMS):
-            re, im = form_sums(p, x, form, m, a, 2.0 * c[C.OVERSIZE_SCALE])
+            sums = form_sums(p, x, form, m, a, 2.0 * c[C.OVERSIZE_SCALE])
             kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-            sums = added_places(sums, place_by(lv, x, kind, order), re, im)
-        add_found(p, lv, ps, ws, mu, a * orbit + rate, speed, sums)
+            place = added(place, scaled(sums, place_by(lv, x, kind, order)))
+        add_ball_motion(p, lv, ps, ws, mu, a * orbit + rate, speed, place, 0j)

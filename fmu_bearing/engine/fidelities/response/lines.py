@@ -144,9 +144,18 @@ def counts_by(omega):
 
 @kernel
 def wave_of(p, race, n, factor):
-    """Wave ``n`` of a race (m) times ``factor``: real and imaginary part."""
+    """Wave ``n`` of a race (m) times ``factor``: complex."""
     at = int(p[P.AT_ORDERS]) + race * 2 * int(p[P.WAVE_ORDERS]) + 2 * (n - 1)
-    return factor * p[at], factor * p[at + 1]
+    return complex(factor * p[at], factor * p[at + 1])
+
+
+@kernel
+def add_force(by, w):
+    """Add the complex number ``by`` times what ``T.BY_HEIGHT`` holds to ``T.LINE_FORCE``."""
+    for i in range(LN.COMPONENTS):
+        force = complex(w[T.BY_HEIGHT + i], w[T.BY_HEIGHT + LN.IMAGINARY + i]) * by
+        w[T.LINE_FORCE + i] += force.real
+        w[T.LINE_FORCE + LN.IMAGINARY + i] += force.imag
 
 
 @kernel
@@ -155,48 +164,36 @@ def add_wave(p, x, race, n, order, factor, rate, tau, w):
 
     ``rate``: of the balls against the race (rad/s); contact damping adds ``tau`` times the height's rate.
     """
-    ahead = n * rate * tau
-    re, im = wave_of(p, race, n, factor)
-    hr = re - im * ahead
-    hi = im + re * ahead
     coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
-    for i in range(LN.COMPONENTS):
-        gr = w[T.BY_HEIGHT + i]
-        gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
-        w[T.LINE_FORCE + i] += gr * hr - gi * hi
-        w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * hi + gi * hr
+    add_force(complex(1.0, n * rate * tau) * wave_of(p, race, n, factor), w)
 
 
 @kernel
 def size_sums(p, a, scale):
-    """Sum of the balls' diameter deviations (m) times exp(i a angle from ball 0): both parts."""
+    """Sum of the balls' diameter deviations (m) times exp(i a angle from ball 0): complex."""
     balls = int(p[P.BALLS])
-    dr = 0.0
-    di = 0.0
+    total = 0j
     for j in range(balls):
-        size = scale * p[int(p[P.AT_OVERSIZE]) + j]
-        dr += size * math.cos(2.0 * PI * a * j / balls)
-        di += size * math.sin(2.0 * PI * a * j / balls)
-    return dr, di
+        angle = 2.0 * PI * a * j / balls
+        total += scale * p[int(p[P.AT_OVERSIZE]) + j] * complex(math.cos(angle), math.sin(angle))
+    return total
 
 
 @kernel
 def form_sums(p, x, form, m, a, scale):
-    """Sum of the balls' orders ``m`` of one form times exp(i a angle from ball 0): both parts."""
+    """Sum of the balls' orders ``m`` of one form times exp(i a angle from ball 0): complex."""
     balls = int(p[P.BALLS])
     at = form_of(form, m)
-    re = 0.0
-    im = 0.0
+    total = 0j
     turned = a % balls
     place = 0  # of a j among the balls
     for j in range(balls):
-        co, si = x[LN.BALL_COS + place], x[LN.BALL_SIN + place]
-        re += x[at + j] * co - x[at + STRIDE + j] * si
-        im += x[at + j] * si + x[at + STRIDE + j] * co
+        turn = complex(x[LN.BALL_COS + place], x[LN.BALL_SIN + place])
+        total += complex(x[at + j], x[at + STRIDE + j]) * turn
         place += turned
         if place >= balls:
             place -= balls
-    return scale * re, scale * im
+    return scale * total
 
 
 @kernel
@@ -228,15 +225,10 @@ def steady_lines(p, c, lv, lines, alone, x, orbit, first, many, w):
             for n in range(max(a - LN.REACH, 1), min(a + LN.REACH, highest) + 1):
                 add_wave(p, x, 1, n, a - n, balls * scale, orbit, tau, w)
         if a <= LN.REACH:
-            dr, di = size_sums(p, a, scale)
+            sizes = size_sums(p, a, scale)
             for race in range(2):
                 coefficients(x, LN.BY_HEIGHT + race, a, T.BY_HEIGHT, w)
-                for i in range(LN.COMPONENTS):
-                    # half a diameter under either race, and both signs of the order
-                    gr = w[T.BY_HEIGHT + i]
-                    gi = w[T.BY_HEIGHT + LN.IMAGINARY + i]
-                    w[T.LINE_FORCE + i] += gr * dr - gi * di
-                    w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * di + gi * dr
+                add_force(sizes, w)  # half a diameter under either race, and both signs of the order
         keep(p, lv, lines, alone, a, 0.0, 0.0, a * orbit, w)
     return seen
 
@@ -270,20 +262,14 @@ def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
 
 
 @kernel
-def add_form(x, kind, order, re, im, rate, tau, w):
-    """Add what one form of the balls, ``re`` + i ``im`` over all of them, excites through ``order``.
+def add_form(x, kind, order, sums, rate, tau, w):
+    """Add what one form of the balls, complex ``sums`` over all of them, excites through ``order``.
 
     ``rate``: of its phase (rad/s); contact damping by ``tau`` (s) acts on heights alone, see
     ``condensed.ball_form``.
     """
     coefficients(x, kind, order, T.BY_HEIGHT, w)
-    ahead = rate * tau if kind < LN.BY_LEAN else 0.0
-    for i in range(LN.COMPONENTS):
-        hr, hi = w[T.BY_HEIGHT + i], w[T.BY_HEIGHT + LN.IMAGINARY + i]
-        gr = hr - ahead * hi
-        gi = hi + ahead * hr
-        w[T.LINE_FORCE + i] += gr * re - gi * im
-        w[T.LINE_FORCE + LN.IMAGINARY + i] += gr * im + gi * re
+    add_force(complex(1.0, rate * tau if kind < LN.BY_LEAN else 0.0) * sums, w)
 
 
 @kernel
@@ -306,9 +292,9 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
             for i in range(LN.COMPLEX):
                 w[T.LINE_FORCE + i] = 0.0
             for form in range(LN.FORMS):
-                re, im = form_sums(p, x, form, m, a, double)
+                sums = form_sums(p, x, form, m, a, double)
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-                add_form(x, kind, a, re, im, m * rate, p[P.CONTACT_DAMPING], w)
+                add_form(x, kind, a, sums, m * rate, p[P.CONTACT_DAMPING], w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
     return seen
 

@@ -99,12 +99,12 @@ def add_bodies(ps, ws, q, re, im, squared):
     """Add the accelerations of both rings (form vectors), ``squared`` times their coordinates."""
     for k in range(SD.AXES):
         a, b = Q.INNER + k, Q.OUTER + k
-        add_channel(ps, ws, SD.C_INNER + k, squared * q[re + a], squared * q[im + a])
-        add_channel(ps, ws, SD.C_OUTER + k, squared * q[re + b], squared * q[im + b])
+        add_channel(ps, ws, SD.C_INNER + k, squared * complex(q[re + a], q[im + a]))
+        add_channel(ps, ws, SD.C_OUTER + k, squared * complex(q[re + b], q[im + b]))
     for k in range(SD.TILTS):
         a, b = Q.INNER + Q.INNER_BY + k, Q.OUTER + Q.BY + k
-        add_channel(ps, ws, SD.C_TILTS + k, squared * q[re + a], squared * q[im + a])
-        add_channel(ps, ws, SD.C_TILTS + SD.TILTS + k, squared * q[re + b], squared * q[im + b])
+        add_channel(ps, ws, SD.C_TILTS + k, squared * complex(q[re + a], q[im + a]))
+        add_channel(ps, ws, SD.C_TILTS + SD.TILTS + k, squared * complex(q[re + b], q[im + b]))
 
 
 @kernel

@@ -45,7 +45,7 @@ def test_what_is_no_place_is_refused(run, rings_file, tmp_path, text):
 
 
 def test_a_value_is_refused_once():
-    watch = _Watch(lambda: False, lambda time: None, 1.0)
+    watch = _Watch(lambda done: True, 1.0)
     watch.lines = [
         "value not taken yet: preload = -1.0 is refused: allowed are 0 to 10000 N",
         "step refused: preload = -1.0 is refused: allowed are 0 to 10000 N", "another line",

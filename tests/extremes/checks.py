@@ -27,7 +27,8 @@ def plausible(instance: Instance, trace: Trace, slip: float, fastest: float = FA
         # the mean is a sum of up to 32 roundings
         assert (mean >= 0.0).all() and (most >= mean * (1.0 - 1e-12)).all()
         pressure = trace.column(f"contact.{side}.pressure_max")
-        assert (pressure >= 0.0).all() and ((pressure > 0.0) == (most > 0.0)).all()
+        # a contact that opens fast may be pressed together still and carry nothing: damping does not pull
+        assert (pressure >= 0.0).all() and (pressure[most > 0.0] > 0.0).all()
         # contacts of response never open: without preload balls are pressed behind their grooves, as it warns
         most_angle = np.pi if instance.p[P.FIDELITY] == RESPONSE else np.pi / 2
         assert np.abs(trace.column(f"contact.{side}.angle_mean")).max() <= most_angle

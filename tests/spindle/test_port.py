@@ -57,7 +57,7 @@ def test_led_along_a_shafts_motion_bearings_sound_as_on_that_shaft():
     places = int(block[SP.AT_S]) + SP.S_HEAD + np.array([0, int(block[SP.PADDED_SIZE])])
 
     def lead():
-        for first, into in zip(places, (SP.U_PORT, SP.U_PORT_RATE), strict=True):
+        for first, into in zip(places, (U.PORT, U.PORT_RATE), strict=True):
             led.u[into : into + SP.PLANE] = own.s[first : first + SP.PLANE]
 
     own.initialise()

@@ -33,7 +33,10 @@ def zonal(p, form, orders, x):
     for order in range(1, orders + 1):
         row = form + P.FORM_ROW * order
         s0, s1, s2 = next_zonal(p, row, x0, s0), next_zonal(p, row, x1, s1), next_zonal(p, row, x2, s2)
-    return (s0[2], s1[2], s2[2]), (s0[3], s1[3], s2[3])
+    _, _, h0, d0 = s0
+    _, _, h1, d1 = s1
+    _, _, h2, d2 = s2
+    return (h0, h1, h2), (d0, d1, d2)
 
 
 @kernel

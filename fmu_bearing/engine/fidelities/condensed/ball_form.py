@@ -78,7 +78,9 @@ def pair_of_sums(p, form, orders, x, y):
     for order in range(1, orders + 1):
         row = form + P.FORM_ROW * order
         one, other = next_zonal(p, row, x, one), next_zonal(p, row, y, other)
-    return one[2], one[3], other[2], other[3]
+    _, _, height, slope = one
+    _, _, other_height, other_slope = other
+    return height, slope, other_height, other_slope
 
 
 @kernel

@@ -41,7 +41,7 @@ def test_page_has_what_the_example_prints(outcome):
     """Frequencies within 2 Hz, ratios within 5e-4: processors round a fit of a few periods differently."""
     (frequency, ratio), found = outcome
     page = (ROOT / "docs" / "coupling.md").read_text("utf-8")
-    inside = re.search(r"inside \(`\[spindle.shaft\]`\) they are (\d+) Hz and ([\d.]+)\.", page)
+    inside = re.search(r"inside \(`\[spindle.shaft\]`\) they are (\d+) Hz\s+and ([\d.]+)\.", page)
     assert float(inside[1]) == pytest.approx(frequency, abs=2.0)
     assert float(inside[2]) == pytest.approx(ratio, abs=5e-4)
     for h in (1e-5, 3e-5):

@@ -24,8 +24,8 @@ from scipy.linalg import eigh
 from scipy.signal import find_peaks
 
 from fmu_bearing.arrays import Arrays
-from fmu_bearing.engine.constants import RPM
 from fmu_bearing.cli.base import refusals
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.extras import need
 from fmu_bearing.results.picture_parts import empty, save

@@ -172,9 +172,7 @@ def _supports(scene: Scene) -> Iterator[Alternative]:
     for factor in _PEDESTALS if stiffness else ():  # the housing of a set may be at rest
         words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
         yield Alternative("pedestal", words, {key: factor * stiffness})
-    shaft = scene.assembly.shaft
-    spots = () if shaft is None else shaft.unbalance
-    if spots:
+    if spots := scene.assembly.heavy_spots:
         lighter = [one.model_dump() | {"amount_g_mm": _BALANCE * one.amount_g_mm} for one in spots]
         yield Alternative(
             "balance", f"unbalance of the shaft x{_BALANCE:g}", {"spindle.shaft.unbalance": lighter}

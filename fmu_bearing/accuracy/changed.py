@@ -177,7 +177,7 @@ class Changes(Result):
     @property
     def stiff(self) -> str:
         """What the stiffness is, in words."""
-        return "radial stiffness" if self.scene.assembly.shaft is None else "stiffness across at the nose"
+        return "stiffness across at the nose" if self.scene.assembly.joined else "radial stiffness"
 
     @property
     def refused(self) -> list[Change]:
@@ -252,7 +252,7 @@ class Changes(Result):
         names = {"life": "life (L10r, ISO 16281)", "torque": "torque"}
         there = [text for name, text in names.items() if name in self.figures]
         words = ", ".join([*there, self.stiff])
-        several = self.scene.assembly.shaft is not None
+        several = len(self.scene.bearings()) > 1
         perfect = "perfect bearings, of all together" if several else "the perfect bearing"
         words = f"{words[0].upper()}{words[1:]}: operating point of {perfect}."
         for name, reason in (("life", self.no_life), ("torque", self.no_torque)):

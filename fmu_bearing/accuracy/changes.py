@@ -110,7 +110,7 @@ def point(scene: Scene) -> Point:
         cautions.append(whirl_words(*found.whirl, scene))
     torque = 1e3 * sum(one.friction_torque for one in found.bearings)
     torque *= math.copysign(1.0, scene.operation.speed_rpm)
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         (one,) = found.bearings
         life, stiffness = one.life, 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
     else:

@@ -74,10 +74,10 @@ def info(
         steady = {} if warm is None else {"temperatures": warm}
         print_json(point.summary() | judged | seats | steady)
         return
-    if point.scene.assembly.shaft is None:
-        _show_bearing(point.bearings[0])
-    else:
+    if point.scene.assembly.joined:
         _show_set(point.statics)
+    else:
+        _show_bearing(point.bearings[0])
     if point.scene.fit is not None:
         _show_fits(point)
     _show_heat(point)

@@ -233,7 +233,7 @@ def _as_keys(scene: "Scene", inputs: dict[str, float]) -> dict[str, float]:
 def _key_of(scene: "Scene", name: str) -> str | None:
     from fmu_bearing.scene.member import set_of
 
-    if not scene.assembly.members:
+    if not scene.assembly.joined:
         return (_KEYS_OF_BOTH | _KEYS).get(name)
     place, _, own = name.partition("].")
     if own in ("inner_ring_temperature", "outer_ring_temperature"):

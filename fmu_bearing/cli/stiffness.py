@@ -92,7 +92,7 @@ def stiffness(
         check_new(force, target, plot)
         check_new_in(force, target.parent, f"{glob.escape(target.stem)}-[0-9]*{target.suffix}")
         chosen, inputs = changed(given, settings)
-        if mirrored and chosen.assembly.shaft is not None:
+        if mirrored and chosen.assembly.joined:
             raise Refusal(
                 "--mirrored is for one bearing: of a set the scene gives the direction of each bearing"
             )

@@ -292,7 +292,7 @@ def _probable(scene: Scene) -> dict[Take, tuple[float, float]]:
 
 def _without_own(scene: Scene) -> Scene:
     """Return a set whose bearings have no interference of their own; a single bearing as it is."""
-    if not scene.assembly.members:
+    if not scene.assembly.joined:
         return scene
     spindle = set_of(scene)
     none = dict.fromkeys(f"{side.seat}_interference_um" for side in SIDES)

@@ -94,7 +94,7 @@ def new_scene(
         speed, speed_rule = _speed(draft, bearing)
     if preloaded:
         return text(speed, preload_N or 0.0, speed_rule=speed_rule)
-    if draft.assembly.shaft is not None:
+    if draft.assembly.joined:
         tell("looking for a preload with good verdicts, up to a minute; a given one takes none ...")
     force, preload_rule, good = _preload(_at(draft, speed))
     slower = speed

@@ -234,7 +234,7 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
 
 def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
     """Frequency (Hz) and growth (1/s) of what grows fastest by itself; None where none is known."""
-    if not system.steady or (scene.assembly.shaft is not None and not may_grow(system.matrix)):
+    if not system.steady or (scene.assembly.joined and not may_grow(system.matrix)):
         return None
     return self_excitation(scene, solved(scene, system))
 
@@ -242,7 +242,7 @@ def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
 def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
     """Return the scene of one bearing with the preload and temperatures that it has in its set."""
     assembly, cold = scene.assembly, found.preloads.get("cold")
-    if not assembly.members:
+    if not assembly.joined:
         return scene
     carried = 0.0 if cold is None else max(cold[one.number - 1], 0.0)
     spacer = assembly.preload is not None and assembly.preload.kind == "spacer"

@@ -130,7 +130,7 @@ def temperatures(scene: Scene, ambient: float = AMBIENT, cooling: float | None =
 
 def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductance, ...]:
     """Return the conductances of the network, scaled to the bearings of a scene."""
-    b, materials, alone = scene.bearing, scene.materials, scene.assembly.shaft is None
+    b, materials = scene.bearing, scene.materials
     spot = b.ball_count * b.ball_diameter_mm / (_BALLS * _BALL)
     inside, outside = (
         spot * _conduction(ring.conductivity_W_mK, materials.balls.conductivity_W_mK) / _CONDUCTION * 0.12
@@ -153,12 +153,12 @@ def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductanc
         Conductance("outer_ring", "oil", outer, film),
         Conductance("outer_ring", "housing", 4.4 * size, "seat, 4000 W/(m2 K)"),
     ]
-    if alone:
-        away = 1.0 / (1.0 / (2.7 * seat) + 1.0 / (0.73 * shaft)) / _JOINED
-        found.append(Conductance("inner_ring", "ambient", away, "seat and shaft in moving air, 100 W/(m2 K)"))
-    else:
+    if scene.assembly.joined:
         found.append(Conductance("inner_ring", "shaft", 2.7 * seat, "seat, 5000 W/(m2 K)"))
         found.append(Conductance("shaft", "ambient", 0.87 * shaft, "moving air, 100 W/(m2 K)"))
+    else:
+        away = 1.0 / (1.0 / (2.7 * seat) + 1.0 / (0.73 * shaft)) / _JOINED
+        found.append(Conductance("inner_ring", "ambient", away, "seat and shaft in moving air, 100 W/(m2 K)"))
     if flow:
         found.append(Conductance("oil", "ambient", flow, f"flow of the supply ({scene.lubricant.supply})"))
     rule = "cooling water by the size, 1000 W/(m2 K)" if cooling is None else "as given"
@@ -177,7 +177,7 @@ def at(scene: Scene, places: dict[tuple[int, str], float]) -> Scene:
         table = scene.assembly.temperature_table(number)
         for ring in ("inner_ring", "outer_ring"):
             values[f"{table}.{ring}_temperature_degC"] = places[number, ring]
-    if scene.assembly.shaft is not None:
+    if scene.assembly.joined:
         values["spindle.shaft.temperature_degC"] = places[0, "shaft"]
         values["spindle.housing.temperature_degC"] = places[0, "housing"]
     return scene.replace(values)

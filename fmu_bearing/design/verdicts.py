@@ -391,7 +391,7 @@ def _shoulder(point: BearingPoint) -> Verdict:
 
 def _set_life(point: OperatingPoint) -> Iterator[Verdict]:
     hours = point.life
-    if hours is not None and math.isfinite(hours) and point.scene.assembly.shaft is not None:
+    if hours is not None and math.isfinite(hours) and len(point.bearings) > 1:
         yield judged_life(
             "set_life", "L10r of all bearings together", hours, point.scene.operation.required_life_h,
             "Lundberg and Palmgren 1947, exponent 10/9",

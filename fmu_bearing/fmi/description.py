@@ -111,7 +111,7 @@ def identifier(scene: "Scene") -> str:
 
     That of a set begins with ``Spindle``.
     """
-    what = "Bearing" if scene.assembly.shaft is None else "Spindle"
+    what = "Spindle" if scene.assembly.joined else "Bearing"
     return what + ascii_word(scene.bearing.designation)
 
 
@@ -207,7 +207,7 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
 
 def _about(scene: "Scene") -> str:
     designation, assembly = scene.bearing.designation, scene.assembly
-    if assembly.shaft is None:
+    if not assembly.joined:
         return (
             f"Angular contact ball bearing {designation} on its mounting: "
             "vibration, friction torque, heat and sound"
@@ -217,7 +217,7 @@ def _about(scene: "Scene") -> str:
         f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {assembly.arrangement}"
     )
     more = "friction torque, heat and sound" if scene.sound is not None else "friction torque and heat"
-    if assembly.shaft.external:
+    if scene.on_other_shaft:
         return f"{bearings}, for a shaft of another model: vibration, {more}"
     return f"Shaft on {bearings}: vibration, {more}"
 

@@ -109,14 +109,14 @@ def _subject(scene: "Scene") -> dict[str, str]:
     """Return what is modelled: heading, a paragraph about it, and its axes."""
     designation, balls = escape(scene.bearing.designation), str(scene.bearing.ball_count)
     assembly = scene.assembly
-    if assembly.shaft is None:
+    if not assembly.joined:
         about = _BEARING.format(balls=balls)
         return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
     count = len(assembly.members)
     places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in assembly.members)
     arrangement = escape(assembly.arrangement)
     words = {"count": str(count), "balls": balls, "arrangement": arrangement, "places": places}
-    if assembly.shaft.external:
+    if scene.on_other_shaft:
         heading = f"{count} x {designation} at a mechanical port"
         return {"heading": heading, "about": _AT_PORT.format(**words), "axes": _OF_SET}
     about = _SET.format(**words, sound="" if scene.sound is None else "the sound at the microphones ")

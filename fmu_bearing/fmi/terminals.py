@@ -98,7 +98,7 @@ def terminals_xml(model: FmuModel) -> bytes:
 
 def _terminals(scene: Scene) -> Iterator[Terminal]:
     yield _SHAFT
-    if scene.assembly.shaft is not None:
+    if scene.assembly.joined:
         yield _RIGID if scene.on_other_shaft else _NOSE
     for prefix in (one.prefix for one in scene.bearings()):
         for name, words in _PORTS:

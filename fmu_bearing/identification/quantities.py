@@ -103,7 +103,7 @@ def parse_quantity(text: str, scene: Scene | None = None) -> Quantity:
 
 def _channel(text: str, body: str, scene: Scene | None) -> tuple[int, int]:
     """Bearing, from 0, and place among its channels."""
-    of_set = scene if scene is not None and scene.assembly.members else None
+    of_set = scene if scene is not None and scene.assembly.joined else None
     bodies = _SINGLE if of_set is None else rings_of(of_set)
     name, _, axis = body.rpartition(".")
     if name not in bodies or axis not in _AXES:

@@ -91,7 +91,7 @@ def inputs_of(scene: Scene) -> list[Variable]:
     speed = "Rotational speed of the shaft, right-handed about +X"
     rows = [
         (U.SPEED, "shaft_speed", speed, _SPEED | _symmetric(_fastest(scene))),
-        *(_of_mounting(scene) if scene.assembly.shaft is None else _of_shaft(scene, start)),
+        *(_of_shaft(scene, start) if scene.assembly.joined else _of_mounting(scene)),
     ]
     return [
         Variable(
@@ -117,7 +117,7 @@ def input_values(scene: Scene) -> NDArray[np.float64]:
         u[at + U.OIL] = operation.oil_temperature
         u[at + U.INNER] = _or(own.inner_ring_temperature, rings[0])
         u[at + U.OUTER] = _or(own.outer_ring_temperature, rings[1])
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         mounting = si(scene.mounted)
         u[U.LOAD_Y], u[U.LOAD_Z] = mounting.radial_load_y, mounting.radial_load_z
         partners = tuple(None if seat is None else si(seat).temperature for seat in _seats(scene))

@@ -21,7 +21,7 @@ _DIRECTIONS = (_AXIS, "horizontal", "upwards")
 
 def outputs_of(scene: Scene) -> list[Variable]:
     """Return the outputs: the shaft's, sums over the bearings, then outputs of each bearing."""
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         return outputs(scene)
     single = outputs(one_of(scene))
     shared = [variable for variable in single if variable.name in SP.OUTPUTS]
@@ -37,7 +37,7 @@ def outputs_of(scene: Scene) -> list[Variable]:
 
 def internals_of(scene: Scene) -> list[Variable]:
     """Return the local variables: the housing's and the solver's, then variables of each bearing."""
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         return internals(scene)
     single = internals(one_of(scene))
     own = [variable for variable in single if variable.name in SP.OUTPUTS]

@@ -113,7 +113,7 @@ def _turning(scene: Scene, polar: float, rings: tuple[float, float, float]) -> l
             _constant("port.inertia.transverse", f"Inertia {words}, about Y or Z at X = 0", transverse, unit),
             _constant("port.inertia.polar", f"Inertia {words}, about the axis", polar, unit),
         ]
-    what = "inner ring and rotor" if scene.assembly.shaft is None else "shaft and inner rings"
+    what = "shaft and inner rings" if scene.assembly.joined else "inner ring and rotor"
     return [_constant("rotor.inertia", f"Polar inertia of {what}, which the drive owns", polar, "kg.m2")]
 
 

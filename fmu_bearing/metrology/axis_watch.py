@@ -36,7 +36,7 @@ class AxisWatch(RatesWatch):
     def outputs(self, scene: Scene) -> dict[str, NDArray[np.float64]]:
         """Return the values of all calls by name; of a single bearing tilts, too."""
         found = super().outputs(scene)
-        if scene.assembly.shaft is None:
+        if not scene.assembly.joined:
             found |= dict(zip(OUTER_TILTS, np.array(self._tilts).T, strict=True))
         return found
 

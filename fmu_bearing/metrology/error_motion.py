@@ -20,6 +20,7 @@ from fmu_bearing.results.table import Table, write_csv
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
+from fmu_bearing.scene.member import set_of
 from fmu_bearing.scene.shaft import LONG
 from fmu_bearing.threads import one_thread
 
@@ -229,7 +230,7 @@ def error_motion(
         raise ValueError("shaft_speed is an axis of the table: give speeds, in r/min")
     given(found, fixed)
     resolved = resolve(found)[0]
-    from_ring = found.assembly.shaft is None and against != "ground"
+    from_ring = not found.assembly.joined and against != "ground"
     scenes = {speed: resolved.replace({"operation.speed_rpm": speed}) for speed in rpm}
     done: list[AtSpeed] = []
 
@@ -271,7 +272,8 @@ def _place(scene: Scene, at: float) -> float:
     place = number("at", at)
     longest = 1e-3 * LONG
     low, high, whence = -longest, longest, "the middle of the bearing"
-    if (shaft := scene.assembly.shaft) is not None:
+    if scene.assembly.joined:
+        shaft = set_of(scene).shaft
         # the nose of a shaft that bends says nothing about places behind it
         high = 0.0 if shaft.flexible else 1e-3 * shaft.length_mm
         whence = "the nose of the shaft" + (", which bends behind it" if shaft.flexible else "")

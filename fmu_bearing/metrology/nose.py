@@ -154,9 +154,9 @@ def _cage_ratios(scene: Scene, rates: NDArray[np.float64]) -> list[float]:
 
 def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Callable[[], NDArray[np.float64]]:
     """Return what reads displacement (m) and tilt (rad) of the axis at a point."""
-    body, single = scene.assembly.moving, scene.assembly.shaft is None
+    body = scene.assembly.moving
     names = [f"{body}.displacement.{axis}" for axis in _AXES] + [f"{body}.tilt.{axis}" for axis in _AXES[1:]]
-    outer = [f"outer_ring.displacement.{axis}" for axis in _AXES] if single and outer_ring else []
+    outer = [f"outer_ring.displacement.{axis}" for axis in _AXES] if outer_ring else []
 
     take = instance.reader([*names, *outer])
 

@@ -68,11 +68,9 @@ def rotor(scene: Scene) -> RigidBody:
 
 def rotor_inertia(scene: Scene) -> float:
     """Polar inertia (kg m2) of all that turns with the shaft's speed: rotor or shaft, and inner rings."""
-    assembly = scene.assembly
-    if assembly.shaft is None:
-        return (inner_ring(scene) + rotor(scene)).polar
-    shaft = sum(section.polar for section in shaft_sections(scene, assembly.shaft))
-    return shaft + len(assembly.members) * inner_ring(scene).polar
+    shaft = scene.assembly.shaft
+    turning = sum(one.polar for one in shaft_sections(scene, shaft)) if shaft else rotor(scene).polar
+    return turning + len(scene.bearings()) * inner_ring(scene).polar
 
 
 def rings_at_port(scene: Scene) -> tuple[float, float, float]:

@@ -167,7 +167,7 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
     packed = [_pack(one.scene, block, scene) for one, block in zip(bearings, blocks, strict=True)]
     fits.share(packed)
-    return as_set_of_one(packed[0]) if scene.assembly.shaft is None else pack_set(scene, packed)
+    return pack_set(scene, packed) if scene.assembly.joined else as_set_of_one(packed[0])
 
 
 def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> NDArray[np.float64]:

@@ -115,7 +115,7 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
     """
     if lines is None:
         lines = from_lines(scene)
-    if not scene.assembly.members or scene.sound is None:
+    if not scene.assembly.joined or scene.sound is None:
         return [sound_block(scene, Block(lines=lines))]
     count = len(scene.assembly.members)
     alone = [sound_scene(scene, b) for b in range(count)]

@@ -66,7 +66,7 @@ def pack_set(
         In the place of the scene's.
     """
     spindle = set_of(scene)
-    shaft = shaft_model(scene, spindle) if shaft is None else shaft
+    shaft = shaft or shaft_model(scene, spindle)
     bearings = [p[: int(p[P.SET]) or p.size].copy() for p in parameters]
     for p in bearings:
         p[P.SET] = p[P.ALONE] = 0.0

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fmu_bearing.scene.scene import Tables
-from fmu_bearing.scene.shaft import Shaft
+from fmu_bearing.scene.shaft import Shaft, Unbalance
 from fmu_bearing.scene.spindle import Preload, SetBearing, Spindle
 
 
@@ -44,6 +44,19 @@ class Assembly:
     arrangement: str
 
     @property
+    def joined(self) -> bool:
+        """Whether a shaft joins the bearings: it has coordinates and a nose, or another model owns it.
+
+        Else the rotor is a mass on the inner ring, which moves as the ring does.
+        """
+        return bool(self.members)
+
+    @property
+    def heavy_spots(self) -> tuple[Unbalance, ...]:
+        """Unbalances along a shaft."""
+        return () if self.shaft is None else self.shaft.unbalance
+
+    @property
     def carries(self) -> list[str]:
         """Directions of the bearings of a shaft, from the nose on."""
         return [one.carries for one in self.members]
@@ -51,18 +64,18 @@ class Assembly:
     @property
     def moving(self) -> str:
         """Prefix of the variables of what turns, where it is read: the inner ring, or the shaft's nose."""
-        return "inner_ring" if self.shaft is None else "shaft.nose"
+        return "shaft.nose" if self.joined else "inner_ring"
 
     @property
     def pedestal_key(self) -> str:
         """Dotted key of the pedestal's radial stiffness."""
-        housing = "" if self.shaft is None else ".housing"
+        housing = ".housing" if self.joined else ""
         return f"{self.table}{housing}.pedestal_stiffness_N_m"
 
     @property
     def preload_table(self) -> str:
         """Dotted name of the table of the preload."""
-        return "mounting" if self.shaft is None else "spindle.preload"
+        return "spindle.preload" if self.joined else "mounting"
 
     @property
     def preload_key(self) -> str:
@@ -73,11 +86,11 @@ class Assembly:
     @property
     def can_preload(self) -> bool:
         """Whether the scene has a preload that can be changed; that of a shaft may be a force alone."""
-        return self.shaft is None or self.preload is not None
+        return not self.joined or self.preload is not None
 
     def name(self, number: int) -> str:
         """Return the words for a bearing by its number, from 1."""
-        return "the bearing" if self.shaft is None else f"bearing {number}"
+        return f"bearing {number}" if self.joined else "the bearing"
 
     def own_mm(self, number: int, along: float) -> float:
         """Return a place along a shaft (m from its nose) in the axes of one bearing, from 0, in mm."""
@@ -87,7 +100,7 @@ class Assembly:
 
     def temperature_table(self, number: int) -> str:
         """Return the dotted name of the table with the temperatures of a bearing's rings."""
-        return "operation" if self.shaft is None else f"{self.table}.bearing[{number}]"
+        return f"{self.table}.bearing[{number}]" if self.joined else "operation"
 
 
 def assembly_of(scene: Tables) -> Assembly:

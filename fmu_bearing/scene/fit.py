@@ -94,9 +94,9 @@ def of_seat(scene: Tables, side: Side, take: Take | None = None) -> Interference
 
 def own_interference(scene: Tables, side: Side, member: int) -> float | None:
     """Return the interference (um) that one bearing of a set has of its own; None: that of its table."""
-    if scene.spindle is None:
+    if not scene.members:
         return None
-    one = scene.spindle.bearing[member]
+    one = scene.members[member]
     return one.shaft_interference_um if side is SHAFT else one.housing_interference_um
 
 
@@ -123,12 +123,11 @@ def shaft_partner(scene: Tables, member: int | None = None) -> tuple[Material, f
     """Return material and bore (mm) of the shaft under an inner ring, of a set at a bearing from 0."""
     seat = None if scene.fit is None else scene.fit.shaft
     assert seat is not None, "an inner ring without a seat"
-    shaft = None if scene.spindle is None else scene.spindle.shaft
-    material = seat.material or (shaft.material if shaft is not None else None)
+    shaft = scene.spindle and scene.spindle.shaft
+    material = seat.material or (shaft and shaft.material)
     bore = seat.bore_mm
     if bore is None:
-        known = scene.spindle is not None and scene.spindle.shaft.sections_mm
-        bore = bore_at(scene, member or 0) if known else 0.0
+        bore = bore_at(scene, member or 0) if shaft and shaft.sections_mm else 0.0
     return material or scene.materials.inner_ring, bore
 
 
@@ -152,8 +151,8 @@ def housing_partner(scene: Tables) -> tuple[Material, float]:
     """Return material and outside diameter (mm) of the housing around an outer ring."""
     seat = None if scene.fit is None else scene.fit.housing
     assert seat is not None, "an outer ring without a seat"
-    housing = None if scene.spindle is None else scene.spindle.housing
-    material = seat.material or (housing.material if housing is not None else None)
+    housing = scene.spindle and scene.spindle.housing
+    material = seat.material or (housing and housing.material)
     outside = housing_outside(scene)
     assert outside is not None, "a housing without a diameter"
     return material or scene.materials.outer_ring, outside
@@ -186,9 +185,7 @@ def housing_outside(scene: Tables) -> float | None:
     seat = None if scene.fit is None else scene.fit.housing
     if seat is not None and seat.outside_diameter_mm is not None:
         return seat.outside_diameter_mm
-    body = scene.mounting.housing if scene.mounting is not None else None
-    if scene.spindle is not None:
-        return scene.spindle.housing.diameter_mm
+    body = None if scene.mount is None else scene.mount.housing
     return None if body is None else body.diameter_mm
 
 
@@ -198,12 +195,8 @@ def partner_temperatures(scene: Tables) -> tuple[float, float]:
 
 
 def _temperature(scene: Tables, side: Side) -> float:
-    fit = scene.fit
-    if scene.spindle is not None:
-        own = getattr(scene.spindle, side.seat).temperature_degC
-    else:
-        seat = None if fit is None else getattr(fit, side.seat)
-        own = None if seat is None else seat.temperature_degC
+    part = getattr(scene.spindle or scene.fit, side.seat, None)  # of a set shaft and housing, else the seats
+    own = part and part.temperature_degC
     ring: float = getattr(scene.operation, f"{side.ring}_ring_temperature_degC")
     return ring if own is None else own
 

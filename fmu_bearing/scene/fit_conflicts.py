@@ -48,8 +48,8 @@ def conflicts(tables: Tables) -> Iterator[Conflict]:
 def _own(tables: Tables, side: Side) -> list[tuple[str, float | None]]:
     """Return key and value of what each bearing of a set has of its own."""
     key = f"{side.seat}_interference_um"
-    members = () if tables.spindle is None else tables.spindle.bearing
-    return [(f"spindle.bearing[{k}].{key}", getattr(one, key)) for k, one in enumerate(members, start=1)]
+    members = enumerate(tables.members, start=1)
+    return [(f"spindle.bearing[{k}].{key}", getattr(one, key)) for k, one in members]
 
 
 def _without_table(tables: Tables) -> Iterator[Conflict]:
@@ -134,8 +134,7 @@ def _wall(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
 
 def _bending(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
     """Yield rings that bend on a loose seat although a fit holds them."""
-    mount = tables.mounting or tables.spindle
-    flexure = None if mount is None else mount.flexure
+    flexure = None if tables.mount is None else tables.mount.flexure
     if flexure is None or not getattr(flexure, f"{side.ring}_ring"):
         return
     if getattr(flexure, f"{side.ring}_seat_stiffness_N_m") == 0.0:

@@ -48,12 +48,10 @@ class SceneBearing(Generic[Given]):
 
 def bearings_of(scene: Given) -> tuple[SceneBearing[Given], ...]:
     """Return the bearings of a scene, see `Scene.bearings`."""
-    if scene.spindle is None:
-        return (SceneBearing(1, 1, 0.0, "pedestal", "", scene),)
     return tuple(
         SceneBearing(k + 1, one.sign, si(one).position, one.seat, f"bearing[{k + 1}].", one_of(scene, k))
-        for k, one in enumerate(scene.spindle.bearing)
-    )
+        for k, one in enumerate(scene.members)
+    ) or (SceneBearing(1, 1, 0.0, "pedestal", "", scene),)
 
 
 def set_of(scene: Tables) -> Spindle:
@@ -115,7 +113,7 @@ def radiating(scene: Given, number: int) -> Given:
     A rotor without mass replaces the shaft, also one of another model, and fills its bore; its length, which
     does not radiate, is read by nothing. A single bearing is returned as it is.
     """
-    if scene.spindle is None:
+    if not scene.members:
         return scene
     alone = one_of(scene, number)
     length = set_of(scene).shaft.length_mm or scene.bearing.width_mm
@@ -129,7 +127,7 @@ def sound_scene(scene: Given, number: int) -> Given:
     For its sound alone, see `radiating`. It is bare: a housing of the set that radiates is
     `acoustics.filters.bearings.housing_of_set`. A single bearing is returned as it is.
     """
-    if scene.spindle is None:
+    if not scene.members:
         return scene
     sound, assembly = scene.sound, assembly_of(scene)
     assert sound is not None, "a set without sound"

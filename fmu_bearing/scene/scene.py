@@ -23,7 +23,7 @@ from fmu_bearing.scene.mounting import Mounting
 from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.seats import Fit
 from fmu_bearing.scene.sound import Place, Sound
-from fmu_bearing.scene.spindle import Spindle
+from fmu_bearing.scene.spindle import SetBearing, Spindle
 
 #: Letters of any script; names of FMUs' files and libraries are made of the designation, in ASCII.
 NAME = r"^[\p{L}\p{N}][\w. -]{0,59}$"
@@ -86,7 +86,7 @@ class Tables(Part):
             )
         yield from self._orders()
         if self.sound is not None:
-            if self.sound.radiator == "housing" and own is None and self.spindle is None:
+            if self.sound.radiator == "housing" and getattr(self.mount, "housing", None) is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
             yield from self._buried_microphones()
             if self.sound.reflecting_plane_mm is not None:
@@ -222,9 +222,8 @@ class Tables(Part):
 
     def _middles(self) -> list[tuple[str, float]]:
         """Names of the bearings, and their places (mm) along the axis of the microphones."""
-        if self.spindle is None:
-            return [("bearing", 0.0)]
-        return [(f"bearing {k}", one.position_mm) for k, one in enumerate(self.spindle.bearing, start=1)]
+        places = [(f"bearing {k}", one.position_mm) for k, one in enumerate(self.members, start=1)]
+        return places or [("bearing", 0.0)]
 
     @property
     def mounted(self) -> Mounting:
@@ -243,21 +242,29 @@ class Tables(Part):
         return self.mounting
 
     @property
+    def mount(self) -> Mounting | Spindle | None:
+        """The table that holds the bearings, spelt either way; None before it was found missing."""
+        return self.mounting or self.spindle
+
+    @property
+    def members(self) -> tuple[SetBearing, ...]:
+        """Bearings of a shaft, from its nose on; none for the one bearing of a mounting."""
+        return self.spindle.bearing if self.spindle else ()
+
+    @property
     def fit(self) -> Fit | None:
         """Fits of the rings, of one bearing or of a set; None: rings as drawn."""
-        mount = self.mounting or self.spindle
-        return None if mount is None else mount.fit
+        return None if self.mount is None else self.mount.fit
 
     @property
     def on_other_shaft(self) -> bool:
         """Whether another model owns the shaft of the bearings."""
-        return self.spindle is not None and self.spindle.shaft.external
+        return bool(self.spindle and self.spindle.shaft.external)
 
     @property
     def flexural_modes(self) -> int:
         """Number of flexural modes of both rings of a bearing."""
-        mount = self.mounting or self.spindle
-        flexure = None if mount is None else mount.flexure
+        flexure = None if self.mount is None else self.mount.flexure
         return 0 if flexure is None else len(flexure.inner_ring) + len(flexure.outer_ring)
 
     @property
@@ -268,7 +275,7 @@ class Tables(Part):
     @property
     def seeds_apart(self) -> int:
         """How far the seeds of two draws are apart: a set draws its k-th bearing with its seed + k."""
-        return 1 if self.spindle is None else len(self.spindle.bearing)
+        return max(len(self.members), 1)
 
     def with_rigid_rings(self) -> Self:
         """Return the scene without the bending of its rings."""

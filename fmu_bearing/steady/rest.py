@@ -123,7 +123,7 @@ def per_bearing(run: Instance, place: int) -> NDArray[np.float64]:
 def forces(run: Instance) -> NDArray[np.float64]:
     """Force x y z (N) and moment about y, z (N m) of the shaft on each bearing, shape (bearings, 5)."""
     scene = run.model.scene
-    if scene.assembly.shaft is not None:
+    if scene.assembly.joined:
         names = [[one.prefix + name for name in SP.BEARING_OUTPUTS] for one in scene.bearings()]
         return np.array([[run.get(name) for name in of_one] for of_one in names])
     p, u, c, y = run.p, run.u, run.s[S.C :], run.s[S.Y :]

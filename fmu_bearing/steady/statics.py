@@ -282,7 +282,7 @@ def statics(
     ('DB (O)', [167, 67])
     """
     scene = scene_of(scene)
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         if force is not None or at is not None or any(moment):
             raise SceneError(
                 f"{scene.name}: force, at and moment are of the shaft of a set; give the loads of a single "
@@ -325,18 +325,18 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
     own = bent = _stiffness(scene, system, matrices)
     spacer = None
     free: dict[str, LiftOff] = {}
-    if (shaft := scene.assembly.shaft) is None:
+    if not scene.assembly.joined:
         load = np.array([*forces(run)[0, : Q.INNER_BY], 0.0, 0.0])
     else:
         members = [Member(run, k) for k in range(len(matrices))]
         load = run.u[U.NOSE : U.NOSE + FREEDOMS] + _weight(scene)
-        if not shaft.flexible:
+        if not set_of(scene).shaft.flexible:
             bent = _stiffness(scene, system, matrices, flexible=True)
         free, spacer = lift_off(members), neutral_spacing(scene, members)
     carried = preloads(run)
     # a solution that hardly carries is as good as none: balls are loose
     lost = [key for key, loads in carried.items() if max(map(abs, loads)) < TOUCHING]
-    gaps = {key: gap(run, key) for key in lost if scene.assembly.shaft is None}
+    gaps = {} if scene.assembly.joined else {key: gap(run, key) for key in lost}
     found = Statics(
         scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, carried, gaps,
         spacing(scene.bearings()), spacer, tuple(remarks(system)),

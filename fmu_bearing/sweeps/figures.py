@@ -67,7 +67,7 @@ def error_motions(figures: Sequence[Figure], scene: Scene) -> dict[str, float]:
         return {}
     if scene.operation.speed_rpm == 0.0:
         return dict.fromkeys(wanted, math.nan)
-    values = AtSpeed(followed(scene, 0.0, None, scene.assembly.shaft is None)).values
+    values = AtSpeed(followed(scene, 0.0, None, not scene.assembly.joined)).values
     found = {_named(kind, one.direction): getattr(one, kind) for one in values for kind in _VALUES}
     return {name: found[name] for name in wanted}
 

@@ -52,7 +52,7 @@ def subject(source: SceneSource, kind: str | None = None, grade: str | None = No
 
 def _unbalance(scene: Scene) -> dict[str, float]:
     """Return the unbalance beside a grade, whose own is one of a rotor that a set does not have."""
-    return {} if scene.assembly.shaft is None else {"unbalance_um": 0.0}
+    return {"unbalance_um": 0.0} if scene.assembly.joined else {}
 
 
 def _is_file(source: str) -> bool:

@@ -13,7 +13,7 @@ from fmu_bearing.scene.member import radiating, set_of, sound_scene
 def tables_of(scene: Scene) -> list[Table]:
     """Return the table of every bearing, of a set each in its own axes; raises as `check_table`."""
     whole, bearings = table_of(scene), scene.bearings()
-    if not scene.assembly.members:
+    if not scene.assembly.joined:
         return [whole]
     return [of_bearing(whole, one.number, one.sign, len(bearings)) for one in bearings]
 

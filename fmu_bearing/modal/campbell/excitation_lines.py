@@ -18,6 +18,7 @@ from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.member import set_of
 
 _SIGNS = {FORWARD: "+", BACKWARD: "-"}
 
@@ -77,10 +78,11 @@ def rates(
 def unbalance(scene: Scene) -> float:
     """Eccentricity (m) of what turns; of a set with heavy spots, wherever they lie, over shaft and rings."""
     own: float = 0.0 if scene.imperfections is None else si(scene.imperfections).unbalance
-    if (turning := scene.assembly.shaft) is None:
+    spots = scene.assembly.heavy_spots
+    if not spots:
         return own
-    amount: float = sum(1e-6 * spot.amount_g_mm for spot in turning.unbalance)  # kg m
-    shaft = sum(section.mass for section in shaft_sections(scene, turning))
+    amount: float = sum(1e-6 * spot.amount_g_mm for spot in spots)  # kg m
+    shaft = sum(section.mass for section in shaft_sections(scene, set_of(scene).shaft))
     return own + amount / (shaft + len(scene.assembly.members) * inner_ring(scene).mass)
 
 

@@ -116,7 +116,7 @@ def whirl_words(frequency: float, growth: float, scene: Scene) -> str:
         "the ring whirls by itself",
         "more preload or a support against tilting (mounting.tilt_support) stops it",
     )
-    if scene.assembly.shaft is not None:
+    if scene.assembly.joined:
         body, way = "the set whirls by itself", "more preload or a stiffer shaft stops it"
     # no number among the first words, by which repeated warnings are recognised
     return (

@@ -110,7 +110,7 @@ def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], scene: Scen
             if abs(math.log(max(found, 1e-12))) > abs(math.log(max(ratio, 1e-12))):
                 ring = "inner" if k % RINGS.size < RINGS.size // 2 else "outer"
                 bearing = (
-                    f" of {scene.assembly.name(int(k) // RINGS.size + 1)}" if scene.assembly.members else ""
+                    f" of {scene.assembly.name(int(k) // RINGS.size + 1)}" if scene.assembly.joined else ""
                 )
                 ratio, what = found, f"{kind} of the {ring} ring{bearing} along {'xyz'[k % 3]}"
     return ratio, what

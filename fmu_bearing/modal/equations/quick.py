@@ -14,7 +14,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.fidelities.condensed.families import family_size, member, side
 from fmu_bearing.engine.layout import SP, L, S, U
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.modal.equations.shaft import ShaftMatrices, matrices, rows_of
+from fmu_bearing.modal.equations.shaft import matrices, rows_of
 from fmu_bearing.scene.read import Scene, with_fidelity
 
 
@@ -52,7 +52,8 @@ def found_growth(run: Arrays) -> tuple[float, float]:
 def operator_matrix(run: Arrays) -> NDArray[np.float64]:
     """Return A of an initialised model of fidelity `rings` or `response`, see `quick_operator`."""
     if not SP.has_shaft(run.p):
-        return _assembled([run.s[S.CONDENSED :][: L.SIZE]], [np.eye(L.N)], [np.ones(L.N)], None)
+        none, own = np.zeros((L.N, L.N)), np.eye(L.N)
+        return _assembled([run.s[S.CONDENSED :][: L.SIZE]], [own], [np.ones(L.N)], none, none, own)
     shaft = matrices(run, float(run.u[U.SPEED]))
     blocks, motions, inertia = [], [], []
     for row in rows_of(run.p):
@@ -60,24 +61,27 @@ def operator_matrix(run: Arrays) -> NDArray[np.float64]:
         table = run.p[int(row[SP.ROW_AT_T]) :][: shaft.count * SP.LANES]
         motions.append(table.reshape(shaft.count, SP.LANES)[:, : L.N].T)
         inertia.append(row[SP.ROW_MASS : SP.ROW_MASS + L.N])
-    return _assembled(blocks, motions, inertia, shaft)
+    return _assembled(blocks, motions, inertia, shaft.stiffness, shaft.damping, shaft.inverse)
 
 
 def _assembled(
     blocks: list[NDArray[np.float64]],
     motions: list[NDArray[np.float64]],
     inertia: list[NDArray[np.float64]],
-    shaft: ShaftMatrices | None,
+    stiffness: NDArray[np.float64],
+    damping: NDArray[np.float64],
+    inverse: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return A of bearings whose rings move as ``motions`` of the coordinates, with masses ``inertia``."""
+    """Return A of bearings whose rings move as ``motions`` of the coordinates, with masses ``inertia``.
+
+    The other matrices are the coordinates' own: ``inverse`` of their mass.
+    """
     n = motions[0].shape[1]
     sizes = [2 * int(lv[L.OPERATOR : L.OPERATOR + 2].sum()) for lv in blocks]
     found = np.zeros((2 * n + sum(sizes), 2 * n + sum(sizes)))
     places, rates = slice(0, n), slice(n, 2 * n)
     found[places, rates] = np.eye(n)
-    inverse = np.eye(n)
-    if shaft is not None:
-        found[rates, places], found[rates, rates], inverse = -shaft.stiffness, -shaft.damping, shaft.inverse
+    found[rates, places], found[rates, rates] = -stiffness, -damping
     begin = 2 * n
     for lv, motion, mass, size in zip(blocks, motions, inertia, sizes, strict=True):
         own = slice(begin, begin + size)

@@ -36,7 +36,7 @@ def self_excitation(
         Inputs by name, SI units, in place of the scene's.
     """
     alone = self_excited(found)
-    if alone is None and scene.assembly.shaft is not None:
+    if alone is None and scene.assembly.joined:
         return None
     without = None if alone is None else (alone.frequency, alone.growth)
     try:

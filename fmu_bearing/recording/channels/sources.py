@@ -41,7 +41,7 @@ def bodies_of(scene: Scene) -> list[tuple[int, Radiators]]:
     Where a housing or a rigid plane covers all but the front of a set, its first bearing alone.
     """
     radiator = "bare" if scene.sound is None else scene.sound.radiator
-    if radiator == "bare" or not scene.assembly.members:
+    if radiator == "bare" or not scene.assembly.joined:
         return [(k, radiators_of(radiating(scene, k))) for k in range(len(scene.bearings()))]
     return [(0, front_of_set(scene))]
 
@@ -72,7 +72,7 @@ def sources_of(scene: Scene, model: str, places: Sequence[Position], harmonics: 
     found: list[Source] = []
     for number, body in bodies_of(scene):
         own, moved, behind = radiating(scene, number), list(places), plane
-        if scene.assembly.members:
+        if scene.assembly.joined:
             moved = [(1e-3 * scene.assembly.own_mm(number, x), y, z) for x, y, z in places]
             behind = None if plane is None else 1e-3 * scene.assembly.own_mm(number, plane)
         found.append((Radiation(model, body, air_of(scene), harmonics, ring_modes(own), plane=behind), moved))

@@ -325,7 +325,7 @@ def motion_power(
     ValueError
         For a recording without channels of accelerations; for a set.
     """
-    if recording.scene is not None and recording.scene.assembly.members:
+    if recording.scene is not None and recording.scene.assembly.joined:
         raise ValueError(
             "power from motion takes all bodies as one compact source, and the bearings of a set are apart: "
             "use sound_power"

@@ -301,8 +301,7 @@ def _shares(
     scene: Scene, flaws: Imperfections, estimator: LevelEstimator, fidelity: str
 ) -> dict[str, NDArray[np.float64]]:
     """Share of the energy that each imperfection makes alone."""
-    shaft = scene.assembly.shaft
-    heavy = shaft is not None and bool(shaft.unbalance)
+    heavy = bool(scene.assembly.heavy_spots)
     energies = {}
     for name in dict.fromkeys([*flaws.sources, *(["unbalance"] if heavy else [])]):
         own = scene.replace({"spindle.shaft.unbalance": []}) if heavy and name != "unbalance" else scene

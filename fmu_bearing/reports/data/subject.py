@@ -56,7 +56,7 @@ class Subject:
     @property
     def several(self) -> bool:
         """Whether the scene is of bearings on a shaft."""
-        return self.recording.scene is not None and bool(self.recording.scene.assembly.members)
+        return self.recording.scene is not None and self.recording.scene.assembly.joined
 
     @property
     def prefixes(self) -> dict[str, str]:

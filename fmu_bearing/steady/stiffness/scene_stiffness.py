@@ -220,7 +220,7 @@ def _table(
 ) -> Stiffness:  # fmt: skip
     """Return the tables of the first speeds, of which there are as many as ``rows``."""
     n = len(rpm)
-    on_shaft = scene.assembly.shaft is not None
+    on_shaft = scene.assembly.joined
     tables = tuple(
         BearingStiffness(
             bearing.scene.with_rigid_rings() if on_shaft else scene, rpm, loads, hertz, one.z.real[:n],
@@ -260,7 +260,7 @@ def _point(
     scene: Scene, fixed: Mapping[str, float], speed: float, preload: float
 ) -> tuple[Scene, dict[int, float]]:  # fmt: skip
     """Return scene and inputs of a point, checked; a set has its preload in the scene."""
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         values = {**fixed, "shaft_speed": speed * RPM, "preload": preload}
         return with_fidelity(scene, model="full"), given(scene, values)
     changed: dict[str, Any] = {"operation.speed_rpm": float(speed)}
@@ -273,7 +273,7 @@ def _point(
 def _at(scene_and_inputs: tuple[Scene, dict[int, float]], row: list[Statics]) -> Linearised:
     """Return the bearings linearised at a point; the statics of a set go to ``row``."""
     scene, inputs = scene_and_inputs
-    if scene.assembly.shaft is None:
+    if not scene.assembly.joined:
         return under_force(scene, inputs)
     found = point(scene, inputs)
     row.append(found.statics)

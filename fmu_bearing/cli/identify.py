@@ -27,6 +27,7 @@ from fmu_bearing.cli.options import (
     settle as time_left_out,
 )
 from fmu_bearing.cli.settings import source_of
+from fmu_bearing.progress import Stopped
 
 if TYPE_CHECKING:
     from fmu_bearing.identification import Identified
@@ -106,7 +107,7 @@ def identify(
     Computed levels are kept in the folder: the same command goes on where an earlier one was interrupted,
     with --force where that one wrote its best so far. --plot writes a copy of the picture there, levels.png.
     """
-    from fmu_bearing.identification import SEEDS, STARTS, Interrupted, identify as search
+    from fmu_bearing.identification import SEEDS, STARTS, identify as search
     from fmu_bearing.identification.files import output_paths
     from fmu_bearing.results.picture_parts import check_picture
 
@@ -124,9 +125,12 @@ def identify(
                 starts=starts or STARTS, duration=duration, settle=settle, few=few, accept=accept,
                 folder=folder, workers=workers,
             )  # fmt: skip
-        except Interrupted as stop:
-            found, code = stop.best, INTERRUPTED
-            tell(f"{stop}; the same command with --force goes on, from {folder / 'runs.jsonl'}")
+        except Stopped as stop:
+            found, code = stop.found, INTERRUPTED
+            tell(
+                "interrupted: these are the best values so far; the same command with --force goes on, from "
+                f"{folder / 'runs.jsonl'}"
+            )
         files = _write(found, path, scene if source == scene else None, plot, as_json, anyway)
     end(code, files)
 

@@ -20,6 +20,7 @@ from fmu_bearing.cli.base import (
     tell,
 )
 from fmu_bearing.cli.runs import split
+from fmu_bearing.progress import Stopped
 
 if TYPE_CHECKING:
     from fmu_bearing.scene import Scene
@@ -60,7 +61,7 @@ def several(
     from fmu_bearing.sweeps.global_sensitivity import evaluated, lay_out
     from fmu_bearing.sweeps.plan import SETTLE, WINDOW
     from fmu_bearing.sweeps.ranges import parse_range
-    from fmu_bearing.sweeps.runs import Interrupted, run_plan
+    from fmu_bearing.sweeps.runs import run_plan
     from fmu_bearing.sweeps.store import Store
 
     pairs = [parse_range(text) for text in study.vary]
@@ -78,8 +79,8 @@ def several(
         tell(layout.plan.note)
     try:
         outcomes = run_plan(layout.plan, Store(output), study.workers)
-    except Interrupted as stop:
-        tell(f"{stop} and kept; the same command runs those that are left")
+    except Stopped as stop:
+        tell(f"interrupted: what is finished is kept; the same command runs the {stop.missing} that are left")
         raise typer.Exit(INTERRUPTED) from None
     found = evaluated(layout, outcomes)
     early = any(not outcome.lasting for outcome in outcomes.values())

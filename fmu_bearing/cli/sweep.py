@@ -32,6 +32,7 @@ from fmu_bearing.cli.options import (
 from fmu_bearing.cli.runs import split
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder
+from fmu_bearing.progress import Stopped
 
 if TYPE_CHECKING:
     from fmu_bearing.sweeps.plan import Plan
@@ -149,17 +150,16 @@ def _keep_plan(made: "Plan", text: str, folder: Path, force: bool) -> None:
 def _run(
     made: "Plan", output: Path, workers: int | None, scheduler: str | None, plot: Path | None, as_json: bool
 ) -> None:  # fmt: skip
-    from fmu_bearing.sweeps.runs import Interrupted, run_plan
+    from fmu_bearing.sweeps.runs import run_plan
     from fmu_bearing.sweeps.store import Store
 
     store, code = Store(output), 0
     try:
         outcomes = run_plan(made, store, workers, scheduler)
-    except Interrupted as stop:
-        outcomes, code = stop.outcomes, INTERRUPTED
-        left = len(made.tasks) - len(outcomes)
+    except Stopped as stop:
+        outcomes, code = stop.found, INTERRUPTED
         again = f"fmu-bearing sweep {output / 'sweep.toml'} -o {output}"
-        tell(f"{stop} and kept; `{again}` runs the {left} that are left")
+        tell(f"interrupted: what is finished is kept; `{again}` runs the {stop.missing} that are left")
     if any(not outcome.lasting for outcome in outcomes.values()):
         code = code or ENDED_EARLY
     end(code, _write(made, outcomes, output, plot, as_json))

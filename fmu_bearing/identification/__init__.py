@@ -10,7 +10,7 @@
 ``model``          computed levels for values of the free keys, over conditions and seeds
 ``statistics``     covariance of levels and of values, what the data cannot distinguish
 ``search``         least squares from several starts
-``result``         identified values, tables; an interrupted search
+``result``         identified values, tables
 ``files``          the scene with its new values, tables, report
 ``picture``        measured against computed
 =================  =======================================================================
@@ -25,11 +25,11 @@ import pathlib
 from fmu_bearing.identification.data import Source, read_data
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Wanted, free_numbers
-from fmu_bearing.identification.result import Identified, Interrupted
+from fmu_bearing.identification.result import Identified
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 
-__all__ = ["Identified", "IdentifyError", "Interrupted", "identify"]
+__all__ = ["Identified", "IdentifyError", "identify"]
 
 SEEDS, STARTS = 4, 3
 
@@ -100,8 +100,8 @@ def identify(
         For data, keys or settings that are refused, all problems at once.
     SceneError
         For a set on another model's shaft.
-    Interrupted
-        On Ctrl-C, a `KeyboardInterrupt` with the ``best`` values so far.
+    Stopped
+        On Ctrl-C, a `KeyboardInterrupt` with the best values so far as ``found``, not ``complete``.
 
     Examples
     --------

@@ -1,6 +1,5 @@
 """Computed levels for values of the free keys: one run per condition and seed."""
 
-import functools
 import hashlib
 import math
 import pathlib
@@ -8,12 +7,10 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Free, scene_values
@@ -23,10 +20,9 @@ from fmu_bearing.identification.sensors import Sensors
 from fmu_bearing.prepare.sound import sound_key
 from fmu_bearing.recording.channels.sources import bodies_of
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.run.figures import THIRD_OCTAVE
+from fmu_bearing.run.figures import THIRD_OCTAVE, code_digest
 from fmu_bearing.scene import Scene
 
-_ROOMS = ("acoustics", "elastic", "formulas", "identification", "prepare", "recording", "run", "scene")
 _TURNS = 8  # of the shaft in a run, at least: lines of the shaft are separate
 _LENGTH = 0.1  # s, at least
 _BINS = 6  # in a third octave, at least
@@ -196,10 +192,3 @@ def check_length(duration: float | None, settle: float | None) -> None:
     for name, value, low in (("duration", duration, 64.0 / SD.RATE), ("settle", settle, 0.0)):
         if value is not None and not (math.isfinite(value) and low <= value <= 60.0):
             raise IdentifyError(f"{name} = {value} s lies outside {low:.3g} to 60 s")
-
-
-@functools.cache
-def code_digest() -> str:
-    """Digest (16 hex digits) of the code that computes levels: sources, versions of NumPy and Numba."""
-    parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
-    return hashlib.sha256(parts.encode()).hexdigest()[:16]

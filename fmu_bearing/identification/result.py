@@ -199,14 +199,6 @@ class Identified(Result):
         }
 
 
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a search; ``best`` holds the best values so far, ``complete`` is False there."""
-
-    def __init__(self, best: Identified) -> None:
-        super().__init__("interrupted: these are the best values so far")
-        self.best = best
-
-
 def _doubts(found: Identified) -> Iterator[str]:
     off = [(abs(one.after - one.datum.value) / one.sigma, one) for one in found.compared]
     far = sorted((pair for pair in off if pair[0] > FAR), key=lambda pair: -pair[0])

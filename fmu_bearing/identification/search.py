@@ -27,7 +27,7 @@ from fmu_bearing.identification.data import Datum
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.free import Free, box, scene_values, start_point
 from fmu_bearing.identification.model import Levels, check_length
-from fmu_bearing.identification.result import Compared, Estimate, Identified, Interrupted
+from fmu_bearing.identification.result import Compared, Estimate, Identified
 from fmu_bearing.identification.statistics import (
     Spread,
     at_bound,
@@ -38,7 +38,7 @@ from fmu_bearing.identification.statistics import (
     whitener,
     widened,
 )
-from fmu_bearing.progress import work
+from fmu_bearing.progress import Stopped, work
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
@@ -70,8 +70,8 @@ def search(
     ------
     IdentifyError
         For settings that are refused, too few data, and a scene that cannot be run as it is.
-    Interrupted
-        On Ctrl-C, with the best so far.
+    Stopped
+        On Ctrl-C, with the best so far as ``found``.
     """
     for name, value in (("seeds", seeds), ("starts", starts), ("workers", workers)):
         if not (isinstance(value, int) and value >= 1):
@@ -97,7 +97,7 @@ def search(
         try:
             return found.run()
         except KeyboardInterrupt:
-            raise Interrupted(found.interrupted()) from None
+            raise Stopped(found.interrupted()) from None
 
 
 def check_count(fitted: int, free: int, few: bool) -> None:

@@ -4,21 +4,30 @@ The only table of figures. Sweeps, comparisons and what finds a fidelity read by
 read, and where; a figure of one bearing is, of a set, one of each.
 """
 
+import functools
+import hashlib
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import SP, Z
+from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.names import UnknownName, chosen_names, known, matching
 from fmu_bearing.run.march import march
 from fmu_bearing.scene import Scene
 
+#: Packages whose code computes figures, beside the engine.
+_ROOMS = (
+    "acoustics", "elastic", "formulas", "identification", "interface", "metrology", "prepare", "recording",
+    "run", "scene", "sweeps",
+)  # fmt: skip
 STATISTICS = {
     "mean": "mean over the window",
     "rms": "rms about the mean over the window, all axes together",
@@ -251,3 +260,10 @@ def _usual(name: str, members: list[Variable]) -> str:
     if end in ("shoulder_margin", "lambda_min"):
         return "min"
     return "max" if end.endswith("_max") else "mean"
+
+
+@functools.cache
+def code_digest() -> str:
+    """Digest (16 hex digits) of the code that computes figures: sources, versions of NumPy and Numba."""
+    parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
+    return hashlib.sha256(parts.encode()).hexdigest()[:16]

@@ -33,13 +33,13 @@ from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.cluster import checked
 from fmu_bearing.sweeps.plan import SETTLE, WINDOW, plan as lay_out
 from fmu_bearing.sweeps.result import dataset, save
-from fmu_bearing.sweeps.runs import Interrupted, run_plan
+from fmu_bearing.sweeps.runs import run_plan
 from fmu_bearing.sweeps.store import Store
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Interrupted", "SweepError", "save", "sweep"]
+__all__ = ["SweepError", "save", "sweep"]
 
 
 def sweep(
@@ -92,7 +92,7 @@ def sweep(
         `SceneError`), and for a scheduler that does not answer.
     MissingExtra
         Without xarray, or without Dask where a scheduler is given.
-    Interrupted
+    Stopped
         On Ctrl-C, a `KeyboardInterrupt`; finished points are in the folder.
 
     Examples

@@ -268,7 +268,7 @@ def global_sensitivity(
         few samples can be run.
     MissingExtra
         Without SALib (extra ``salib``).
-    Interrupted
+    Stopped
         On Ctrl-C, a `KeyboardInterrupt`; finished points are in the folder.
 
     Notes

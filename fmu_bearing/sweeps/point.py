@@ -8,23 +8,18 @@ import math
 import time as clock
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
-from fmu_bearing.engine.sources import rooms_digest, source_hash
 from fmu_bearing.files import plain_file
 from fmu_bearing.prepare.sound import sound_blocks
-from fmu_bearing.run.figures import parts_of, rows_over, values_of
+from fmu_bearing.run.figures import code_digest, parts_of, rows_over, values_of
 from fmu_bearing.run.metrics import SAMPLE
 from fmu_bearing.run.paces import COMMUNICATION
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.figures import error_motions, figures_of
-
-#: Packages whose code computes the figures, beside the engine.
-_ROOMS = ("acoustics", "elastic", "formulas", "interface", "metrology", "prepare", "run", "scene", "sweeps")
 
 #: Sound block of each bearing; a single empty one without sound.
 Blocks = tuple[NDArray[np.float64], ...]
@@ -129,13 +124,6 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
 def blocks_of(scene: Scene | None) -> Blocks:
     """Sound blocks of a scene, kept in this process and on this machine's disk; one empty without scene."""
     return (np.empty(0),) if scene is None else tuple(sound_blocks(scene))
-
-
-@functools.cache
-def code_digest() -> str:
-    """Digest (16 hex digits) of the code that computes figures: sources, versions of NumPy and Numba."""
-    parts = f"{source_hash()} {np.__version__} {numba.__version__} {rooms_digest(*_ROOMS)}"
-    return hashlib.sha256(parts.encode()).hexdigest()[:16]
 
 
 def _content(path: str) -> str:

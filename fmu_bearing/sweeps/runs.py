@@ -4,7 +4,7 @@ import time as clock
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing, contextmanager
 
-from fmu_bearing.progress import work
+from fmu_bearing.progress import Stopped, work
 from fmu_bearing.sweeps.local import here, processes
 from fmu_bearing.sweeps.plan import Plan
 from fmu_bearing.sweeps.point import Outcome, Task
@@ -12,14 +12,6 @@ from fmu_bearing.sweeps.store import Store
 from fmu_bearing.threads import cores
 
 Outcomes = dict[str, Outcome]
-
-
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a sweep; ``outcomes`` holds the finished points by key."""
-
-    def __init__(self, outcomes: Outcomes, total: int) -> None:
-        super().__init__(f"interrupted: {len(outcomes)} of {total} points are finished")
-        self.outcomes = outcomes
 
 
 def run_plan(
@@ -30,8 +22,8 @@ def run_plan(
 
     Raises
     ------
-    Interrupted
-        On Ctrl-C; finished points are in the store.
+    Stopped
+        On Ctrl-C, with the outcomes as ``found``; finished points are in the store.
     SweepError
         When no worker is available.
     """
@@ -56,7 +48,7 @@ def run_plan(
                     store.keep(task, outcome)
                 tell(len(outcomes))
     except KeyboardInterrupt:
-        raise Interrupted(outcomes, len(tasks)) from None
+        raise Stopped(outcomes, f"{len(tasks) - len(outcomes)} of {len(tasks)} points") from None
     return outcomes
 
 

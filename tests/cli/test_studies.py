@@ -137,7 +137,7 @@ def test_sensitivity_to_several_values_keeps_its_runs_on_ctrl_c(run, silent_file
     words = ("sensitivity", silent_file, *SEVERAL, "--set", "fidelity.model=rings", "-o", tmp_path)
     result = run(*words)
     assert result.exit_code == 130
-    assert "interrupted: 3 of " in result.output and "the same command runs those" in result.output
+    assert "interrupted" in result.output and "the same command runs the " in result.output
     assert len(list((tmp_path / "points").iterdir())) == 3 and not (tmp_path / "sensitivity.md").exists()
     monkeypatch.setattr("fmu_bearing.sweeps.runs.here", whole)
     kept = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "points").iterdir()}

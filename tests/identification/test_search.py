@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from fmu_bearing import identify
-from fmu_bearing.identification import IdentifyError, Interrupted, search as module
+from fmu_bearing.identification import IdentifyError, search as module
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.free import free_numbers, start_point
 from fmu_bearing.identification.model import Levels
+from fmu_bearing.progress import Stopped
 from fmu_bearing.scene.read import with_fidelity
 
 KEYS = ["imperfections.unbalance_um", "imperfections.inner_race_amplitude_um"]
@@ -130,9 +131,9 @@ def test_ctrl_c_gives_the_best_so_far(spindle, linear, monkeypatch):
         return plain(self, *arguments, **options)
 
     monkeypatch.setattr(linear, "at", stop)
-    with pytest.raises(Interrupted) as caught:
+    with pytest.raises(Stopped) as caught:
         identify(spindle, table(60.0 + off), KEYS, starts=1, progress=False)
-    best = caught.value.best
+    best = caught.value.found
     assert not best.complete and best.rms() < best.rms(before=True)
     assert np.isnan(best[KEYS[0]].std) and "interrupted" in best.remarks[0]
 

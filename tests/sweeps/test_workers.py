@@ -9,8 +9,9 @@ import time
 import numpy as np
 import pytest
 
+from fmu_bearing.progress import Stopped
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.sweeps import Interrupted, local, runs, sweep
+from fmu_bearing.sweeps import local, runs, sweep
 from fmu_bearing.sweeps.runs import run_plan
 from fmu_bearing.sweeps.store import Store
 from tests.conftest import EXAMPLES, ROOT
@@ -103,9 +104,10 @@ def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch, req
     # tests that a shell started in the background ignore Ctrl-C
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
-    with pytest.raises(Interrupted, match=r"interrupted: 3 of 8 points are finished") as caught:
+    with pytest.raises(Stopped) as caught:
         run_plan(made, store, workers=2)
-    assert len(caught.value.outcomes) == 3 == len(list((tmp_path / "out" / "points").glob("*.json")))
+    assert caught.value.missing == "5 of 8 points"
+    assert len(caught.value.found) == 3 == len(list((tmp_path / "out" / "points").glob("*.json")))
     workers = {int(path.read_text()) for path in trace.iterdir()}
     late = time.monotonic() + 20.0
     while any(alive(pid) for pid in workers) and time.monotonic() < late:

@@ -1,6 +1,6 @@
 """Base class of all tables of a scene: frozen, no unknown keys, no silent conversion; the error of scenes."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -8,8 +8,6 @@ from pydantic_core import PydanticCustomError
 
 #: Names end up in XML and in plots: letters, digits and a little punctuation, no control characters.
 LABEL = r"^[\w.,+()/ -]{1,40}$"
-#: Returns the dotted key of a table's value; `problems`, which knows all tables, puts it here.
-key_of: list[Callable[[type[BaseModel], str], str | None]] = []
 Label = Annotated[str, Field(pattern=LABEL)]
 
 
@@ -50,11 +48,14 @@ class Part(BaseModel):
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Refuse: a scene is frozen, because it was checked as a whole."""
-        raise SceneError(_frozen(type(self), name, value))
+        raise SceneError(
+            f"a scene is frozen: scene.replace({{'[TABLE.]{name}': VALUE}}), with the name of the table if "
+            "it is in one, returns another one"
+        )
 
     def __delattr__(self, name: str) -> None:
         """Refuse, as `__setattr__`."""
-        raise SceneError(_frozen(type(self), name, None))
+        self.__setattr__(name, None)
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield what does not fit together in this table and those within it."""
@@ -71,14 +72,6 @@ class Part(BaseModel):
             }
             raise PydanticCustomError("conflict", "{text}", context)
         return self
-
-
-def _frozen(model: type[Part], name: str, value: Any) -> str:
-    """Return what is written in place of setting an attribute of a scene."""
-    shown = repr(value) if isinstance(value, int | float | str | None) else "..."
-    key = next((found for of in key_of if (found := of(model, name)) is not None), None)
-    pair = "key: value" if key is None else f"{key!r}: {shown}"
-    return f"a scene is frozen: scene.replace({{{pair}}}) returns another one"
 
 
 def below(part: Part, small: str, large: str) -> Iterator[Conflict]:

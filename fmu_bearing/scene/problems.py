@@ -11,7 +11,6 @@ from pydantic.fields import FieldInfo
 
 from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
-from fmu_bearing.scene import base
 from fmu_bearing.scene.base import LABEL
 from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.seats import HOUSING_CLASS, SHAFT_CLASS
@@ -320,20 +319,6 @@ def _key(path: Location) -> str:
     if field is not None and table_of(field.annotation) is not None:
         return f"[{dotted(path)}]"
     return f"{path[-1]} in [{dotted(path[:-1])}]"
-
-
-def _key_of(model: type[BaseModel], name: str) -> str | None:
-    """Return the dotted key of a value, ``[k]`` for a member; None: there is none, or there are several."""
-    places = [path for path, one in _tables(Tables) if issubclass(model, one) and name in one.model_fields]
-    if len(places) != 1:
-        return None
-    (where,) = places
-    arrays = (_place(where[:k], step).startswith("[[") for k, step in enumerate(where))
-    steps = [f"{step}[k]" if array else step for step, array in zip(where, arrays, strict=True)]
-    return ".".join([*steps, name])
-
-
-base.key_of.append(_key_of)
 
 
 def _tables(model: type[BaseModel], path: Location = ()) -> Iterator[tuple[Location, type[BaseModel]]]:

@@ -179,30 +179,30 @@ def test_quotes(run, folder, old, new, answer):
 
 
 @pytest.mark.parametrize(
-    ("where", "name", "value", "answer"),
+    ("where", "name", "value"),
     [
-        ("mounting", "preload_N", 300.0, "{'mounting.preload_N': 300.0}"),
-        ("", "name", "other", "{'name': 'other'}"),
-        ("fidelity.terms", "gravity", False, "{'fidelity.terms.gravity': False}"),
-        ("operation", "no_key", 1.0, "{key: value}"),
-        ("materials.balls", "density_kg_m3", 7800.0, "{key: value}"),  # four tables are materials
+        ("mounting", "preload_N", 300.0),
+        ("", "name", "other"),
+        ("fidelity.terms", "gravity", False),
+        ("operation", "no_key", 1.0),
+        ("materials.balls", "density_kg_m3", 7800.0),
     ],
 )
-def test_a_frozen_scene_points_to_replace(where, name, value, answer):
+def test_a_frozen_scene_points_to_replace(where, name, value):
     scene = part = read_scene_text(SINGLE)
     for step in filter(None, where.split(".")):
         part = getattr(part, step)
     with pytest.raises(SceneError) as refusal:
         setattr(part, name, value)
-    assert str(refusal.value) == f"a scene is frozen: scene.replace({answer}) returns another one"
+    assert f"a scene is frozen: scene.replace({{'[TABLE.]{name}': VALUE}})" in str(refusal.value)
     assert scene == read_scene_text(SINGLE)
 
 
 def test_a_frozen_member_of_an_array_and_a_table_that_is_deleted():
     scene = read_scene_text(SINGLE)
-    with pytest.raises(SceneError, match=r"replace\({'sound.microphone\[k\].y_mm': 3.0}\)"):
+    with pytest.raises(SceneError, match=r"replace\({'\[TABLE.\]y_mm': VALUE}\)"):
         scene.sound.microphone[1].y_mm = 3.0
-    with pytest.raises(SceneError, match=r"replace\({'sound': None}\)"):
+    with pytest.raises(SceneError, match=r"replace\({'\[TABLE.\]sound': VALUE}\)"):
         del scene.sound
 
 

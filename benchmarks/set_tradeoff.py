@@ -8,7 +8,7 @@ below each table.
 import argparse
 import pathlib
 
-from fmu_bearing.accuracy.tradeoff import COLUMNS, SETTINGS, tradeoff
+from fmu_bearing.accuracy.tradeoff import SETTINGS, tradeoff
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.run.choose import SHORT, choose
 from fmu_bearing.scene import Scene, read_scene
@@ -43,7 +43,7 @@ def write(name: str, folder: pathlib.Path) -> None:
     page += f"\n## What `auto` chooses\n\n{choice.summary}.\n\n{markdown(SHORT, choice.table())}"
     stem = f"tradeoff_{name.lower()}"
     (folder / f"{stem}.md").write_text(page, "utf-8")
-    write_csv(folder / f"{stem}.csv", COLUMNS, study.cells())
+    write_csv(folder / f"{stem}.csv", *study.table())
 
 
 def main() -> None:

@@ -6,7 +6,6 @@ where a fifth would be too much or too little.
 """
 
 import math
-import pathlib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import sound_blocks, sound_key
 from fmu_bearing.progress import keeping
-from fmu_bearing.results.table import machine, markdown, write_csv
+from fmu_bearing.results.base import Quantity, Result, Study
+from fmu_bearing.results.table import machine, markdown
 from fmu_bearing.run.metrics import INAUDIBLE, Figures, measure, of_kind
 from fmu_bearing.scene import Scene, SceneError, SceneSource
 from fmu_bearing.scene.exclusions import require
@@ -149,14 +148,17 @@ _FOLLOWS = {
 }
 QUICK = ("bearing.inner_conformity", "lubricant.traction_max", "lubricant.walther_slope")
 
-COLUMNS = (
-    "parameter", "value", "moved to", "inner ring rms, %", "outer ring rms, %", "contact load, %",
-    "contact angle, deg", "friction torque, %", "cage speed, %", "sound, dB(A)",
-)  # fmt: skip
+
+def _shown(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, int | float) else str(value)
+
+
+def _change(place: int, spec: str, head: str, form: str = "+.2f", scale: float = 100.0) -> Quantity:
+    return Quantity(spec, head, form, scale, of=lambda row: row.changes[place] if row.changes else None)
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Result):
     """One changed value: the relative changes it causes, or the reason why there are none.
 
     ``changes``: of rms velocity of inner and outer ring, load, angle (rad), torque, cage speed, all but the
@@ -164,27 +166,33 @@ class Row:
     set each is that of the bearing where it changed most, the cage speed that of the first.
     """
 
+    quantities = (
+        Quantity("key", "parameter"),
+        Quantity("value", "value", _shown),
+        Quantity("moved", "moved to", _shown),
+        _change(0, "inner_ring_rms [1]", "inner ring rms, %"),
+        _change(1, "outer_ring_rms [1]", "outer ring rms, %"),
+        _change(2, "contact_load [1]", "contact load, %"),
+        _change(3, "contact_angle_rad", "contact angle, deg", "+.3f", 180.0 / math.pi),
+        _change(4, "friction_torque [1]", "friction torque, %"),
+        _change(5, "cage_speed [1]", "cage speed, %"),
+        _change(6, "sound_dBA", "sound, dB(A)", scale=1.0),
+        Quantity("remark", "remark"),
+    )
+
     key: str
     value: Any
     moved: Any
     changes: tuple[float, ...] = ()
     remark: str = ""
 
-    def cells(self) -> list[str]:
-        """Texts in the order of ``COLUMNS``."""
-        head = [self.key, _shown(self.value), _shown(self.moved)]
-        if not self.changes:
-            return [*head, self.remark, *[""] * (len(COLUMNS) - 4)]
-        inner, outer, load, angle, torque, cage, level = self.changes
-        percents = [f"{100 * x:+.2f}" if math.isfinite(x) else "" for x in (inner, outer, load, torque, cage)]
-        sound = f"{level:+.2f}" if math.isfinite(level) else ""
-        percents.insert(3, f"{math.degrees(angle):+.3f}")
-        return [*head, *percents, sound]
-
 
 @dataclass(frozen=True)
-class Sensitivity:
+class Sensitivity(Study):
     """Rows of one scene, and the figures of the unchanged scene."""
+
+    quantities = "scene", "rpm", "warm_up_s", "window_s", "moves = rows"
+    stem, row = "sensitivity", Row
 
     scene: str
     rpm: float
@@ -193,9 +201,9 @@ class Sensitivity:
     base: Figures
     rows: tuple[Row, ...]
 
-    def cells(self) -> list[list[str]]:
-        """Texts of all rows."""
-        return [row.cells() for row in self.rows]
+    def records(self) -> tuple[Row, ...]:
+        """Return the rows."""
+        return self.rows
 
     def markdown(self) -> str:
         """Return the study as a page."""
@@ -219,7 +227,7 @@ class Sensitivity:
             + ". The last column is that of the microphone where it changed most."
             + (_OF_SET if len(of_kind(self.base, ".load_mean")) > 2 else "")
             + "\n\n"
-            + markdown(COLUMNS, self.cells())
+            + markdown(*self.table())
         )
 
 
@@ -227,10 +235,6 @@ def _value(scene: Scene, key: str) -> Any:
     """Value of a key, of one that the scene leaves to supply or base oil what these give; None: none."""
     follows = _FOLLOWS.get(key)
     return value_at(scene, key) if follows is None else getattr(scene.lubricant, follows)
-
-
-def _shown(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, int | float) else str(value)
 
 
 def sensitivity(
@@ -334,10 +338,3 @@ def _sound(scene: Scene, blocks: dict[str, list[NDArray[np.float64]]]) -> list[N
     if key not in blocks:
         blocks[key] = sound_blocks(scene)
     return blocks[key]
-
-
-def write(study: Sensitivity, folder: pathlib.Path) -> None:
-    """Write ``sensitivity.md`` and ``sensitivity.csv`` into a folder, which is made."""
-    folder.mkdir(parents=True, exist_ok=True)
-    write_whole(folder / "sensitivity.md", study.markdown().encode("utf-8"))
-    write_csv(folder / "sensitivity.csv", COLUMNS, study.cells())

@@ -8,19 +8,18 @@ integrators of :mod:`fmu_bearing.accuracy.reference`. The first difference is la
 restores the places of the balls on their orbit, so that differences from the warm-up remain.
 """
 
-import pathlib
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays, EngineError
-from fmu_bearing.files import write_whole
 from fmu_bearing.prepare.sound import Sounds
 from fmu_bearing.progress import keeping
-from fmu_bearing.results.table import machine, markdown, number, write_csv
+from fmu_bearing.results.base import Quantity, Result, Study
+from fmu_bearing.results.table import machine, markdown, number
 from fmu_bearing.run.metrics import SAMPLE, Errors, errors, measure
 from fmu_bearing.run.paces import COMMUNICATION, Paces
 from fmu_bearing.run.settings import TERMS, Setting
@@ -58,14 +57,9 @@ SETTINGS = (
 )
 QUICK = (_FULL, Setting("rings"), Setting("response"), replace(_FULL, strips=1))
 
-COLUMNS = (
-    "fidelity", "method", "tolerance", "max step, us", "strips", "left out", "trajectory", "ring rms", "load",
-    "torque", "dB(A)", "sim/CPU", "ramp", "warming", "ripple", "remark",
-)  # fmt: skip
-
 
 @dataclass(frozen=True)
-class Row:
+class Row(Result):
     """One line: a setting, how far it is from the reference, how fast it is.
 
     Attributes
@@ -79,27 +73,36 @@ class Row:
         Simulated s per CPU s, with constant inputs and with some that move.
     """
 
+    quantities = (
+        Quantity("fidelity = setting.fidelity", "fidelity"),
+        Quantity("method", "method", of=lambda row: row.setting.method * (row.setting.fidelity == "full")),
+        Quantity("tolerance [1]", "tolerance", "g", of=lambda row: row.stepped(row.setting.tolerance)),
+        Quantity("max_step_s", "max step, us", "g", 1e6, of=lambda row: row.stepped(row.setting.max_step)),
+        Quantity("strips [1] = setting.strips", "strips"),
+        Quantity("left_out = setting.left_out", "left out"),
+        Quantity("trajectory [1]", "trajectory", number),
+        Quantity("ring_rms [1] = errors.ring_rms", "ring rms", number),
+        Quantity("load [1] = errors.load", "load", number),
+        Quantity("torque [1] = errors.torque", "torque", number),
+        Quantity("level_dBA = errors.level", "dB(A)", number),
+        *(Quantity(f"{one.name} [1] = paces.{one.name}", head, number)
+          for one, head in zip(fields(Paces), ("sim/CPU", "ramp", "warming", "ripple"), strict=True)),
+        Quantity("remark", "remark"),
+    )  # fmt: skip
+
     setting: Setting
     errors: Errors | None = None
     trajectory: float = np.nan
     paces: Paces = field(default_factory=Paces)
     remark: str = ""
 
-    def cells(self) -> list[str]:
-        """Texts in the order of ``COLUMNS``."""
-        s, e = self.setting, self.errors
-        found = [""] * 4 if e is None else [number(x) for x in (e.ring_rms, e.load, e.torque, e.level)]
-        method = s.method if s.fidelity == "full" else ""
-        # the linear response is a sum of lines: nothing is stepped
-        steps = ["", ""] if s.fidelity == "response" else [f"{s.tolerance:g}", f"{1e6 * s.max_step:g}"]
-        return [
-            s.fidelity, method, *steps, str(s.strips), s.left_out,
-            number(self.trajectory), *found, *(number(one) for one in astuple(self.paces)), self.remark,
-        ]  # fmt: skip
+    def stepped(self, value: float) -> float | None:
+        """Return a value of the steps; the linear response is a sum of lines: nothing is stepped."""
+        return None if self.setting.fidelity == "response" else value
 
 
 @dataclass(frozen=True)
-class Tradeoff:
+class Tradeoff(Study):
     """The rows of one scene, and the accuracy of the reference.
 
     Attributes
@@ -113,6 +116,12 @@ class Tradeoff:
         Relative difference of the reference's settings from the explicit one of the pair.
     """
 
+    quantities = (
+        "scene", "rpm", "warm_up_s", "window_s", "agreement [1]", "pair [1]", "reference_error [1]",
+        "settings = rows",
+    )  # fmt: skip
+    stem, row = "tradeoff", Row
+
     scene: str
     rpm: float
     warm_up: float
@@ -122,9 +131,9 @@ class Tradeoff:
     reference_error: float
     rows: tuple[Row, ...]
 
-    def cells(self) -> list[list[str]]:
-        """Texts of all rows."""
-        return [row.cells() for row in self.rows]
+    def records(self) -> tuple[Row, ...]:
+        """Return the rows."""
+        return self.rows
 
     def markdown(self) -> str:
         """Return the study as a page."""
@@ -132,7 +141,7 @@ class Tradeoff:
             scene=self.scene, rpm=self.rpm, machine=machine(), warm_up=1e3 * self.warm_up,
             window=1e3 * self.window, check=1e3 * CHECK, agreement=number(self.agreement) or "?",
             pair=self.pair, own=self.reference_error, step=1e6 * REFERENCE.max_step,
-            tolerance=REFERENCE.tolerance, table=markdown(COLUMNS, self.cells()),
+            tolerance=REFERENCE.tolerance, table=markdown(*self.table()),
         )  # fmt: skip
 
 
@@ -227,10 +236,3 @@ def tradeoff(
             error = relative_error(run.rings, truth.rings) if setting.fidelity == "full" else np.nan
             rows.append(Row(setting, errors(run.figures, truth.figures), error, run.paces))
     return study()
-
-
-def write(study: Tradeoff, folder: pathlib.Path) -> None:
-    """Write ``tradeoff.md`` and ``tradeoff.csv`` into a folder, which is made."""
-    folder.mkdir(parents=True, exist_ok=True)
-    write_whole(folder / "tradeoff.md", study.markdown().encode("utf-8"))
-    write_csv(folder / "tradeoff.csv", COLUMNS, study.cells())

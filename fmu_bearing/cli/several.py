@@ -91,26 +91,16 @@ def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bo
     """Write table and picture; print the table; return what was written."""
     from fmu_bearing.results.picture_parts import save
     from fmu_bearing.results.table import show
-    from fmu_bearing.sweeps.global_sensitivity import COLUMNS
     from fmu_bearing.sweeps.index_picture import index_picture
 
-    files: dict[str, Path] = {}
     with Writing() as written:
-        files |= found.write(output)
+        written += found.write(output)
         save(index_picture(found), picture)
-        files["picture"] = picture
-    columns, cells = COLUMNS[found.layout.method], found.cells()
+        written.append(picture)
+    columns, cells = found.table()
     if as_json:
-        print_json(
-            {
-                "method": found.layout.method,
-                "samples": found.layout.samples,
-                "conditions": found.conditions(),
-                "remarks": found.remarks(),
-                "indices": named(columns, cells),
-                "files": files,
-            }
-        )
+        files = dict(zip(("page", "csv", "picture"), written, strict=False))
+        print_json(found.summary() | {"indices": named(columns, cells), "files": files})
         return written
     size = len(found.keys)
     for at in range(0, len(cells), size):  # a table per figure: it fits the terminal
@@ -121,6 +111,6 @@ def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bo
         show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
     for line in (found.conditions(), *found.remarks()):
         typer.echo(textwrap.fill(line, 80))
-    if files:
-        typer.echo(f"written: {', '.join(map(str, files.values()))}")
+    if written:
+        typer.echo(f"written: {', '.join(map(str, written))}")
     return written

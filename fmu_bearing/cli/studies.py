@@ -125,14 +125,13 @@ def tradeoff(
                 track=partial(steps, what="variants"), **times,
             ))  # fmt: skip
         with Writing() as files:
-            trading.write(study, output)
-            files += [output / "tradeoff.md", output / "tradeoff.csv"]
+            files += study.write(output)
             draw(study, chart)
             files.append(chart)
     if as_json:
-        print_json({"settings": named(trading.COLUMNS, study.cells()), "files": files})
+        print_json({"settings": named(*study.table()), "files": files})
     else:
-        show(f"{study.scene}: accuracy and cost", trading.COLUMNS, study.cells())
+        show(f"{study.scene}: accuracy and cost", *study.table())
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
     end(code, files)
@@ -234,12 +233,11 @@ def _each_alone(
             partial(moving.sensitivity, source, keys, track=partial(steps, what="moves"), **spans)
         )
     with Writing() as files:
-        moving.write(study, output)
-        files += [output / "sensitivity.md", output / "sensitivity.csv"]
+        files += study.write(output)
     if as_json:
-        print_json({"moves": named(moving.COLUMNS, study.cells()), "files": files})
+        print_json({"moves": named(*study.table()), "files": files})
     else:
-        show(f"{study.scene}: what rests on assumed values", moving.COLUMNS, study.cells())
+        show(f"{study.scene}: what rests on assumed values", *study.table())
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
     end(code, files)

@@ -145,6 +145,29 @@ class Result:
         return write_rows(target, self.records())
 
 
+class Study(Result):
+    """Many runs of one scene: `records` are the rows of a table, in a page that says how they came about."""
+
+    stem: ClassVar[str]  # of the names of its files
+    row: ClassVar[type[Result]]
+
+    def table(self) -> Table:
+        """Return columns and rows of texts."""
+        return table(self.row, self.records())
+
+    def markdown(self) -> str:
+        """Return the study as a page."""
+        raise NotImplementedError
+
+    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write `markdown` and `table` (CSV) into a folder, which is made; return the files."""
+        files = [Path(folder) / f"{self.stem}{ending}" for ending in (".md", ".csv")]
+        files[0].parent.mkdir(parents=True, exist_ok=True)
+        write_whole(files[0], self.markdown().encode("utf-8"))
+        write_csv(files[1], *self.table())
+        return files
+
+
 def table(kind: type[Result], rows: Sequence[Result], heads: Sequence[str] | None = None) -> Table:
     """Return columns and rows for people: the quantities that have a heading, or those of ``heads``."""
     named = {one.head: one for one in kind.declared if one.head is not None}

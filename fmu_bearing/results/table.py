@@ -40,9 +40,9 @@ def machine() -> str:
     )
 
 
-def number(value: float) -> str:
-    """Two or three digits, empty for NaN."""
-    if math.isnan(value):
+def number(value: float | None) -> str:
+    """Two or three digits, empty for NaN and for None."""
+    if value is None or math.isnan(value):
         return ""
     if value == 0.0 or 0.01 <= abs(value) < 1e4:
         return f"{value:.3g}" if abs(value) < 100 else f"{value:.0f}"

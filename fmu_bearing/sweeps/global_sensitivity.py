@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.results.table import machine, markdown, write_csv
+from fmu_bearing.results.base import Study
+from fmu_bearing.results.table import Table, machine, markdown
 from fmu_bearing.run.figures import Figure
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
@@ -70,7 +71,7 @@ class Layout:
 
 
 @dataclass(frozen=True)
-class GlobalSensitivity:
+class GlobalSensitivity(Study):
     """Indices of the figures of one scene, SI units.
 
     Attributes
@@ -89,6 +90,9 @@ class GlobalSensitivity:
     reasons : tuple of str
         Why points have no figures, each once.
     """
+
+    quantities = "method = layout.method", "samples [1] = layout.samples", "conditions", "remarks"
+    stem = "sensitivity"
 
     layout: Layout
     values: NDArray[np.float64]
@@ -113,8 +117,8 @@ class GlobalSensitivity:
         order = np.argsort(-found, kind="stable")
         return [(self.keys[k], float(found[k])) for k in order]
 
-    def cells(self) -> list[list[str]]:
-        """Texts in the order of `COLUMNS`: per figure a row per key, the most important first."""
+    def table(self) -> Table:
+        """Return `COLUMNS` of the method and texts: per figure a row per key, the most important first."""
         names = sampling.INDICES[self.layout.method]
         rows = []
         for place, figure in enumerate(self.figures):
@@ -122,7 +126,7 @@ class GlobalSensitivity:
                 at = self.keys.index(key)
                 numbers = [_shown(float(self.indices[name][place, at])) for name in names]
                 rows.append([figure.name, figure.unit, key, *numbers])
-        return rows
+        return list(COLUMNS[self.layout.method]), rows
 
     def conditions(self) -> str:
         """Say in words what was run."""
@@ -160,17 +164,8 @@ class GlobalSensitivity:
             f"resamples of the {made.samples} samples. Figures in SI units."
         )
         title = f"# What figures rest on: {made.plan.scene.name}"
-        table = markdown(COLUMNS[made.method], self.cells())
+        table = markdown(*self.table())
         return "\n\n".join([title, machine(), " ".join([head, *words]), table])
-
-    def write(self, folder: str | os.PathLike[str]) -> dict[str, pathlib.Path]:
-        """Write ``sensitivity.md`` and ``sensitivity.csv`` into a folder, which is made."""
-        target = pathlib.Path(folder)
-        target.mkdir(parents=True, exist_ok=True)
-        page, table = target / "sensitivity.md", target / "sensitivity.csv"
-        page.write_text(self.markdown(), "utf-8")
-        write_csv(table, COLUMNS[self.layout.method], self.cells())
-        return {"page": page, "csv": table}
 
 
 def _shown(value: float) -> str:

@@ -5,7 +5,6 @@ import re
 
 import pytest
 
-from fmu_bearing.accuracy import sensitivity as moving
 from fmu_bearing.accuracy.sensitivity import ASSUMED, QUICK, sensitivity, value_at
 from tests.conftest import EXAMPLES
 
@@ -60,8 +59,8 @@ def test_moves_show(silent, tmp_path):
     assert low[4] < -0.02 and high[4] > 0.02  # less traction, less torque
     # Walther's slope is not in use under Vogel's law: the very same bits
     assert all(change[:6] == (0.0,) * 6 for change in by_key["lubricant.walther_slope"])
-    moving.write(study, tmp_path)
+    study.write(tmp_path)
     with (tmp_path / "sensitivity.csv").open(encoding="utf-8") as file:
         read = list(csv.reader(file))
-    assert read[0] == list(moving.COLUMNS) and {len(line) for line in read} == {len(moving.COLUMNS)}
+    assert read[0] == study.table()[0] and {len(line) for line in read} == {len(read[0])}
     assert "Numba" in (tmp_path / "sensitivity.md").read_text("utf-8")

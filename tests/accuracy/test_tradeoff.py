@@ -6,7 +6,6 @@ from dataclasses import astuple
 
 import pytest
 
-from fmu_bearing.accuracy import tradeoff as trading
 from fmu_bearing.accuracy.chart import draw, front
 from fmu_bearing.accuracy.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, tradeoff
 from fmu_bearing.run.settings import Setting
@@ -33,10 +32,10 @@ def test_errors_shrink_with_the_step_and_the_reference_is_sure(study):
 
 
 def test_files_hold_every_row_and_the_machine(study, tmp_path):
-    trading.write(study, tmp_path)
+    study.write(tmp_path)
     with (tmp_path / "tradeoff.csv").open(encoding="utf-8") as file:
         read = list(csv.reader(file))
-    assert read[0] == list(trading.COLUMNS) and len(read) == 1 + len(study.rows)
+    assert read[0] == study.table()[0] and len(read) == 1 + len(study.rows)
     page = (tmp_path / "tradeoff.md").read_text("utf-8")
     assert "Numba" in page and page.count("\n| ") == 2 + len(study.rows)
 

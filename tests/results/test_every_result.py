@@ -28,6 +28,8 @@ from fmu_bearing import (
     vibration,
     with_fidelity,
 )  # fmt: skip
+from fmu_bearing.accuracy.sensitivity import Row as Moved, Sensitivity
+from fmu_bearing.accuracy.tradeoff import Row, Tradeoff
 from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.free import free_numbers
@@ -36,18 +38,21 @@ from fmu_bearing.modal.campbell.diagram import Diagram
 from fmu_bearing.recording.measurements.at_frequency import noise_at
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.studies.finding import Finding
-from fmu_bearing.results.base import Quantity, Result, plain, table
+from fmu_bearing.results.base import Quantity, Result, Study, plain, table
+from fmu_bearing.run.settings import Setting
 from fmu_bearing.run.step_times import Realtime, Timed
 from fmu_bearing.scene import read_scene
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
+from fmu_bearing.sweeps.global_sensitivity import evaluated, lay_out
+from fmu_bearing.sweeps.point import Outcome
 from tests.conftest import EXAMPLES
 
 #: Rooms of kernels and of files for other programs: no results.
 WITHOUT = ("fmu_bearing.engine", "fmu_bearing.compiled", "fmu_bearing.fmi", "fmu_bearing.testing")
 #: Classes that only their descendants make.
-BASES = (Diagram, StiffnessTable)
+BASES = (Diagram, StiffnessTable, Study)
 #: Values whose units are in the words beside them: of variables by name, counts, a scene's keys.
-BESIDE = ("figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln")
+BESIDE = ("figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "value", "moved")
 
 
 def identified(scene):
@@ -70,6 +75,8 @@ def roots():
     made = record(scene, 0.1, settle=0.02, radiation_model="compact", progress=False)
     sound = analyse_sound(made, ["P1", "P4"])
     point = operating_point(read_scene(pair))
+    ranges = {"preload": (200.0, 500.0), "speed": (5e3, 9e3)}
+    layout = lay_out(scene, ranges, "morris", 4, figures=["friction_torque"])
     run, rough = np.array([1e-4, 2e-4]), vibration(scene, seeds=1, rigid=True)
     return [
         point, *verdicts(point), fits(EXAMPLES.parent / "fits" / "7003C-ceramic.toml"),
@@ -78,6 +85,12 @@ def roots():
         noise_at(made, sound, 3000.0), spread(made, ["P1"], seeds=1), compare(made, made),
         Finding("P1", 1.5, (1.2, 1.7)), rough, *rough.bands,
         changes(bare, levels=False), identified(scene), simulate(scene, 2e-3, outputs=["friction_torque"]),
+        Tradeoff("a", 9e3, 0.01, 0.01, 1e-6, 1e-6, 1e-6, (Row(Setting(), trajectory=1e-3),)),
+        Sensitivity("a", 9e3, 0.01, 0.01, {}, (Moved("fmu.x", 1.0, 1.2, (0.1,) * 7),)),
+        evaluated(
+            layout,
+            {task.key: Outcome((1.0 + k,), "", 1.0) for k, task in enumerate(layout.plan.tasks)},
+        ),
         Realtime(scene, 1e-3, (Timed("rings", 0, "held", run, run, 1e-3),), {}, "a machine"),
     ]  # fmt: skip
 

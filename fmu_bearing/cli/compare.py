@@ -6,24 +6,8 @@ from typing import Annotated
 
 import typer
 
+from fmu_bearing.cli import options
 from fmu_bearing.cli.base import Writing, app, check_new, check_new_in, end, print_json, refusals, tell
-from fmu_bearing.cli.options import (
-    DURATION,
-    SEEDS,
-    SETTLE,
-    Catalogues,
-    Duration,
-    Fidelity,
-    Force,
-    Json,
-    Plot,
-    RadiationModel,
-    Seeds,
-    Settings,
-    Settle,
-    Speed,
-    output as target,
-)
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps
@@ -36,22 +20,22 @@ _WHAT = "Scene (.toml), recording (.npz) or result of a run (.csv, .nc)."
 def compare(
     a: Annotated[Path, typer.Argument(metavar="A", help=_WHAT)],
     b: Annotated[Path, typer.Argument(metavar="B", help=_WHAT)],
-    duration: Duration = DURATION,
-    settle: Settle = SETTLE,
-    speed: Speed = None,
-    settings: Settings = None,
-    fidelity: Fidelity = None,
-    radiation_model: RadiationModel = None,
-    seeds: Seeds = SEEDS,
-    plot: Plot = None,
+    duration: options.Duration = options.DURATION,
+    settle: options.Settle = options.SETTLE,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    fidelity: options.Fidelity = None,
+    radiation_model: options.RadiationModel = None,
+    seeds: options.Seeds = options.SEEDS,
+    plot: options.Plot = None,
     microphone: Annotated[
         str | None,
         typer.Option("--microphone", "-m", help="Of third octaves and picture; default: the loudest of A."),
     ] = None,
-    output: Annotated[Path | None, target("Write the tables as CSV too.", "FOLDER")] = None,
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    output: Annotated[Path | None, options.output("Write the tables as CSV too.", "FOLDER")] = None,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Compare levels, third octaves, loads, angles, torque; list the keys that differ. B minus A.
 

@@ -6,19 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    so_far,
-    tell,
-)
+from fmu_bearing.cli import base
 from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Plot, SceneFile, Settings
 from fmu_bearing.cli.settings import AXIS, changed, numbers
 from fmu_bearing.progress import steps
@@ -26,12 +14,11 @@ from fmu_bearing.progress import steps
 _PERCENT = 100.0
 
 
-@app.command()
+@base.app.command()
 def error_motion(
     scene: SceneFile,
     speeds: Annotated[
-        str | None,
-        typer.Option(metavar="VALUES", help=f"r/min: {AXIS}; default: the scene's."),
+        str | None, typer.Option(metavar="VALUES", help=f"r/min: {AXIS}; default: the scene's.")
     ] = None,
     at: Annotated[
         float,
@@ -42,8 +29,7 @@ def error_motion(
         ),
     ] = 0.0,
     revolutions: Annotated[
-        int | None,
-        typer.Option(help="20 or more; default: 20 to 120, in which the cages turn most wholly."),
+        int | None, typer.Option(help="20 or more; default: 20 to 120, in which the cages turn most wholly.")
     ] = None,
     against: Annotated[
         str | None,
@@ -71,33 +57,33 @@ def error_motion(
     from fmu_bearing.results.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
-    with refusals():
+    with base.refusals():
         if direction not in DIRECTIONS:
-            raise Refusal(f"--direction {direction} is refused: it is {', '.join(DIRECTIONS)}")
+            raise base.Refusal(f"--direction {direction} is refused: it is {', '.join(DIRECTIONS)}")
         rpm = numbers("speeds", speeds)
         given = read_scene(scene)
         for speed in rpm or ():
-            shaft_speed(speed, given, "--speeds")
+            base.shaft_speed(speed, given, "--speeds")
         check_folder(output)
         if plot is not None:
             check_picture(plot)
-        check_new_in(force, output, *FILES)
-        check_new(force, plot)
+        base.check_new_in(force, output, *FILES)
+        base.check_new(force, plot)
         chosen, inputs = changed(given, settings)
         chosen = chosen if fidelity is None else with_fidelity(chosen, model=fidelity)
-        found, code = so_far(partial(
+        found, code = base.so_far(partial(
             computed, chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
             track=partial(steps, what="error motion", unit="speeds"),
         ))  # fmt: skip
-        drawn = available("matplotlib", "a picture", "no polar.png", tell)
-        with Writing() as files:
+        drawn = available("matplotlib", "a picture", "no polar.png", base.tell)
+        with base.Writing() as files:
             files += found.save(output, direction, picture=drawn)
             if plot is not None:
                 save(found.polar(direction), plot)
                 files.append(plot)
     if as_json:
-        print_json(found.summary() | {"files": files})
-        return end(code, files)
+        base.print_json(found.summary() | {"files": files})
+        return base.end(code, files)
     place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
     show(f"error motion, {place}", *found.table())
     show("largest lines, amplitudes", *found.lines())
@@ -110,7 +96,7 @@ def error_motion(
             "asynchronous radial motion"
         )
     for line in found.remarks():
-        tell(f"remark: {line}")
+        base.tell(f"remark: {line}")
     if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(code, files)
+        base.tell(f"written: {', '.join(map(str, files))}")
+    base.end(code, files)

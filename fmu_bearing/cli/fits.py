@@ -6,17 +6,8 @@ from typing import Annotated
 
 import typer
 
+from fmu_bearing.cli import options
 from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals, tell
-from fmu_bearing.cli.options import (
-    Catalogues,
-    Force,
-    Json,
-    Plot,
-    SceneFile,
-    Settings,
-    Speed,
-    output as written_to,
-)
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
@@ -24,14 +15,14 @@ from fmu_bearing.progress import steps
 
 @app.command()
 def fits(
-    scene: SceneFile,
-    speed: Speed = None,
-    settings: Settings = None,
-    plot: Plot = None,
-    output: Annotated[Path | None, written_to("Write the table to this file as well (.csv).")] = None,
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    scene: options.SceneFile,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    plot: options.Plot = None,
+    output: Annotated[Path | None, options.output("Write the table to this file as well (.csv).")] = None,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Show what the fits on shaft and in housing do, from the loosest to the tightest that classes allow.
 

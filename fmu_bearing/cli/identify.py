@@ -5,27 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    INTERRUPTED,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    Catalogues,
-    Force,
-    Json,
-    Plot,
-    SceneFile,
-    Settings,
-    output as target,
-    settle as time_left_out,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.progress import Stopped
 
@@ -51,15 +31,15 @@ Keys = Annotated[
 ]
 
 
-@app.command()
+@base.app.command()
 def identify(
-    scene: SceneFile,
+    scene: options.SceneFile,
     measured: Data,
     free: Keys = None,
     background: Annotated[
         Path | None, typer.Option(help="Background levels (CSV with the same columns), added as energy.")
     ] = None,
-    settings: Settings = None,
+    settings: options.Settings = None,
     fidelity: Annotated[
         str | None,
         typer.Option(
@@ -82,7 +62,7 @@ def identify(
         ),
     ] = None,
     settle: Annotated[
-        float | None, time_left_out("; default 0.03 to 0.05 by fidelity: hundreds of short runs")
+        float | None, options.settle("; default 0.03 to 0.05 by fidelity: hundreds of short runs")
     ] = None,
     few: Annotated[bool, typer.Option("--few", help="Allow fewer than three values per free key.")] = False,
     accept: Annotated[
@@ -94,13 +74,13 @@ def identify(
     workers: Annotated[
         int, typer.Option("--workers", "-w", min=1, help="Threads; default 1: each run keeps a core busy.")
     ] = 1,
-    plot: Plot = None,
-    output: Annotated[Path, target("Scene to write; a folder beside it takes all else.")] = Path(
+    plot: options.Plot = None,
+    output: Annotated[Path, options.output("Scene to write; a folder beside it takes all else.")] = Path(
         "identified.toml"
     ),
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Find the values of free keys that explain measured levels; write scene, tables, report, picture.
 
@@ -111,12 +91,12 @@ def identify(
     from fmu_bearing.identification.files import output_paths
     from fmu_bearing.results.picture_parts import check_picture
 
-    with refusals():
+    with base.refusals():
         path, folder = output_paths(output)
         if plot is not None:
             check_picture(plot)
-        check_new(force, path, plot)
-        check_new_in(force, folder, *_FILES)
+        base.check_new(force, path, plot)
+        base.check_new_in(force, folder, *_FILES)
         source = source_of(scene, settings)
         code = 0
         try:
@@ -126,18 +106,18 @@ def identify(
                 folder=folder, workers=workers,
             )  # fmt: skip
         except Stopped as stop:
-            found, code = stop.found, INTERRUPTED
-            tell(
+            found, code = stop.found, base.INTERRUPTED
+            base.tell(
                 "interrupted: these are the best values so far; the same command with --force goes on, from "
                 f"{folder / 'runs.jsonl'}"
             )
         files = _write(found, path, scene if source == scene else None, plot, as_json, anyway)
-    end(code, files)
+    base.end(code, files)
 
 
 def _write(
     found: "Identified", path: Path, scene: Path | None, plot: Path | None, as_json: bool, anyway: bool
-) -> Writing:  # fmt: skip
+) -> base.Writing:  # fmt: skip
     """Print values, levels and remarks, and write the files, which are returned."""
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import Compared, Estimate
@@ -145,16 +125,16 @@ def _write(
     from fmu_bearing.results.table import show
 
     refused = bool(found.doubts) and not anyway
-    with Writing() as files:
+    with base.Writing() as files:
         if not refused:
-            files += write_all(found, path, scene, tell, anyway=anyway)
+            files += write_all(found, path, scene, base.tell, anyway=anyway)
         if plot is not None and not refused:
             from fmu_bearing.identification.picture import identified_picture, save
 
             save(identified_picture(found), plot)
             files.append(plot)
     if as_json:
-        print_json(found.summary() | {"files": files})
+        base.print_json(found.summary() | {"files": files})
     else:
         show("Measured and computed levels", *table(Compared, found.compared))
         show("Identified values", *table(Estimate, found.estimates))
@@ -164,5 +144,5 @@ def _write(
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
     if refused:
-        write_all(found, path, scene, tell)  # which says why not
+        write_all(found, path, scene, base.tell)  # which says why not
     return files

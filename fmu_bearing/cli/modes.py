@@ -6,28 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    Catalogues,
-    Force,
-    Json,
-    Plot,
-    SceneFile,
-    Settings,
-    Speed,
-    output as target,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import changed
 from fmu_bearing.extras import available
 from fmu_bearing.files import check_folder
@@ -46,18 +25,18 @@ Speeds = Annotated[
 _FILES = ("modes.csv", "campbell.csv", "crossings.csv", "campbell.png", "shaft.png", "modes.html")
 
 
-@app.command()
+@base.app.command()
 def modes(
-    scene: SceneFile,
-    speed: Speed = None,
+    scene: options.SceneFile,
+    speed: options.Speed = None,
     speeds: Speeds = None,
-    settings: Settings = None,
+    settings: options.Settings = None,
     highest: Annotated[float, typer.Option(help="Highest frequency, kHz.")] = 20.0,
-    plot: Plot = None,
-    output: Annotated[Path | None, target("Write tables, picture and page there.", "FOLDER")] = None,
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    plot: options.Plot = None,
+    output: Annotated[Path | None, options.output("Write tables, picture and page there.", "FOLDER")] = None,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Show natural frequencies, damping, direction and what moves; with --speeds what excites them.
 
@@ -71,16 +50,16 @@ def modes(
     from fmu_bearing.scene import read_scene
     from fmu_bearing.sweeps.axes import parse_values
 
-    with refusals():
+    with base.refusals():
         if output is not None:
             check_folder(output)
-            check_new_in(force, output, *_FILES)
+            base.check_new_in(force, output, *_FILES)
         if plot is not None:
-            check_new(force, check_picture(plot))
+            base.check_new(force, check_picture(plot))
         chosen, inputs = changed(read_scene(scene), settings)
-        turning = shaft_speed(speed, chosen)
+        turning = base.shaft_speed(speed, chosen)
         if plot is not None and speeds is None and not chosen.operation.speed_rpm:
-            raise Refusal(
+            raise base.Refusal(
                 "--plot draws a Campbell diagram, and the scene's shaft does not turn: give --speeds"
             )
         with work(f"modes of {chosen.name}"):
@@ -91,28 +70,28 @@ def modes(
             rows = None if speeds is None else parse_values("speeds", speeds)
             rest = {name: value for name, value in inputs.items() if name != "shaft_speed"}
             diagram = over_speed(
-                chosen, rows, inputs=rest, highest=1e3 * highest, tell=tell,
+                chosen, rows, inputs=rest, highest=1e3 * highest, tell=base.tell,
                 track=partial(steps, what="Campbell diagram", unit="speeds"),
             )  # fmt: skip
-        with Writing() as files:
+        with base.Writing() as files:
             if output is not None:
                 _write(output, found, diagram, files)
             if plot is not None and diagram is not None:
                 save(diagram.picture(), plot)
                 files.append(plot)
     if as_json:
-        print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
-        return end(0, files)
+        base.print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
+        return base.end(0, files)
     _show(found, 1e3 * highest, "contacts stick" if free else "")
     if free:
         _show(free, 1e3 * highest, "without friction")
     if diagram is not None:
         _show_crossings(diagram)
     for line in dict.fromkeys(found.cautions() + (diagram.cautions() if diagram else [])):
-        tell(f"caution: {line}")
+        base.tell(f"caution: {line}")
     if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(0, files)
+        base.tell(f"written: {', '.join(map(str, files))}")
+    base.end(0, files)
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:
@@ -156,19 +135,19 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list
     folder.mkdir(parents=True, exist_ok=True)
     files.append(write_rows(folder / "modes.csv", found.records()))
     if diagram is None:
-        tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
+        base.tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
         return
     files.append(write_rows(folder / "campbell.csv", diagram.table()))
     files.append(write_rows(folder / "crossings.csv", diagram.crossings()))
-    if available("matplotlib", "a picture", "no campbell.png", tell):
+    if available("matplotlib", "a picture", "no campbell.png", base.tell):
         save(diagram.picture(), folder / "campbell.png")
         files.append(folder / "campbell.png")
     if found.on_shaft:
-        if available("matplotlib", "a picture", "no shaft.png", tell):
+        if available("matplotlib", "a picture", "no shaft.png", base.tell):
             save(found.picture(), folder / "shaft.png")
             files.append(folder / "shaft.png")
         return  # the page draws one bearing
-    if available("plotly", "a page", "no modes.html", tell):
+    if available("plotly", "a page", "no modes.html", base.tell):
         from fmu_bearing.reports.modes.modes_section import modes_page
 
         files.append(modes_page(diagram, folder / "modes.html", found))

@@ -71,8 +71,7 @@ RadiationModel = Annotated[
     ),
 ]
 Speed = Annotated[
-    float | None,
-    typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min, in place of the scene's."),
+    float | None, typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min, in place of the scene's.")
 ]
 SurfaceFile = Annotated[
     Path | None,

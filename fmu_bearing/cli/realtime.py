@@ -6,44 +6,20 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    so_far,
-    span,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    DURATION,
-    Catalogues,
-    Duration,
-    Force,
-    Json,
-    SceneFile,
-    Settings,
-    Speed,
-    Step,
-    output as target,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.runs import split
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
 
-@app.command()
+@base.app.command()
 def realtime(
-    scene: SceneFile,
-    step: Step = 1e-3,
-    duration: Duration = DURATION,
-    speed: Speed = None,
-    settings: Settings = None,
+    scene: options.SceneFile,
+    step: options.Step = 1e-3,
+    duration: options.Duration = options.DURATION,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
     run_up: Annotated[
         str | None,
         typer.Option(
@@ -59,10 +35,10 @@ def realtime(
         int | None, typer.Option(metavar="N", help="The first N of the scene's microphones; default: all.")
     ] = None,
     silent: Annotated[bool, typer.Option("--silent", help="Without sound alone.")] = False,
-    output: Annotated[Path | None, target("Write the table to this file as well (.csv).")] = None,
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    output: Annotated[Path | None, options.output("Write the table to this file as well (.csv).")] = None,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Time a scene's steps by fidelity, with sound and without; say which keeps up and what to change.
 
@@ -75,34 +51,38 @@ def realtime(
     from fmu_bearing.run.realtime import realtime as time_it
     from fmu_bearing.run.step_times import SHORT
 
-    with refusals():
+    with base.refusals():
         if speed is not None and run_up is not None:
-            raise Refusal("--speed and --run-up are refused together: a speed that is held has no run-up")
+            raise base.Refusal(
+                "--speed and --run-up are refused together: a speed that is held has no run-up"
+            )
         if silent and microphones is not None:
-            raise Refusal("--silent and --microphones are refused together: give one of them")
+            raise base.Refusal("--silent and --microphones are refused together: give one of them")
         if output is not None:
-            check_new(force, check_file(output, ".csv", "the table"))
-        held = shaft_speed(speed, scene)
-        speeds = (held, held) if held is not None else span(run_up, scene) if run_up is not None else None
-        found, code = so_far(partial(
+            base.check_new(force, check_file(output, ".csv", "the table"))
+        held = base.shaft_speed(speed, scene)
+        speeds = (
+            (held, held) if held is not None else base.span(run_up, scene) if run_up is not None else None
+        )
+        found, code = base.so_far(partial(
             time_it, source_of(scene, settings), step, duration=duration, speeds=speeds,
             fidelities=split(fidelity), microphones=0 if silent else microphones,
             track=partial(steps, what="fidelities"),
         ))  # fmt: skip
-        with Writing() as files:
+        with base.Writing() as files:
             if output is not None:
                 output.parent.mkdir(parents=True, exist_ok=True)
                 write_csv(output, *found.table())
                 files.append(output)
     if as_json:
-        print_json(found.summary() | {"files": files})
-        return end(code, files)
+        base.print_json(found.summary() | {"files": files})
+        return base.end(code, files)
     count = found.timed[0].cpu.size
     show(f"{found.scene.name}: {count} steps of {1e3 * step:g} ms, us of the processor", *found.table(SHORT))
     typer.echo(found.machine)
     typer.echo(found.advice())
     for name, reason in found.left_out.items():
-        tell(f"not timed: {name}: {reason}")
+        base.tell(f"not timed: {name}: {reason}")
     if files:
         typer.echo(f"written: {output}")
-    end(code, files)
+    base.end(code, files)

@@ -7,31 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    ENDED_EARLY,
-    INTERRUPTED,
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-)
-from fmu_bearing.cli.options import (
-    Catalogues,
-    Fidelity,
-    Force,
-    Json,
-    Plot,
-    Settings,
-    Speed,
-    Step,
-    Variables,
-    output as target,
-    settle as time_left_out,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import changed, start_of
 from fmu_bearing.files import rescued
 
@@ -42,16 +18,16 @@ if TYPE_CHECKING:
 Source = Annotated[Path, typer.Argument(metavar="SCENE|FMU", help="Scene file (.toml) or FMU (.fmu).")]
 
 
-@app.command()
+@base.app.command()
 def simulate(
     source: Source,
     stop_time: Annotated[float, typer.Option("--stop-time", "-t", help="End of the run, s.")] = 0.1,
-    step: Step = 1e-3,
+    step: options.Step = 1e-3,
     settle: Annotated[
-        float, time_left_out("; default 0: a result begins with the steady state it starts from")
+        float, options.settle("; default 0: a result begins with the steady state it starts from")
     ] = 0.0,
-    speed: Speed = None,
-    fidelity: Fidelity = None,
+    speed: options.Speed = None,
+    fidelity: options.Fidelity = None,
     inputs: Annotated[
         Path | None,
         typer.Option(
@@ -61,16 +37,17 @@ def simulate(
         ),
     ] = None,
     input_from_start: Annotated[
-        bool,
-        typer.Option("--input-from-start", help="Shift the times of --input so that the first is 0."),
+        bool, typer.Option("--input-from-start", help="Shift the times of --input so that the first is 0.")
     ] = False,
-    settings: Settings = None,
-    variables: Variables = None,
-    plot: Plot = None,
-    output: Annotated[Path, target("Result to write: .csv as FMPy has it, or .nc.")] = Path("result.csv"),
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    settings: options.Settings = None,
+    variables: options.Variables = None,
+    plot: options.Plot = None,
+    output: Annotated[Path, options.output("Result to write: .csv as FMPy has it, or .nc.")] = Path(
+        "result.csv"
+    ),
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
     from fmu_bearing.results import result as results
@@ -78,18 +55,20 @@ def simulate(
     from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
-    with refusals():
+    with base.refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
         results.check_target(output)  # refused before the run
         if plot is not None:
             check_picture(plot)
-        check_new(force, output, plot)
+        base.check_new(force, output, plot)
         if settle and not 0.0 < settle < stop_time:
-            raise Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
+            raise base.Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")
         if input_from_start and inputs is None:
-            raise Refusal("--input-from-start is refused: it shifts the times of --input, which is not given")
+            raise base.Refusal(
+                "--input-from-start is refused: it shifts the times of --input, which is not given"
+            )
         chosen, start = _begun(source, settings, fidelity)
-        turning = shaft_speed(speed, chosen)
+        turning = base.shaft_speed(speed, chosen)
         start |= {} if turning is None else {"shaft_speed": turning}
         run = run_it(
             chosen, stop_time, step=step, inputs=inputs, input_from_start=input_from_start,
@@ -97,7 +76,7 @@ def simulate(
         )  # fmt: skip
         if settle and run.time[-1] >= settle:
             run = replace(run, table=run.table[run.time >= settle])
-        with Writing() as files:
+        with base.Writing() as files:
             rescued(run.save, output)
             files.append(output)
         with files:
@@ -106,7 +85,7 @@ def simulate(
                 files.append(plot)
         doubted = "" if run.scene is None else _doubt(run, start, inputs is not None)
     if as_json:
-        print_json(run.summary() | {"files": files, "doubt": doubted})
+        base.print_json(run.summary() | {"files": files, "doubt": doubted})
     else:
         if run.note:
             typer.echo(f"error: {run.note}", err=True)
@@ -117,31 +96,33 @@ def simulate(
             )
         if doubted:
             typer.echo(f"{doubted}.")
-    early = INTERRUPTED if run.ended == results.INTERRUPTED else ENDED_EARLY
-    end(0 if run.complete else early, files)
+    early = base.INTERRUPTED if run.ended == results.INTERRUPTED else base.ENDED_EARLY
+    base.end(0 if run.complete else early, files)
 
 
-@app.command()
+@base.app.command()
 def plot(
     result: Annotated[Path, typer.Argument(metavar="RESULT", help="Result of a run: .csv or .nc.")],
-    variables: Variables = None,
+    variables: options.Variables = None,
     scene: Annotated[
         Path | None,
         typer.Option(help="Scene of the run, for the names of microphones; a result in .nc knows it."),
     ] = None,
-    output: Annotated[Path | None, target("Picture: .png, .svg or .pdf; default: beside the result.")] = None,
-    force: Force = False,
-    catalogue: Catalogues = None,
+    output: Annotated[
+        Path | None, options.output("Picture: .png, .svg or .pdf; default: beside the result.")
+    ] = None,
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
 ) -> None:
     """Draw variables over time, one panel per unit: speeds in r/min, levels from the first valid sample."""
     from fmu_bearing.results.result import Run
     from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.scene import read_scene
 
-    with refusals():
+    with base.refusals():
         run = Run.load(result)
         picture = output or result.with_suffix(".png")
-        check_new(force, picture)
+        base.check_new(force, picture)
         if scene is not None:
             run.scene = read_scene(scene)
         draw(run, picture, split(variables))
@@ -180,7 +161,7 @@ def _begun(
 
     if source.suffix == ".fmu":
         if fidelity is not None:
-            raise Refusal(f"--fidelity is refused: that of {source} was settled when it was built")
+            raise base.Refusal(f"--fidelity is refused: that of {source} was settled when it was built")
         if not settings:
             return source, {}
         player = open_fmu(source)

@@ -57,8 +57,7 @@ def new(
         typer.Option(help="deg; with --bore; default: what --designation says, else 15, assumed."),
     ] = None,
     dynamic_rating: Annotated[
-        float | None,
-        typer.Option(help="N, C as the maker prints it; with C0 the balls follow; with --bore."),
+        float | None, typer.Option(help="N, C as the maker prints it; with C0 the balls follow; with --bore.")
     ] = None,
     static_rating: Annotated[
         float | None, typer.Option(help="N, C0 as the maker prints it; with --dynamic-rating.")
@@ -86,8 +85,7 @@ def new(
         float | None, typer.Option(help="Offset of the ring faces instead of N, um.")
     ] = None,
     arrangement: Annotated[
-        str | None,
-        typer.Option(metavar="DB|DF|DT|TBT|QBC|...", help="A set of these bearings on one shaft."),
+        str | None, typer.Option(metavar="DB|DF|DT|TBT|QBC|...", help="A set of these bearings on one shaft.")
     ] = None,
     distance: Annotated[
         float | None, typer.Option(help="mm between neighbouring ball planes of a set; default: the width.")

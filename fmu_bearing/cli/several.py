@@ -7,18 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from fmu_bearing.cli.base import (
-    ENDED_EARLY,
-    INTERRUPTED,
-    Refusal,
-    Writing,
-    check_new,
-    check_new_in,
-    end,
-    named,
-    print_json,
-    tell,
-)
+from fmu_bearing.cli import base
 from fmu_bearing.cli.runs import split
 from fmu_bearing.progress import Stopped
 
@@ -67,40 +56,42 @@ def several(
     pairs = [parse_range(text) for text in study.vary]
     ranges = dict(pairs)
     if len(ranges) < len(pairs):
-        raise Refusal("a range is given twice: give each --vary once")
+        raise base.Refusal("a range is given twice: give each --vary once")
     sampling.check(study.method, study.samples)  # names the extra, which brings Matplotlib too
     picture = check_picture(plot or output / "sensitivity.png")
-    check_new(force, picture)
-    check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
+    base.check_new(force, picture)
+    base.check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
     settle, window = study.times.get("settle", SETTLE), study.times.get("window", WINDOW)
     names = split(study.variables)
     layout = lay_out(scene_of(source), ranges, study.method, study.samples, settle, window, names)
     if layout.plan.note:
-        tell(layout.plan.note)
+        base.tell(layout.plan.note)
     try:
         outcomes = run_plan(layout.plan, Store(output), study.workers)
     except Stopped as stop:
-        tell(f"interrupted: what is finished is kept; the same command runs the {stop.missing} that are left")
-        raise typer.Exit(INTERRUPTED) from None
+        base.tell(
+            f"interrupted: what is finished is kept; the same command runs the {stop.missing} that are left"
+        )
+        raise typer.Exit(base.INTERRUPTED) from None
     found = evaluated(layout, outcomes)
     early = any(not outcome.lasting for outcome in outcomes.values())
-    end(ENDED_EARLY if early else 0, _report(found, picture, output, as_json))
+    base.end(base.ENDED_EARLY if early else 0, _report(found, picture, output, as_json))
 
 
-def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> Writing:
+def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> base.Writing:
     """Write table and picture; print the table; return what was written."""
     from fmu_bearing.results.picture_parts import save
     from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.index_picture import index_picture
 
-    with Writing() as written:
+    with base.Writing() as written:
         written += found.write(output)
         save(index_picture(found), picture)
         written.append(picture)
     columns, cells = found.table()
     if as_json:
         files = dict(zip(("page", "csv", "picture"), written, strict=False))
-        print_json(found.summary() | {"indices": named(columns, cells), "files": files})
+        base.print_json(found.summary() | {"indices": base.named(columns, cells), "files": files})
         return written
     size = len(found.keys)
     for at in range(0, len(cells), size):  # a table per figure: it fits the terminal

@@ -6,37 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    INTERRUPTED,
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    so_far,
-    span,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    DURATION,
-    SETTLE,
-    Catalogues,
-    Duration,
-    Fidelity,
-    Folder,
-    Force,
-    Json,
-    Plot,
-    RadiationModel,
-    Settings,
-    Settle,
-    Speed,
-    SurfaceFile,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder, rescued
 from fmu_bearing.progress import steps, work
@@ -58,7 +28,7 @@ _FILES = (
 )  # fmt: skip
 
 
-@app.command()
+@base.app.command()
 def sound(
     source: Annotated[
         Path,
@@ -67,9 +37,9 @@ def sound(
             help="Scene (.toml), recording (.npz), or result of an FMU run with pressures (.csv).",
         ),
     ],
-    duration: Duration = DURATION,
-    settle: Settle = SETTLE,
-    speed: Speed = None,
+    duration: options.Duration = options.DURATION,
+    settle: options.Settle = options.SETTLE,
+    speed: options.Speed = None,
     run_up: Annotated[
         str | None,
         typer.Option(
@@ -79,9 +49,9 @@ def sound(
             "are then written, too.",
         ),
     ] = None,
-    settings: Settings = None,
-    fidelity: Fidelity = None,
-    radiation_model: RadiationModel = None,
+    settings: options.Settings = None,
+    fidelity: options.Fidelity = None,
+    radiation_model: options.RadiationModel = None,
     microphone: Annotated[
         list[str] | None, typer.Option("--microphone", "-m", help="Only these microphones, by name.")
     ] = None,
@@ -114,12 +84,12 @@ def sound(
     spread: Annotated[
         bool, typer.Option(help="Range of the levels over seeds and assumed surfaces, some seconds more.")
     ] = True,
-    surface: SurfaceFile = None,
-    plot: Plot = None,
-    output: Folder = Path("out/sound"),
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    surface: options.SurfaceFile = None,
+    plot: options.Plot = None,
+    output: options.Folder = Path("out/sound"),
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Measure levels, spectra, third octaves and directivity; write tables, pictures, netCDF and WAV.
 
@@ -138,26 +108,28 @@ def sound(
     from fmu_bearing.scene.exclusions import require
     from fmu_bearing.scene.surface_file import read_surface
 
-    with refusals():
+    with base.refusals():
         check_folder(output)  # refused before the run
-        check_new_in(force, output, *_FILES)
+        base.check_new_in(force, output, *_FILES)
         check_format(wav_format)
         if plot is not None:
-            check_new(force, check_picture(plot))
+            base.check_new(force, check_picture(plot))
         chosen = source_of(source, settings, fidelity)
         turning = (
-            shaft_speed(speed, chosen) if run_up is None else _ramp(run_up, source, speed, settle, duration)
+            base.shaft_speed(speed, chosen)
+            if run_up is None
+            else _ramp(run_up, source, speed, settle, duration)
         )
         rough = None if surface is None else read_surface(surface)
         places = _places(microphone, microphone_at)
-        files, code = Writing(), 0
+        files, code = base.Writing(), 0
         if source.suffix == ".npz":
             recording = Recording.load(source)
         elif source.suffix == ".csv":
             recording = Recording.from_fmu(source, scene, settle)
         else:
             if resolution is not None and resolution * duration < 1.0:
-                raise Refusal(
+                raise base.Refusal(
                     f"--resolution {resolution:g} Hz needs --duration {1.0 / resolution:g} s or more, "
                     f"not {duration:g} s"
                 )
@@ -165,7 +137,7 @@ def sound(
             found = found if rough is None else rough.scene(found)
             require(found, "measurement")
             named_places(found.microphones, places)
-            recording, code = so_far(partial(
+            recording, code = base.so_far(partial(
                 record, found, duration, speed=turning, settle=settle, radiation_model=radiation_model,
                 warn=False, keep=True,
             ))  # fmt: skip
@@ -177,7 +149,9 @@ def sound(
                     old.unlink()
             if code:
                 directivity = spread = False
-                tell(f"without directivity and range: `fmu-bearing sound {output / _RECORDING}` gives them")
+                base.tell(
+                    f"without directivity and range: `fmu-bearing sound {output / _RECORDING}` gives them"
+                )
         with work("sound at the microphones"):
             analysis = analyse_sound(recording, places, radiation_model, resolution)
             sources = [noise_at(recording, analysis, frequency) for frequency in at or ()]
@@ -185,7 +159,7 @@ def sound(
         try:
             with work("directivity, tables and pictures"), files:
                 files += write_all(
-                    recording, analysis, output, radiation_model, wav, directivity, tell, wav_format
+                    recording, analysis, output, radiation_model, wav, directivity, base.tell, wav_format
                 )
                 if plot is not None:
                     save(spectra_picture(recording, analysis), plot)
@@ -193,11 +167,13 @@ def sound(
             if spread:
                 sure = _spread(recording, places, radiation_model, rough, as_json)
         except KeyboardInterrupt:
-            tell("interrupted: these are the levels; missing: files that are not named below, their range")
-            code = INTERRUPTED
+            base.tell(
+                "interrupted: these are the levels; missing: files that are not named below, their range"
+            )
+            code = base.INTERRUPTED
         doubted = doubt_of(recording)
     if as_json:
-        print_json(
+        base.print_json(
             {"levels": analysis.summary(), "doubt": doubted, "files": files}
             | ({"at": [one.summary() for one in sources]} if sources else {})
             | ({"spread": sure.summary()} if sure else {})
@@ -212,13 +188,13 @@ def sound(
             for line in one.sentences():
                 typer.echo(f"{one.frequency:g} Hz: {line}")
         if doubted:
-            tell(f"{doubted}.")
+            base.tell(f"{doubted}.")
         if sure is not None:
             show("uncertainty of these levels", *sure.rows())
-            tell(sure.remark())
+            base.tell(sure.remark())
         if files:
-            tell(f"written: {output}: {', '.join(path.name for path in files)}")
-    end(code, files)
+            base.tell(f"written: {output}: {', '.join(path.name for path in files)}")
+    base.end(code, files)
 
 
 def _ramp(
@@ -226,10 +202,10 @@ def _ramp(
 ) -> "Callable[[float], float]":
     """Return the shaft's speed (rad/s) over time (s) of a run-up, which begins after the start-up."""
     if source.suffix in (".npz", ".csv"):
-        raise Refusal(f"--run-up is refused: {source.name} has a speed of its own; leave it out")
+        raise base.Refusal(f"--run-up is refused: {source.name} has a speed of its own; leave it out")
     if speed is not None:
-        raise Refusal("--run-up and --speed are refused together: give one of them")
-    low, high = span(text, source)
+        raise base.Refusal("--run-up and --speed are refused together: give one of them")
+    low, high = base.span(text, source)
     return lambda time: low + (high - low) * min(max(time - settle, 0.0) / duration, 1.0)
 
 
@@ -242,7 +218,7 @@ def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Positi
         try:
             x, y, z = (1e-3 * float(part) for part in text.split(","))
         except ValueError:
-            raise Refusal(
+            raise base.Refusal(
                 f"--microphone-at {text} is refused: write three numbers in mm, as 0,1000,0"
             ) from None
         found.append((x, y, z))
@@ -273,5 +249,5 @@ def _spread(
         return spread(recording, microphones, radiation_model=radiation_model, surface=surface, bar=bar)
     except ValueError as reason:
         if not quiet:
-            tell(f"no range of the levels: {reason}")
+            base.tell(f"no range of the levels: {reason}")
         return None

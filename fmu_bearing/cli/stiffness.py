@@ -7,19 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    so_far,
-    tell,
-)
+from fmu_bearing.cli import base
 from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
 from fmu_bearing.cli.settings import AXIS as _SYNTAX, changed, numbers
 from fmu_bearing.files import check_file
@@ -36,7 +24,7 @@ _COLUMNS = ("r/min", "N", "K axial", "K radial", "K tilt", "C axial", "C radial"
 _PERCENT = 100.0
 
 
-@app.command()
+@base.app.command()
 def stiffness(
     scene: SceneFile,
     speeds: Annotated[
@@ -76,53 +64,53 @@ def stiffness(
     from fmu_bearing.scene import read_scene
     from fmu_bearing.steady.stiffness.scene_stiffness import stiffness as table_of
 
-    with refusals():
+    with base.refusals():
         if mirrored and form != "ross":
-            raise Refusal("--mirrored is for --format ross: tables are in the bearing's own axes")
+            raise base.Refusal("--mirrored is for --format ross: tables are in the bearing's own axes")
         asked = {
             name: numbers(name, text)
             for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
         }
         given = read_scene(scene)
         for speed in asked["speeds"] or ():
-            shaft_speed(speed, given, "--speeds")
+            base.shaft_speed(speed, given, "--speeds")
         target = _target(form, output, asked)
         if plot is not None:
             check_picture(plot)
-        check_new(force, target, plot)
-        check_new_in(force, target.parent, f"{glob.escape(target.stem)}-[0-9]*{target.suffix}")
+        base.check_new(force, target, plot)
+        base.check_new_in(force, target.parent, f"{glob.escape(target.stem)}-[0-9]*{target.suffix}")
         chosen, inputs = changed(given, settings)
         if mirrored and chosen.assembly.joined:
-            raise Refusal(
+            raise base.Refusal(
                 "--mirrored is for one bearing: of a set the scene gives the direction of each bearing"
             )
-        found, code = so_far(partial(
+        found, code = base.so_far(partial(
             table_of, chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"],
             inputs=inputs, spacing=_spacing(spacing), track=partial(steps, what="stiffness", unit="speeds"),
         ))  # fmt: skip
-        with Writing() as files:
+        with base.Writing() as files:
             files += found.save(target) if form != "ross" else _elements(found, target, mirrored)
             if plot is not None:
                 save(found.picture(), plot)
                 files.append(plot)
     if as_json:
-        print_json(_document(found, form) | {"files": files})
-        return end(code, files)
+        base.print_json(_document(found, form) | {"files": files})
+        return base.end(code, files)
     if found.nose is not None:
         _show_nose(found.nose)
     _show(found)
     for one in found.bearings if form == "ross" else ():
         _show_planes(one)
     for line in found.cautions():
-        tell(f"caution: {line}")
+        base.tell(f"caution: {line}")
     if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(code, files)
+        base.tell(f"written: {', '.join(map(str, files))}")
+    base.end(code, files)
 
 
 def _spacing(text: str) -> "Spacing":
     if text not in ("held", "free"):
-        raise Refusal(f"--spacing {text} is refused: it is held or free")
+        raise base.Refusal(f"--spacing {text} is refused: it is held or free")
     return "free" if text == "free" else "held"
 
 
@@ -132,7 +120,7 @@ def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]
     from fmu_bearing.steady.stiffness.ross import check_axes
 
     if form not in _ENDINGS:
-        raise Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
+        raise base.Refusal(f"--format {form} is refused: it is {', '.join(_ENDINGS)}")
     target = output or Path(f"stiffness{_ENDINGS[form]}")
     check_file(target, _ENDINGS[form], f"--format {form}")
     if form != "ross":

@@ -7,37 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    named,
-    print_json,
-    refusals,
-    so_far,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    SEEDS,
-    Catalogues,
-    Fidelity,
-    Figures,
-    Folder,
-    Force,
-    Json,
-    Plot,
-    Quick,
-    RadiationModel,
-    SceneFile,
-    Seeds,
-    Settings,
-    Speed,
-    Workers,
-    settle as time_left_out,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.cli.several import Study, several
 from fmu_bearing.files import check_folder
@@ -50,13 +20,13 @@ if TYPE_CHECKING:
 _QUICK = 0.005
 
 
-@app.command()
+@base.app.command()
 def choose(
-    scene: SceneFile,
-    speed: Speed = None,
-    settings: Settings = None,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    scene: options.SceneFile,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Find the cheapest fidelity, method and step within the scene's accuracy; print all candidates.
 
@@ -67,36 +37,36 @@ def choose(
     from fmu_bearing.run import choose as choosing
     from fmu_bearing.scene import scene_of
 
-    with refusals(), work("short runs of all candidates"):
-        choice, code = so_far(
+    with base.refusals(), work("short runs of all candidates"):
+        choice, code = base.so_far(
             partial(choosing.chosen, scene_of(source_of(scene, at_speed(speed, settings, scene))))
         )
     summary = None if choice.chosen == choosing.NONE else choice.summary
     if as_json:
-        print_json({"chosen": summary, "candidates": named(choosing.COLUMNS, choice.cells())})
+        base.print_json({"chosen": summary, "candidates": base.named(choosing.COLUMNS, choice.cells())})
     else:
         where = " / ".join(choice.probed)
         show(f"{choice.scene}: errors against fidelity full at {where}", choosing.SHORT, choice.table())
         if summary is not None:
             typer.echo(summary)
-    end(code)
+    base.end(code)
 
 
-@app.command()
+@base.app.command()
 def tradeoff(
-    scene: SceneFile,
+    scene: options.SceneFile,
     settle: Annotated[
         float | None,
-        time_left_out("; default 0.05, the reference takes most of the time; 0.005 with --quick"),
+        options.settle("; default 0.05, the reference takes most of the time; 0.005 with --quick"),
     ] = None,
-    speed: Speed = None,
-    settings: Settings = None,
-    quick: Quick = False,
-    plot: Plot = None,
-    output: Folder = Path("out/tradeoff"),
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    quick: options.Quick = False,
+    plot: options.Plot = None,
+    output: options.Folder = Path("out/tradeoff"),
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Measure error and speed of fidelities, methods, steps, strips and terms; write table and chart.
 
@@ -109,37 +79,37 @@ def tradeoff(
     from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.results.table import show
 
-    with refusals():
+    with base.refusals():
         # refused before minutes of measuring
         need("matplotlib", "the chart")
         check_folder(output)
         chart = check_picture(plot or output / "tradeoff.png")
-        check_new(force, chart)
-        check_new_in(force, output, "tradeoff.md", "tradeoff.csv")
+        base.check_new(force, chart)
+        base.check_new_in(force, output, "tradeoff.md", "tradeoff.csv")
         source = source_of(scene, at_speed(speed, settings, scene))
         times: dict[str, float] = {"warm_up": _QUICK, "window": _QUICK, "budget": 0.01} if quick else {}
         times |= {} if settle is None else {"warm_up": settle}
         with work(f"tradeoff of {scene.stem}"):
-            study, code = so_far(partial(
+            study, code = base.so_far(partial(
                 trading.tradeoff, source, trading.QUICK if quick else trading.SETTINGS,
                 track=partial(steps, what="variants"), **times,
             ))  # fmt: skip
-        with Writing() as files:
+        with base.Writing() as files:
             files += study.write(output)
             draw(study, chart)
             files.append(chart)
     if as_json:
-        print_json({"settings": named(*study.table()), "files": files})
+        base.print_json({"settings": base.named(*study.table()), "files": files})
     else:
         show(f"{study.scene}: accuracy and cost", *study.table())
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
-    end(code, files)
+    base.end(code, files)
 
 
-@app.command()
+@base.app.command()
 def sensitivity(
-    scene: SceneFile,
+    scene: options.SceneFile,
     method: Annotated[
         str | None,
         typer.Option(
@@ -166,10 +136,10 @@ def sensitivity(
             "of two, default 64.",
         ),
     ] = None,
-    variables: Figures = None,
+    variables: options.Figures = None,
     settle: Annotated[
         float | None,
-        time_left_out("; default 0.03, for some fifty short runs, 0.02 with --method; 0.005 with --quick"),
+        options.settle("; default 0.03, for some fifty short runs, 0.02 with --method; 0.005 with --quick"),
     ] = None,
     window: Annotated[
         float | None,
@@ -179,15 +149,15 @@ def sensitivity(
             help="Time over which figures are read, s; default 0.06, 0.1 with --method; 0.005 with --quick.",
         ),
     ] = None,
-    workers: Workers = None,
-    speed: Speed = None,
-    settings: Settings = None,
-    quick: Quick = False,
-    plot: Plot = None,
-    output: Folder = Path("out/sensitivity"),
-    force: Force = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    workers: options.Workers = None,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    quick: options.Quick = False,
+    plot: options.Plot = None,
+    output: options.Folder = Path("out/sensitivity"),
+    force: options.Force = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Change every assumed value of a scene, one at a time, or some of any kind at once; print the effect.
 
@@ -199,7 +169,7 @@ def sensitivity(
     times: dict[str, float] = {"settle": _QUICK, "window": _QUICK} if quick else {}
     given = {"settle": settle, "window": window}
     times |= {name: value for name, value in given.items() if value is not None}
-    with refusals():
+    with base.refusals():
         check_folder(output)  # refused before minutes of measuring
         source = partial(source_of, scene, at_speed(speed, settings, scene))
         if method is None:
@@ -209,8 +179,8 @@ def sensitivity(
             }  # fmt: skip
             for name, value in of_several.items():
                 if value is not None:
-                    raise Refusal(f"{name} needs --method morris or --method sobol")
-            check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
+                    raise base.Refusal(f"{name} needs --method morris or --method sobol")
+            base.check_new_in(force, output, "sensitivity.md", "sensitivity.csv")
             _each_alone(source(), scene.stem, times, quick, output, as_json)
         else:
             study = Study(
@@ -229,33 +199,33 @@ def _each_alone(
     keys = moving.QUICK if quick else tuple(moving.ASSUMED)
     spans = {"warm_up" if one == "settle" else one: value for one, value in times.items()}
     with work(f"sensitivity of {name}"):
-        study, code = so_far(
+        study, code = base.so_far(
             partial(moving.sensitivity, source, keys, track=partial(steps, what="moves"), **spans)
         )
-    with Writing() as files:
+    with base.Writing() as files:
         files += study.write(output)
     if as_json:
-        print_json({"moves": named(*study.table()), "files": files})
+        base.print_json({"moves": base.named(*study.table()), "files": files})
     else:
         show(f"{study.scene}: what rests on assumed values", *study.table())
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
-    end(code, files)
+    base.end(code, files)
 
 
-@app.command()
+@base.app.command()
 def changes(
-    scene: SceneFile,
-    seeds: Seeds = SEEDS,
+    scene: options.SceneFile,
+    seeds: options.Seeds = options.SEEDS,
     levels: Annotated[
         bool, typer.Option("--levels/--no-levels", help="Levels take nearly all of the time.")
     ] = True,
-    speed: Speed = None,
-    settings: Settings = None,
-    fidelity: Fidelity = None,
-    radiation_model: RadiationModel = None,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    speed: options.Speed = None,
+    settings: options.Settings = None,
+    fidelity: options.Fidelity = None,
+    radiation_model: options.RadiationModel = None,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Change one choice of a designer at a time; rank the effects on level, life and friction torque.
 
@@ -265,16 +235,16 @@ def changes(
     from fmu_bearing.accuracy.changes import changes as changing
     from fmu_bearing.results.table import show
 
-    with refusals(), work(f"changes of {scene.stem}"):
+    with base.refusals(), work(f"changes of {scene.stem}"):
         source = source_of(scene, at_speed(speed, settings, scene), fidelity)
-        found, code = so_far(partial(
-            changing, source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=tell
+        found, code = base.so_far(partial(
+            changing, source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=base.tell
         ))  # fmt: skip
     if as_json:
-        print_json(found.summary())
-        return end(code)
+        base.print_json(found.summary())
+        return base.end(code)
     show(f"{found.scene.name}: what to change", *found.table())
     for line in (f"unchanged: {found.unchanged()}", found.resonance(), found.conditions(), *found.remarks()):
         if line:
             typer.echo(textwrap.fill(line, 80))
-    end(code)
+    base.end(code)

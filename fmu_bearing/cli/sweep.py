@@ -5,30 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fmu_bearing.cli.base import (
-    ENDED_EARLY,
-    INTERRUPTED,
-    Writing,
-    app,
-    check_new,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    tell,
-)
-from fmu_bearing.cli.options import (
-    Catalogues,
-    Fidelity,
-    Figures,
-    Folder,
-    Force,
-    Json,
-    Plot,
-    Settings,
-    Workers,
-    settle as time_left_out,
-)
+from fmu_bearing.cli import base, options
 from fmu_bearing.cli.runs import split
 from fmu_bearing.cli.settings import source_of
 from fmu_bearing.files import check_folder
@@ -49,7 +26,7 @@ AxisTexts = Annotated[
         "(mounting.preload_N) or speed, preload, pedestal, viscosity, seed, fidelity. Once per axis.",
     ),
 ]
-Settle = Annotated[float | None, time_left_out("; default 0.02, or the sweep file's: a map has many points")]
+Settle = Annotated[float | None, options.settle("; default 0.02, or the sweep file's: a map has many points")]
 Window = Annotated[float | None, typer.Option(help="Time over which it is read, s; default 0.1.")]
 Scheduler = Annotated[
     str | None,
@@ -60,23 +37,23 @@ DryRun = Annotated[
 ]
 
 
-@app.command()
+@base.app.command()
 def sweep(
     source: Source,
     axis: AxisTexts = None,
-    variables: Figures = None,
+    variables: options.Figures = None,
     settle: Settle = None,
     window: Window = None,
-    workers: Workers = None,
+    workers: options.Workers = None,
     scheduler: Scheduler = None,
-    settings: Settings = None,
-    fidelity: Fidelity = None,
-    plot: Plot = None,
-    output: Folder = Path("out/sweep"),
-    force: Force = False,
+    settings: options.Settings = None,
+    fidelity: options.Fidelity = None,
+    plot: options.Plot = None,
+    output: options.Folder = Path("out/sweep"),
+    force: options.Force = False,
     dry_run: DryRun = False,
-    catalogue: Catalogues = None,
-    as_json: Json = False,
+    catalogue: options.Catalogues = None,
+    as_json: options.Json = False,
 ) -> None:
     """Run a scene over all combinations of some of its values; write netCDF, CSV, a picture.
 
@@ -88,19 +65,19 @@ def sweep(
     from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.sweeps.cluster import checked
 
-    with refusals():
+    with base.refusals():
         need("xarray", "a sweep")
         need("h5netcdf", "netCDF")
         if scheduler is not None:  # refused before a file is written
             checked(scheduler)
         check_folder(output)
         if plot is not None:
-            check_new(force, check_picture(plot))
+            base.check_new(force, check_picture(plot))
         made, text = _plan(source, axis, variables, settle, window, settings, fidelity)
         if not dry_run:
             _keep_plan(made, text, output, force)
         if made.note:
-            tell(made.note)
+            base.tell(made.note)
         if dry_run:
             _estimate(made, output, workers, as_json)
         else:
@@ -141,7 +118,7 @@ def _keep_plan(made: "Plan", text: str, folder: Path, force: bool) -> None:
     """Write the scene and a file that repeats the sweep; refuse to replace those of another sweep."""
     texts = {folder / "scene.toml": made.scene.to_toml(), folder / "sweep.toml": text}
     if not all(path.is_file() and path.read_text("utf-8") == new for path, new in texts.items()):
-        check_new_in(force, folder, "scene.toml", "sweep.*")
+        base.check_new_in(force, folder, "scene.toml", "sweep.*")
     folder.mkdir(parents=True, exist_ok=True)
     for path, new in texts.items():
         path.write_text(new, "utf-8")
@@ -157,15 +134,17 @@ def _run(
     try:
         outcomes = run_plan(made, store, workers, scheduler)
     except Stopped as stop:
-        outcomes, code = stop.found, INTERRUPTED
+        outcomes, code = stop.found, base.INTERRUPTED
         again = f"fmu-bearing sweep {output / 'sweep.toml'} -o {output}"
-        tell(f"interrupted: what is finished is kept; `{again}` runs the {stop.missing} that are left")
+        base.tell(f"interrupted: what is finished is kept; `{again}` runs the {stop.missing} that are left")
     if any(not outcome.lasting for outcome in outcomes.values()):
-        code = code or ENDED_EARLY
-    end(code, _write(made, outcomes, output, plot, as_json))
+        code = code or base.ENDED_EARLY
+    base.end(code, _write(made, outcomes, output, plot, as_json))
 
 
-def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, as_json: bool) -> Writing:
+def _write(
+    made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, as_json: bool
+) -> base.Writing:
     """Write the results so far and print a summary; return what was written."""
     from fmu_bearing.extras import available
     from fmu_bearing.results.table import show
@@ -175,12 +154,12 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, 
 
     data = dataset(made, outcomes)
     files: dict[str, Path] = {}
-    with Writing() as written:
+    with base.Writing() as written:
         files |= save(data, output)
     drawable = outcomes and sum(size > 1 for size in made.shape) in (1, 2)
     if plot is not None and not drawable:
-        tell(f"no {plot}: one or two axes with two values or more can be drawn")
-    if drawable and available("matplotlib", "a picture", "sweep.png", tell):
+        base.tell(f"no {plot}: one or two axes with two values or more can be drawn")
+    if drawable and available("matplotlib", "a picture", "sweep.png", base.tell):
         picture = plot or output / "sweep.png"
         asked = made.figures != figures_of(made.scene, None)
         drawn = [figure.name for figure in made.figures][:MOST] if asked else None
@@ -190,7 +169,7 @@ def _write(made: "Plan", outcomes: "Outcomes", output: Path, plot: Path | None, 
     bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}
     found = extremes(data)
     if as_json:
-        print_json(
+        base.print_json(
             {
                 "scene": made.scene.name,
                 "points": len(made.tasks),
@@ -230,7 +209,7 @@ def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) ->
         "first_s": first.wall, "workers": crew, "estimate_s": seconds, "reason": second.reason,
     }  # fmt: skip
     if as_json:
-        print_json(result)
+        base.print_json(result)
         return
     typer.echo(
         f"{len(made.tasks)} points, {kept} kept; one took {second.wall:.3g} s "

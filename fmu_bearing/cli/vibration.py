@@ -7,19 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fmu_bearing.cli import inverse
-from fmu_bearing.cli.base import (
-    Refusal,
-    Writing,
-    app,
-    check_new_in,
-    end,
-    print_json,
-    refusals,
-    shaft_speed,
-    so_far,
-    tell,
-)
+from fmu_bearing.cli import base, inverse
 from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Settings
 from fmu_bearing.cli.settings import scene_with
 from fmu_bearing.files import check_folder
@@ -30,7 +18,7 @@ SEEDS = 8  # draws of the surfaces
 _SHOWN = 4  # lines of a band
 
 
-@app.command()
+@base.app.command()
 def vibration(
     source: Annotated[
         str,
@@ -98,32 +86,32 @@ def vibration(
     from fmu_bearing.vibration_test.vibration import vibration as test
 
     asked = inverse.Asked(measured, line or (), std, at_most, exact_law)
-    with refusals():
+    with base.refusals():
         known = {str(one): one for one in UNITS}
         if unit not in known:
-            raise Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
+            raise base.Refusal(f"--unit {unit} is refused: it is {' or '.join(UNITS)}")
         _check_rig(settings)
         asked.refuse_alone()
         bearing = scene_with(subject(source, kind, grade), settings, fidelity)
-        shaft_speed(speed, bearing)
+        base.shaft_speed(speed, bearing)
         if measured is not None:
             inverse.unused({"--limits": limits, "--rigid": rigid, "--seeds": seeds != SEEDS})
             inverse.find(bearing, asked, output, force, known[unit], speed, load, as_json)
             return
         check_folder(output)
-        check_new_in(force, output, *FILES)
+        base.check_new_in(force, output, *FILES)
         need("matplotlib", "a picture")
         allowed = None if limits is None else _limits(limits)
-        found, code = so_far(partial(
+        found, code = base.so_far(partial(
             test, bearing, seeds, rigid=rigid,
             speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
             bar=partial(steps, what="vibration test", unit="runs"),
         ))  # fmt: skip
-        with Writing() as files:
+        with base.Writing() as files:
             files += found.save(output, known[unit])
     if as_json:
-        print_json(found.summary() | {"files": files})
-        return end(code, files)
+        base.print_json(found.summary() | {"files": files})
+        return base.end(code, files)
     at = found.scene.operation.speed_rpm
     heading = f"{found.scene.name}: vibration test, {at:g} r/min, {found.scene.mounted.preload_N:g} N"
     show(heading, *found.table(known[unit]))
@@ -131,8 +119,8 @@ def vibration(
     for remark in found.remarks:
         typer.echo(remark)
     if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(code, files)
+        base.tell(f"written: {', '.join(map(str, files))}")
+    base.end(code, files)
 
 
 def _check_rig(settings: Sequence[str] | None) -> None:
@@ -140,7 +128,7 @@ def _check_rig(settings: Sequence[str] | None) -> None:
     for one in settings or ():
         key = one.partition("=")[0].strip()
         if key.startswith(("mounting.", "operation.")):
-            raise Refusal(
+            raise base.Refusal(
                 f"--set {one} is refused: mounting, speed and temperatures are the rig's here; give --speed "
                 "and --load for its speed and axial load"
             )
@@ -151,4 +139,4 @@ def _limits(text: str) -> list[float]:
     try:
         return [float(one) for one in text.split(",")]
     except ValueError:
-        raise Refusal(f"--limits {text} is refused: write three numbers, as 52,18,18") from None
+        raise base.Refusal(f"--limits {text} is refused: write three numbers, as 52,18,18") from None

@@ -145,9 +145,7 @@ def _geometry(scene: Scene) -> Iterator[Alternative]:
         for step in (-_CONFORMITY, _CONFORMITY):
             changed = round(now + step, 6)
             yield Alternative(
-                "conformity",
-                f"{race} groove {now:g} -> {changed:g}",
-                {f"bearing.{race}_conformity": changed},
+                "conformity", f"{race} groove {now:g} -> {changed:g}", {f"bearing.{race}_conformity": changed}
             )
     angle = scene.bearing.contact_angle_deg
     near = [one for one in _ANGLES if abs(one - angle) <= _NEAR]

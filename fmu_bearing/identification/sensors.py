@@ -14,11 +14,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.field import Position, Transfer
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
-from fmu_bearing.acoustics.filters.weighting import (
-    REFERENCE_PRESSURE,
-    a_weighting_db,
-    band_sections,
-)
+from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE, a_weighting_db, band_sections
 from fmu_bearing.acoustics.radiation.frequencies import STOP
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.identification.data import VELOCITY_REFERENCE, Datum

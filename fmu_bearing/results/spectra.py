@@ -9,14 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
-from fmu_bearing.results.picture_parts import (
-    coincident,
-    empty,
-    label,
-    legend_beside,
-    mark_excitation,
-    series,
-)
+from fmu_bearing.results.picture_parts import coincident, empty, label, legend_beside, mark_excitation, series
 from fmu_bearing.results.table import html_table, number
 
 if TYPE_CHECKING:

@@ -11,15 +11,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import UnknownName, chosen_names
 from fmu_bearing.results.levels import present
-from fmu_bearing.results.picture_parts import (
-    coincident,
-    empty,
-    label,
-    legend_beside,
-    marked,
-    save,
-    series,
-)
+from fmu_bearing.results.picture_parts import coincident, empty, label, legend_beside, marked, save, series
 from fmu_bearing.results.series import Series
 from fmu_bearing.results.variable_names import unit_of
 

@@ -17,12 +17,7 @@ from fmu_bearing.results.series import structured
 from fmu_bearing.scene.units import split_unit, symbol
 
 #: Suffixes of column names by the SI unit of the input: other units than the input's own.
-SUFFIXES = {
-    "rad/s": ("_rpm",),
-    "K": ("_degC", "_K"),
-    "N": ("_N",),
-    "N/m": ("_N_m",),
-}
+SUFFIXES = {"rad/s": ("_rpm",), "K": ("_degC", "_K"), "N": ("_N",), "N/m": ("_N_m",)}
 
 
 class Bounded(Protocol):

@@ -23,20 +23,14 @@ class Cage(Part):
     width_mm: float = Field(ge=0.5, le=300, examples=[9.1], description="Width of the cage, mm.")
     pocket_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.6], description="Diameter of a pocket, mm.")
     land_clearance_mm: float | None = Field(
-        default=None,
-        ge=0.005,
-        le=2,
-        examples=[0.04],
+        default=None, ge=0.005, le=2, examples=[0.04],
         description="Radial clearance between cage bore and lands; absent: what the bore leaves above the "
         "inner ring's shoulders, mm.",
-    )
+    )  # fmt: skip
     mass_eccentricity_um: float = Field(
-        default=5.0,
-        ge=0,
-        le=1000,
-        examples=[5.0],
+        default=5.0, ge=0, le=1000, examples=[5.0],
         description="Distance of the cage's centre of mass from its middle (default assumed), um.",
-    )
+    )  # fmt: skip
     pocket_damping_N_s_m: float = Field(
         ge=0, le=10, examples=[0.02], description="Damping by the film in a pocket; 0: none, N s/m."
     )
@@ -85,17 +79,13 @@ class Bearing(Part):
         ge=0.505, le=0.6, examples=[0.52], description="Groove radius of the outer race over ball diameter."
     )
     inner_ring_outer_diameter_mm: float = Field(
-        ge=1,
-        le=1500,
-        examples=[22.6],
+        ge=1, le=1500, examples=[22.6],
         description="Effective outer diameter of the inner ring, for its mass, mm.",
-    )
+    )  # fmt: skip
     outer_ring_inner_diameter_mm: float = Field(
-        ge=1,
-        le=2000,
-        examples=[29.6],
+        ge=1, le=2000, examples=[29.6],
         description="Effective inner diameter of the outer ring, for its mass, mm.",
-    )
+    )  # fmt: skip
     contact_damping_us: float = Field(
         ge=0, le=25, examples=[0.5], description="Contact damping over contact stiffness; 0: none, us."
     )

@@ -23,12 +23,7 @@ class Conformities(NamedTuple):
 
 
 def conformity_from_stiffness(
-    scene: SceneSource,
-    stiffness_N_um: float,
-    preload_N: float,
-    *,
-    of: str = "pair",
-    offset: float = 0.0,
+    scene: SceneSource, stiffness_N_um: float, preload_N: float, *, of: str = "pair", offset: float = 0.0
 ) -> Conformities:
     """Return the conformities with which a scene's bearing has the axial stiffness that its maker prints.
 

@@ -233,10 +233,7 @@ EXCLUSIONS = (
     ),
     Exclusion(
         _PORT,
-        {
-            "statics": "statics (operating points, static stiffness)",
-            "report": "a report",
-        },
+        {"statics": "statics (operating points, static stiffness)", "report": "a report"},
         "another model owns the shaft, and where it rests is not known here",
         f"{_OWN_SHAFT}, or read the forces of a run (`simulate`)",
     ),

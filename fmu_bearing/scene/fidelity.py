@@ -37,11 +37,10 @@ class Terms(Part):
         examples=[True],
     )
     thermal_traction: bool = Field(
-        default=False,
+        default=False, examples=[False],
         description="Traction that falls as friction heats the oil it shears: 0.5 to 5 % less heat; runs of "
         "fidelity full take 2 to 4 times as long.",
-        examples=[False],
-    )
+    )  # fmt: skip
     contact_damping: bool = Field(
         default=True, description="Damping in the contacts of balls and races.", examples=[True]
     )
@@ -60,30 +59,23 @@ class Accuracy(Part):
     """Largest differences of fidelity ``auto`` from ``full``."""
 
     level_dB: float = Field(
-        default=1.0,
-        ge=0.01,
-        le=40,
-        examples=[1.0],
+        default=1.0, ge=0.01, le=40, examples=[1.0],
         description="Difference allowed in levels of vibration and sound, dB.",
-    )
+    )  # fmt: skip
     relative: float = Field(
-        default=0.1,
-        ge=1e-3,
-        le=1,
-        examples=[0.1],
+        default=0.1, ge=1e-3, le=1, examples=[0.1],
         description="Relative difference allowed in loads and friction torque.",
-    )
+    )  # fmt: skip
 
 
 class Fidelity(Part):
     """Physics, integrator, error bounds and detail."""
 
     model: Literal[choices.Fidelity, "auto"] = Field(
-        default="full",
+        default="full", examples=["full"],
         description="Physics: all bodies, the rings alone, the linear response, or the fastest "
         "within the accuracy.",
-        examples=["full"],
-    )
+    )  # fmt: skip
     method: choices.Method = Field(
         default="esdirk4", description="Integrator of fidelity full.", examples=["esdirk4"]
     )
@@ -96,12 +88,9 @@ class Fidelity(Part):
         examples=["shared"],
     )
     tolerance: float = Field(
-        default=2e-3,
-        ge=1e-6,
-        le=0.1,
-        examples=[2e-3],
+        default=2e-3, ge=1e-6, le=0.1, examples=[2e-3],
         description="Relative error allowed in ring velocities.",
-    )
+    )  # fmt: skip
     max_internal_step_us: float = Field(
         default=25.0, ge=0.1, le=100, examples=[25.0], description="Largest internal step of the solver, us."
     )

@@ -189,8 +189,7 @@ def _housing(tables: Tables, seat: HousingFit, where: str) -> Iterator[Conflict]
     elif outside <= limit:
         own = seat.outside_diameter_mm is not None
         yield Conflict(
-            key if own else body,
-            f"must exceed the seat's diameter bearing.outside_diameter_mm = {limit:g}",
+            key if own else body, f"must exceed the seat's diameter bearing.outside_diameter_mm = {limit:g}"
         )
 
 

@@ -44,12 +44,9 @@ class Imperfections(Part):
     """
 
     seed: int = Field(
-        default=1,
-        ge=0,
-        le=_SEEDS - 1,
-        examples=[1],
+        default=1, ge=0, le=_SEEDS - 1, examples=[1],
         description="Seed from which phases and ball sizes are drawn (absent: 1).",
-    )
+    )  # fmt: skip
     unbalance_um: float = Field(
         ge=0, le=100, examples=[0.5], description="Eccentricity of the rotating mass, um."
     )
@@ -57,55 +54,34 @@ class Imperfections(Part):
         ge=0, le=5000, examples=[50.0], description="Half the range of ball diameters, nm."
     )
     inner_race_amplitude_um: float | None = Field(
-        default=None,
-        ge=0,
-        le=20,
-        examples=[0.3],
+        default=None, ge=0, le=20, examples=[0.3],
         description="Waviness of the inner race: amplitude A_1 of order 1 in A_n = A_1 n^-p W(n), um.",
-    )
+    )  # fmt: skip
     outer_race_amplitude_um: float | None = Field(
-        default=None,
-        ge=0,
-        le=20,
-        examples=[0.3],
+        default=None, ge=0, le=20, examples=[0.3],
         description="Waviness of the outer race: amplitude A_1 of order 1 in A_n = A_1 n^-p W(n), um.",
-    )
+    )  # fmt: skip
     waviness_exponent: float | None = Field(
-        default=None,
-        ge=0,
-        le=4,
-        examples=[1.35],
+        default=None, ge=0, le=4, examples=[1.35],
         description="Exponent p of the law A_n = A_1 n^-p W(n) for races and balls; 0: all orders equal.",
-    )
+    )  # fmt: skip
     order_scatter_seed: int | None = Field(
-        default=None,
-        ge=0,
-        le=_SEEDS - 1,
-        examples=[1],
+        default=None, ge=0, le=_SEEDS - 1, examples=[1],
         description="Seed from which each order's energy is drawn about the law of a race, by an exponential "
         "distribution; absent: each order has the law's amplitude.",
-    )
+    )  # fmt: skip
     lowest_order: int = Field(
-        default=2,
-        ge=1,
-        le=HIGHEST_ORDER,
-        examples=[2],
+        default=2, ge=1, le=HIGHEST_ORDER, examples=[2],
         description="Lowest order of waviness, waves per turn.",
-    )
+    )  # fmt: skip
     highest_order: int | None = Field(
-        default=None,
-        ge=1,
-        le=HIGHEST_ORDER,
-        examples=[60],
+        default=None, ge=1, le=HIGHEST_ORDER, examples=[60],
         description="Highest order of the races' waviness; absent: by highest_frequency_kHz, waves per turn.",
-    )
+    )  # fmt: skip
     highest_frequency_kHz: float = Field(
-        default=10.0,
-        ge=0.1,
-        le=100,
-        examples=[10.0],
+        default=10.0, ge=0.1, le=100, examples=[10.0],
         description="Frequency up to which waves of races and balls excite the bearing at its speed, kHz.",
-    )
+    )  # fmt: skip
     contact_filter: bool = Field(
         default=True,
         examples=[True],
@@ -119,26 +95,17 @@ class Imperfections(Part):
         default=(), max_length=_HARMONICS, strict=False, description="Harmonics of the outer race."
     )
     ball_form_nm: float = Field(
-        default=0.0,
-        ge=0,
-        le=5000,
-        examples=[80.0],
+        default=0.0, ge=0, le=5000, examples=[80.0],
         description="Deviation of the balls from spherical form, peak to valley; 0: round balls, nm.",
-    )
+    )  # fmt: skip
     ball_waviness_nm: float = Field(
-        default=0.0,
-        ge=0,
-        le=5000,
-        examples=[20.0],
+        default=0.0, ge=0, le=5000, examples=[20.0],
         description="Amplitude of one order of the balls' waviness beside that of ball_form_nm; 0: none, nm.",
-    )
+    )  # fmt: skip
     ball_waviness_order: int = Field(
-        default=2,
-        ge=1,
-        le=8,
-        examples=[2],
+        default=2, ge=1, le=8, examples=[2],
         description="Order of ball_waviness_nm, a zonal harmonic about one axis fixed in each ball.",
-    )
+    )  # fmt: skip
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield waviness that is incomplete or given twice, and orders in the wrong sequence."""
@@ -200,8 +167,7 @@ class Imperfections(Part):
         both_explicit = all((self.inner_race_harmonic, self.outer_race_harmonic))
         if self.order_scatter_seed is not None and both_explicit:
             yield Conflict(
-                "order_scatter_seed",
-                "has no meaning where both races have explicit harmonics: leave it out",
+                "order_scatter_seed", "has no meaning where both races have explicit harmonics: leave it out"
             )
         if self.highest_order is not None:
             if both_explicit:

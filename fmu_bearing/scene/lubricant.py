@@ -49,104 +49,76 @@ class Lubricant(Part):
         description="How viscosity falls with temperature: Vogel's law or Walther's (ASTM D341).",
     )
     vogel_B_K: float = Field(
-        ge=0,
-        le=3000,
-        examples=[879.0],
+        ge=0, le=3000, examples=[879.0],
         description="Constant B of Vogel's viscosity exp(B/(T - C)); 0: the same at any temperature, K.",
-    )
+    )  # fmt: skip
     vogel_C_K: float = Field(
         ge=50, le=220, examples=[178.0], description="Constant C of Vogel's viscosity exp(B/(T - C)), K."
     )
     # Assumed: a mineral oil of viscosity index about 100.
     walther_slope: float = Field(
-        default=3.7,
-        ge=0,
-        le=8,
-        examples=[3.7],
+        default=3.7, ge=0, le=8, examples=[3.7],
         description="Slope B of Walther's lg lg(v + 0.7) = A - B lg T, v in mm2/s; 0: the same viscosity at "
         "any temperature.",
-    )
+    )  # fmt: skip
     traction_law: TractionLaw = Field(
-        default="regularised",
-        examples=["regularised"],
+        default="regularised", examples=["regularised"],
         description="Traction: regularised Coulomb friction, Eyring's law with Roelands' viscosity, or the "
         "papers' viscosity times speed over film, which alone drives no cage.",
-    )
+    )  # fmt: skip
     # Assumed: the papers name no oil.
     eyring_stress_MPa: float = Field(
         default=5.0, ge=0.1, le=100, examples=[5.0], description="Shear stress of Eyring's law, MPa."
     )
     base_oil: BaseOil = Field(
-        default="mineral",
-        examples=["synthetic"],
-        description="Kind of oil, which limits traction.",
+        default="mineral", examples=["synthetic"], description="Kind of oil, which limits traction."
     )
     traction_max: float | None = Field(
-        default=None,
-        ge=0,
-        le=0.5,
-        examples=[0.05],
+        default=None, ge=0, le=0.5, examples=[0.05],
         description="Largest traction over the contact's load, in every law; 0: no traction (absent: 0.05 of "
         "mineral oil, 0.04 of synthetic oil, 0.1 of traction fluid).",
-    )
+    )  # fmt: skip
     traction_slide_to_roll: float = Field(
         ge=1e-4, le=0.5, examples=[0.005], description="Slide-to-roll ratio at which traction saturates."
     )
     traction_floor_m_s: float = Field(
-        ge=1e-4,
-        le=1,
-        examples=[1e-3],
+        ge=1e-4, le=1, examples=[1e-3],
         description="Least sliding speed at which traction saturates, however slow the rolling, m/s.",
-    )
+    )  # fmt: skip
     land_viscosity_Pa_s: float | None = Field(
-        default=None,
-        ge=0,
-        le=2,
-        examples=[0.006],
+        default=None, ge=0, le=2, examples=[0.006],
         description="Effective viscosity between cage and lands (absent: 0.006 with oil-air or grease; with "
         "jet or bath that of the oil at its temperature, heated by its own shear), Pa s.",
-    )
+    )  # fmt: skip
     conductivity_W_mK: float = Field(
-        default=0.14,
-        ge=0.01,
-        le=2,
-        examples=[0.14],
-        description="Thermal conductivity of the oil, W/(m K).",
-    )
+        default=0.14, ge=0.01, le=2, examples=[0.14], description="Thermal conductivity of the oil, W/(m K).",
+    )  # fmt: skip
     supply: Supply = Field(
-        default="oil-air",
-        examples=["jet"],
+        default="oil-air", examples=["jet"],
         description="How oil comes to the contacts; gives the law of rolling resistance and the "
         "replenishment constant.",
-    )
+    )  # fmt: skip
     rolling_law: RollingLaw | None = Field(
-        default=None,
-        examples=["starved"],
+        default=None, examples=["starved"],
         description="Law of rolling resistance: Houpert's EHL force of 1987 alone, his forces with the "
         "change to rigid surfaces, or those of a flooded inlet (absent: starved with oil-air or grease, "
         "flooded with jet or bath).",
-    )
+    )  # fmt: skip
     replenishment_constant: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e-6,
-        examples=[6e-8],
+        default=None, ge=0, le=1e-6, examples=[6e-8],
         description="Replenishment constant K_rs of SKF's friction model; 0: no starvation (absent: 6e-8 "
         "with oil-air or grease, 3e-8 with jet or bath).",
-    )
+    )  # fmt: skip
     replenishment_held: bool = Field(
-        default=True,
-        examples=[True],
+        default=True, examples=[True],
         description="Starvation in cold oil no further than to the largest rolling resistance; false: the "
         "resistance falls again as the oil gets thicker.",
-    )
+    )  # fmt: skip
     oil_air_density_kg_m3: float = Field(
-        ge=0,
-        le=1000,
-        examples=[5.0],
+        ge=0, le=1000, examples=[5.0],
         description="Density of the oil-air mixture around the balls; with grease no more than that of air, "
         "1.2 counts, kg/m3.",
-    )
+    )  # fmt: skip
     drag_coefficient: float = Field(
         ge=0, le=5, examples=[0.5], description="Drag coefficient of a ball in that mixture."
     )

@@ -24,43 +24,28 @@ class Material(Part):
         ge=0, le=200, description="Linear thermal expansion from 20 degC, 1e-6/K.", examples=[11.8]
     )
     bending_strength_MPa: float | None = Field(
-        default=None,
-        ge=1,
-        le=10000,
-        examples=[900.0],
+        default=None, ge=1, le=10000, examples=[900.0],
         description="Mean bending strength of bars of 3 x 4 x 30 mm in three points, for the chance that a "
         "ceramic ring breaks (absent: not judged), MPa.",
-    )
+    )  # fmt: skip
     weibull_modulus: float | None = Field(
-        default=None,
-        ge=1,
-        le=100,
-        examples=[12.0],
+        default=None, ge=1, le=100, examples=[12.0],
         description="Weibull modulus of the strength: the larger, the less it scatters (absent: not judged).",
-    )
+    )  # fmt: skip
     hysteresis_loss: float | None = Field(
-        default=None,
-        ge=0,
-        le=1,
-        examples=[0.021],
+        default=None, ge=0, le=1, examples=[0.021],
         description="Share of the elastic work of a rolling contact that the material does not give back "
         "(absent: 0.021 for steel, 0 for others).",
-    )
+    )  # fmt: skip
 
     conductivity_W_mK: float | None = Field(
-        default=None,
-        ge=0.01,
-        le=1000,
-        examples=[46.0],
+        default=None, ge=0.01, le=1000, examples=[46.0],
         description="Thermal conductivity (needed by thermal traction alone), W/(m K).",
-    )
+    )  # fmt: skip
     specific_heat_J_kgK: float | None = Field(
-        default=None,
-        ge=1,
-        le=10000,
-        examples=[460.0],
+        default=None, ge=1, le=10000, examples=[460.0],
         description="Specific heat capacity (needed by thermal traction alone), J/(kg K).",
-    )
+    )  # fmt: skip
 
     @property
     def loss(self) -> float:

@@ -38,11 +38,9 @@ class Housing(Part):
     )
     length_mm: float = Field(ge=1, le=5000, examples=[160.0], description="Length of the housing, mm.")
     front_face_mm: float = Field(
-        ge=-500,
-        le=500,
-        examples=[15.5],
+        ge=-500, le=500, examples=[15.5],
         description="Distance of its front face ahead (-X) of the bearing's end face, mm.",
-    )
+    )  # fmt: skip
 
 
 #: Lowest and highest circumferential order of a flexural mode; 0 and 1 are no bending of a free ring.
@@ -59,40 +57,25 @@ class Flexure(Part):
 
     # A file's array arrives as a list: the one conversion that strictness may let pass.
     outer_ring: tuple[Order, ...] = Field(
-        default=(),
-        max_length=_MOST,
-        strict=False,
-        examples=[[2, 3, 4]],
+        default=(), max_length=_MOST, strict=False, examples=[[2, 3, 4]],
         description="Circumferential orders of the outer ring that move.",
-    )
+    )  # fmt: skip
     inner_ring: tuple[Order, ...] = Field(
-        default=(),
-        max_length=_MOST,
-        strict=False,
-        examples=[[2, 3]],
+        default=(), max_length=_MOST, strict=False, examples=[[2, 3]],
         description="Circumferential orders of the inner ring that move.",
-    )
+    )  # fmt: skip
     damping_ratio: float = Field(
-        default=0.005,
-        ge=0,
-        le=0.5,
-        examples=[0.005],
+        default=0.005, ge=0, le=0.5, examples=[0.005],
         description="Damping over the critical one of every mode.",
-    )
+    )  # fmt: skip
     outer_seat_stiffness_N_m: float = Field(
-        default=0.0,
-        ge=0,
-        le=1e12,
-        examples=[0.0],
+        default=0.0, ge=0, le=1e12, examples=[0.0],
         description="Radial stiffness of the outer ring's seat against bending; 0: loose, N/m.",
-    )
+    )  # fmt: skip
     inner_seat_stiffness_N_m: float = Field(
-        default=0.0,
-        ge=0,
-        le=1e12,
-        examples=[0.0],
+        default=0.0, ge=0, le=1e12, examples=[0.0],
         description="Radial stiffness of the inner ring's seat against bending; 0: loose, N/m.",
-    )
+    )  # fmt: skip
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield orders that do not rise."""
@@ -131,57 +114,39 @@ class Mounting(Part):
     """Preload, radial load, pedestal, and the bodies fixed to the rings."""
 
     preload_N: float = Field(
-        ge=0,
-        le=1e6,
-        examples=[500.0],
+        ge=0, le=1e6, examples=[500.0],
         description="Axial force on the inner ring towards +X; up to 2 C0, 10 kN at least, N.",
-    )
+    )  # fmt: skip
     preload_mode: Literal["force", "rigid"] = Field(
-        default="force",
-        examples=["force"],
+        default="force", examples=["force"],
         description="Preload by a constant force, or by the displacement that gives it at standstill and "
         "20 degC.",
-    )
+    )  # fmt: skip
     pedestal_stiffness_N_m: float = Field(
         ge=1e4, le=1e12, examples=[1e8], description="Radial stiffness under the outer ring, N/m."
     )
     pedestal_stiffness_ratio: AxesRatio = 1.0
     pedestal_axis_angle_deg: AxesAngle = 0.0
     pedestal_axial_ratio: float = Field(
-        default=1.0,
-        ge=0.01,
-        le=100,
-        examples=[1.0],
+        default=1.0, ge=0.01, le=100, examples=[1.0],
         description="Axial over radial stiffness of the pedestal (default assumed).",
-    )
+    )  # fmt: skip
     pedestal_rotational_ratio_mm2: float = Field(
-        default=200.0,
-        ge=0.1,
-        le=1e6,
-        examples=[200.0],
+        default=200.0, ge=0.1, le=1e6, examples=[200.0],
         description="Rotational over radial stiffness of the pedestal (default assumed), mm2.",
-    )
+    )  # fmt: skip
     pedestal_damping_ratio: float = Field(
-        default=0.05,
-        ge=0,
-        le=1,
-        examples=[0.05],
+        default=0.05, ge=0, le=1, examples=[0.05],
         description="Damping over the critical one of the outer ring's mass (default assumed); 0: none.",
-    )
+    )  # fmt: skip
     radial_load_y_N: float = Field(
-        default=0.0,
-        ge=-1e6,
-        le=1e6,
-        examples=[0.0],
+        default=0.0, ge=-1e6, le=1e6, examples=[0.0],
         description="Horizontal load on the inner ring; up to 2 C0, 3 kN at least, N.",
-    )
+    )  # fmt: skip
     radial_load_z_N: float = Field(
-        default=0.0,
-        ge=-1e6,
-        le=1e6,
-        examples=[0.0],
+        default=0.0, ge=-1e6, le=1e6, examples=[0.0],
         description="Upward load on the inner ring; up to 2 C0, 3 kN at least, N.",
-    )
+    )  # fmt: skip
     misalignment_y_mrad: SeatTiltY = 0.0
     misalignment_z_mrad: SeatTiltZ = 0.0
     rotor: Rotor | None = Field(default=None, description="Rotor on the inner ring; absent: the ring alone.")

@@ -14,13 +14,7 @@ from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.designation import suggestion
-from fmu_bearing.scene.entries import (
-    KEY as CATALOGUES,
-    Entry,
-    catalogue,
-    entries,
-    named_files,
-)
+from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named_files
 from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
@@ -37,15 +31,7 @@ from fmu_bearing.scene.preload import (
     preload_key,
     preload_table,
 )
-from fmu_bearing.scene.problems import (
-    Location,
-    described,
-    explain,
-    is_material,
-    missing,
-    shown,
-    too_long,
-)
+from fmu_bearing.scene.problems import Location, described, explain, is_material, missing, shown, too_long
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.toml_text import LONGEST, parse
 from fmu_bearing.scene.values import plain, put

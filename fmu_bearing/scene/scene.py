@@ -51,9 +51,7 @@ class Tables(Part):
     """All tables together, with the checks that span several; ``read`` makes a `Scene` of them."""
 
     name: str = Field(
-        pattern=NAME,
-        examples=["7003C-spindle"],
-        description="Name of the scene and of the FMU's model.",
+        pattern=NAME, examples=["7003C-spindle"], description="Name of the scene and of the FMU's model."
     )
     bearing: Bearing = Field(description="Geometry of the bearing.")
     materials: Materials = Field(description="Materials of its components.")

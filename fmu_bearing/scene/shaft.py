@@ -28,12 +28,9 @@ class Unbalance(Part):
         ge=0, le=1e5, examples=[0.1], description="Mass times distance from the axis, g mm."
     )
     angle_deg: float = Field(
-        default=0.0,
-        ge=-360,
-        le=360,
-        examples=[0.0],
+        default=0.0, ge=-360, le=360, examples=[0.0],
         description="Angle about +X from 12 o'clock where the shaft's angle is zero, deg.",
-    )
+    )  # fmt: skip
 
 
 class ShaftTiltSupport(TiltSupport):
@@ -43,63 +40,47 @@ class ShaftTiltSupport(TiltSupport):
     """
 
     position_mm: float | None = Field(
-        default=None,
-        ge=0,
-        le=LONG,
-        examples=[150.0],
+        default=None, ge=0, le=LONG, examples=[150.0],
         description="Plane that it holds, from the shaft's nose (absent: the middle of the bearings), mm.",
-    )
+    )  # fmt: skip
 
 
 class Shaft(Part):
     """The shaft in cylindrical sections; its nose is at X = 0. One of another model has no sections."""
 
     external: bool = Field(
-        default=False,
-        examples=[True],
+        default=False, examples=[True],
         description="Whether another model owns the shaft: its motion at X = 0 comes in, the bearings' force "
         "goes out (mechanical port).",
-    )
+    )  # fmt: skip
     sections_mm: tuple[Section, ...] = Field(
-        default=(),
-        max_length=40,
-        strict=False,
-        examples=[[[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]],
+        default=(), max_length=40, strict=False, examples=[[[30.0, 22.0, 0.0], [140.0, 17.0, 0.0]]],
         description="Sections from the nose to the rear, each [length, diameter, bore], mm.",
-    )
+    )  # fmt: skip
     material: Material | None = Field(
         default=None,
         examples=["GCr15"],
         description="Material of the shaft; absent: that of the inner rings.",
     )
     temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[45.0],
+        default=None, ge=-40, le=199, examples=[45.0],
         description="Mean temperature of the shaft between its bearings (absent: that of [operation]'s inner "
         "ring), degC.",
-    )
+    )  # fmt: skip
     flexible: bool = Field(
         default=False,
         examples=[True],
         description="Whether the shaft bends (Timoshenko beam); else it is rigid with the same mass.",
     )
     fixed_modes: int = Field(
-        default=2,
-        ge=0,
-        le=8,
-        examples=[2],
+        default=2, ge=0, le=8, examples=[2],
         description="Flexible shaft: bending modes between nose and bearings that are kept, per direction.",
-    )
+    )  # fmt: skip
     damping_ratio: float = Field(
-        default=0.005,
-        ge=0,
-        le=0.5,
-        examples=[0.005],
+        default=0.005, ge=0, le=0.5, examples=[0.005],
         description="Flexible shaft: damping over the critical one at its lowest bending frequency without "
         "supports; it grows with frequency (default assumed).",
-    )
+    )  # fmt: skip
     unbalance: tuple[Unbalance, ...] = Field(
         default=(), max_length=20, strict=False, description="Heavy spots; absent: a balanced shaft."
     )

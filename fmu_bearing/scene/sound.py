@@ -40,13 +40,10 @@ class Microphone(Part):
 
     name: Label = Field(examples=["P1"], description="Name of the microphone.")
     x_mm: float | None = Field(
-        default=None,
-        ge=-_FAR,
-        le=_FAR,
-        examples=[0.0],
+        default=None, ge=-_FAR, le=_FAR, examples=[0.0],
         description="Place along the bearing axis from the bearing's centre, of a set from the shaft's nose "
         "(+X to the rear), mm.",
-    )
+    )  # fmt: skip
     y_mm: float | None = Field(
         default=None, ge=-_FAR, le=_FAR, examples=[105.0], description="Horizontal place, mm."
     )
@@ -87,11 +84,9 @@ class Circle(Part):
 
     radius_mm: float = Field(ge=1, le=_FAR, examples=[210.0], description="Radius of the circle, mm.")
     axial_mm: float = Field(
-        ge=-_FAR,
-        le=_FAR,
-        examples=[50.0],
+        ge=-_FAR, le=_FAR, examples=[50.0],
         description="Place of the circle along the axis, as x_mm of a microphone, mm.",
-    )
+    )  # fmt: skip
     count: int = Field(ge=1, le=360, examples=[24], description="Number of microphones on the circle.")
 
     def points(self) -> list[Place]:
@@ -104,31 +99,24 @@ class Sound(Part):
     """Radiation and metering."""
 
     radiation_model: RadiationModel = Field(
-        default="bem",
+        default="bem", examples=["bem"],
         description="How radiation is computed: by the papers' methods, compact bodies, boundary elements "
         "or the user's table.",
-        examples=["bem"],
-    )
+    )  # fmt: skip
     radiator: Radiator = Field(
         default="bare",
         description="What radiates: the bare bearing, its face flush in a rigid plane, or the housing.",
         examples=["bare"],
     )
     reflecting_plane_mm: float | None = Field(
-        default=None,
-        ge=-_FAR,
-        le=_FAR,
-        examples=[-100.0],
+        default=None, ge=-_FAR, le=_FAR, examples=[-100.0],
         description="Place of a rigid plane across the bearing axis, as x_mm of a microphone (absent: free "
         "field), mm.",
-    )
+    )  # fmt: skip
     table_file: str | None = Field(
-        default=None,
-        min_length=1,
-        max_length=1000,
-        examples=["housing.npz"],
+        default=None, min_length=1, max_length=1000, examples=["housing.npz"],
         description="File that radiation model table reads, relative to the scene file.",
-    )
+    )  # fmt: skip
     third_octaves: bool = Field(
         default=False, description="Third-octave levels of every microphone.", examples=[True]
     )
@@ -138,31 +126,22 @@ class Sound(Part):
         examples=[False],
     )
     air_density_kg_m3: float = Field(
-        default=1.204,
-        ge=0.1,
-        le=10,
-        examples=[1.225],
+        default=1.204, ge=0.1, le=10, examples=[1.225],
         description="Density of the air (default: at 20 degC), kg/m3.",
-    )
+    )  # fmt: skip
     sound_speed_m_s: float = Field(
-        default=343.2,
-        ge=100,
-        le=2000,
-        examples=[340.0],
+        default=343.2, ge=100, le=2000, examples=[340.0],
         description="Speed of sound in the air (default: at 20 degC), m/s.",
-    )
+    )  # fmt: skip
     time_weighting: Literal["fast", "slow"] = Field(
         default="fast",
         description="Exponential averaging of the levels: 0.125 s or 1 s (IEC 61672-1).",
         examples=["fast"],
     )
     metering_start_s: float = Field(
-        default=0.02,
-        ge=0,
-        le=1000,
-        examples=[0.02],
+        default=0.02, ge=0, le=1000, examples=[0.02],
         description="Time after initialisation at which metering begins, s.",
-    )
+    )  # fmt: skip
     # A file's array arrives as a list: the one conversion that strictness may let pass.
     microphone: tuple[Microphone, ...] = Field(
         default=(), max_length=360, strict=False, description="Single microphones."

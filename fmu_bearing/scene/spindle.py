@@ -59,51 +59,35 @@ class SetBearing(Part):
         "nose to the rear.",
     )
     stickout_um: float = Field(
-        default=0.0,
-        ge=-200,
-        le=200,
-        examples=[1.0],
+        default=0.0, ge=-200, le=200, examples=[1.0],
         description="How much more than the spacer preload asks for the inner ring is pushed into the "
         "bearing at assembly, um.",
-    )
+    )  # fmt: skip
     seat: Literal["fixed", "sliding", "pedestal"] = Field(
-        default="fixed",
-        examples=["fixed"],
+        default="fixed", examples=["fixed"],
         description="Outer ring held in the housing, sliding along it against a spring, or on a pedestal of "
         "its own as in [mounting].",
-    )
+    )  # fmt: skip
     misalignment_y_mrad: SeatTiltY = 0.0
     misalignment_z_mrad: SeatTiltZ = 0.0
     inner_ring_temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[45.0],
+        default=None, ge=-40, le=199, examples=[45.0],
         description="Temperature of its inner ring (absent: that of [operation]), degC.",
-    )
+    )  # fmt: skip
     outer_ring_temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[40.0],
+        default=None, ge=-40, le=199, examples=[40.0],
         description="Temperature of its outer ring (absent: that of [operation]), degC.",
-    )
+    )  # fmt: skip
     shaft_interference_um: float | None = Field(
-        default=None,
-        ge=-LARGEST_UM,
-        le=LARGEST_UM,
-        examples=[2.0],
+        default=None, ge=-LARGEST_UM, le=LARGEST_UM, examples=[2.0],
         description="Interference of its inner ring on the shaft, on diameter, + tight (absent: that of "
         "[spindle.fit.shaft]), um.",
-    )
+    )  # fmt: skip
     housing_interference_um: float | None = Field(
-        default=None,
-        ge=-LARGEST_UM,
-        le=LARGEST_UM,
-        examples=[-3.0],
+        default=None, ge=-LARGEST_UM, le=LARGEST_UM, examples=[-3.0],
         description="Interference of its outer ring in the housing, on diameter, + tight (absent: that of "
         "[spindle.fit.housing]), um.",
-    )
+    )  # fmt: skip
 
     @property
     def sign(self) -> int:
@@ -120,27 +104,18 @@ class Preload(Part):
         description="A distance that is held, or a spring that pushes sliding outer rings.",
     )
     preload_N: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e6,
-        examples=[500.0],
+        default=None, ge=0, le=1e6, examples=[500.0],
         description="Spacer: axial load of each bearing at standstill and 20 degC without stick-out and "
         "load, on the side with more bearings where the sides differ, N.",
-    )
+    )  # fmt: skip
     force_N: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e6,
-        examples=[300.0],
+        default=None, ge=0, le=1e6, examples=[300.0],
         description="Spring: force on each sliding outer ring at standstill and 20 degC, N.",
-    )
+    )  # fmt: skip
     stiffness_N_m: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e9,
-        examples=[1e5],
+        default=None, ge=0, le=1e9, examples=[1e5],
         description="Spring: stiffness behind each sliding outer ring (absent: 0, a constant force), N/m.",
-    )
+    )  # fmt: skip
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield keys of the other kind, and the one that is missing."""
@@ -166,20 +141,14 @@ class SetHousing(Part):
         description="Material of the housing; absent: that of the outer rings.",
     )
     temperature_degC: float | None = Field(
-        default=None,
-        ge=-40,
-        le=199,
-        examples=[35.0],
+        default=None, ge=-40, le=199, examples=[35.0],
         description="Mean temperature of the housing between its seats (absent: that of [operation]'s outer "
         "ring), degC.",
-    )
+    )  # fmt: skip
     mass_kg: float | None = Field(
-        default=None,
-        ge=0.001,
-        le=1e4,
-        examples=[2.0],
+        default=None, ge=0.001, le=1e4, examples=[2.0],
         description="Mass of the housing, which moves then (absent: it does not move), kg.",
-    )
+    )  # fmt: skip
     diameter_mm: float | None = Field(
         default=None, ge=5, le=3000, examples=[100.0], description="Outside diameter of the housing, mm."
     )
@@ -187,43 +156,28 @@ class SetHousing(Part):
         default=None, ge=1, le=5000, examples=[160.0], description="Length of the housing, mm."
     )
     position_mm: float | None = Field(
-        default=None,
-        ge=-LONG,
-        le=LONG,
-        examples=[90.0],
+        default=None, ge=-LONG, le=LONG, examples=[90.0],
         description="Middle of the housing and of its pedestal from the shaft's nose (absent: the middle of "
         "the bearings), mm.",
-    )
+    )  # fmt: skip
     pedestal_stiffness_N_m: float | None = Field(
-        default=None,
-        ge=1e4,
-        le=1e12,
-        examples=[1e8],
+        default=None, ge=1e4, le=1e12, examples=[1e8],
         description="Radial stiffness under the housing, or under each ring with a pedestal of its own, N/m.",
-    )
+    )  # fmt: skip
     pedestal_stiffness_ratio: AxesRatio = 1.0
     pedestal_axis_angle_deg: AxesAngle = 0.0
     pedestal_axial_ratio: float = Field(
-        default=1.0,
-        ge=0.01,
-        le=100,
-        examples=[1.0],
+        default=1.0, ge=0.01, le=100, examples=[1.0],
         description="Axial over radial stiffness of the pedestal (default assumed).",
-    )
+    )  # fmt: skip
     pedestal_rotational_ratio_mm2: float = Field(
-        default=200.0,
-        ge=0.1,
-        le=1e6,
-        examples=[200.0],
+        default=200.0, ge=0.1, le=1e6, examples=[200.0],
         description="Rotational over radial stiffness of the pedestal (default assumed), mm2.",
-    )
+    )  # fmt: skip
     pedestal_damping_ratio: float = Field(
-        default=0.05,
-        ge=0,
-        le=1,
-        examples=[0.05],
+        default=0.05, ge=0, le=1, examples=[0.05],
         description="Damping over the critical one of the mass on the pedestal (default assumed).",
-    )
+    )  # fmt: skip
 
     @property
     def moves(self) -> bool:
@@ -247,33 +201,21 @@ class Load(Part):
     """Force on the shaft, as of the tool."""
 
     force_x_N: float = Field(
-        default=0.0,
-        ge=-_HEAVY,
-        le=_HEAVY,
-        examples=[200.0],
+        default=0.0, ge=-_HEAVY, le=_HEAVY, examples=[200.0],
         description="Along the axis; up to 2 C0 of all bearings, 10 kN each at least, N.",
-    )
+    )  # fmt: skip
     force_y_N: float = Field(
-        default=0.0,
-        ge=-_HEAVY,
-        le=_HEAVY,
-        examples=[0.0],
+        default=0.0, ge=-_HEAVY, le=_HEAVY, examples=[0.0],
         description="Horizontal; up to 2 C0 of all bearings, 3 kN each at least, N.",
-    )
+    )  # fmt: skip
     force_z_N: float = Field(
-        default=0.0,
-        ge=-_HEAVY,
-        le=_HEAVY,
-        examples=[-300.0],
+        default=0.0, ge=-_HEAVY, le=_HEAVY, examples=[-300.0],
         description="Upwards; up to 2 C0 of all bearings, 3 kN each at least, N.",
-    )
+    )  # fmt: skip
     position_mm: float = Field(
-        default=0.0,
-        ge=-LONG,
-        le=LONG,
-        examples=[-20.0],
+        default=0.0, ge=-LONG, le=LONG, examples=[-20.0],
         description="Where it acts, from the nose; negative: ahead of it, mm.",
-    )
+    )  # fmt: skip
 
 
 class Spindle(Part):

@@ -22,10 +22,7 @@ SAMPLES = {"morris": 16, "sobol": 64}
 #: The least that has a spread to speak of (assumed); more than the most would take days.
 LEAST, MOST = 4, 65536
 #: Names of the indices of each method, importance first.
-INDICES = {
-    "morris": ("mu_star", "mu_star_conf", "mu", "sigma"),
-    "sobol": ("ST", "ST_conf", "S1", "S1_conf"),
-}
+INDICES = {"morris": ("mu_star", "mu_star_conf", "mu", "sigma"), "sobol": ("ST", "ST_conf", "S1", "S1_conf")}
 CONFIDENCE = 0.95
 _LEVELS = 4  # of Morris's grid, SALib's default
 _RESAMPLES = 1000  # of the bootstrap: its half-width is then good to some per cent

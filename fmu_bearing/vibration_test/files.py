@@ -52,10 +52,7 @@ def picture(title: str, bands: Sequence[Band], scale: Mapping[str, float], unit:
 
 
 def write(
-    folder: Path,
-    figure: "Figure",
-    lines: Sequence[VibrationLine],
-    spectra: Mapping[str, NDArray[np.float64]],
+    folder: Path, figure: "Figure", lines: Sequence[VibrationLine], spectra: Mapping[str, NDArray[np.float64]]
 ) -> list[Path]:
     """Write a picture, lines, and spectra by the heads of their columns; return the files."""
     folder.mkdir(parents=True, exist_ok=True)

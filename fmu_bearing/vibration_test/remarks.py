@@ -13,10 +13,7 @@ _LOAD_OFF = 0.1  # of the load: assumed
 
 
 def remarks(
-    scene: Scene,
-    spin: float,
-    means: Mapping[str, Sequence[float]],
-    limits: Mapping[str, float],
+    scene: Scene, spin: float, means: Mapping[str, Sequence[float]], limits: Mapping[str, float]
 ) -> Iterator[str]:
     """Yield the remarks on a test.
 

@@ -167,10 +167,7 @@ class ChannelHistory(Turning):
         return total
 
     def partial(
-        self,
-        positions: Places = None,
-        radiation_model: str | None = None,
-        by: str = "component",
+        self, positions: Places = None, radiation_model: str | None = None, by: str = "component"
     ) -> dict[str, NDArray[np.float64]]:
         """Sound pressure (Pa) of each source alone, shape (mics, size) by name; the sum is `pressure`.
 
@@ -191,11 +188,7 @@ class ChannelHistory(Turning):
             raise ValueError(f'by = "{by}": sources are split by "component", "kind" or "bearing"')
         places = self.places(positions)
         found: dict[str, NDArray[np.float64]] = {}
-        for circle, parts in self._pressures_by_circle(
-            places,
-            radiation_model,
-            _SPLIT[by],
-        ):
+        for circle, parts in self._pressures_by_circle(places, radiation_model, _SPLIT[by]):
             for name, part in parts.items():
                 total = found.setdefault(name, np.zeros((len(places), self.size)))
                 total[list(circle.members)] += part
@@ -244,10 +237,7 @@ class ChannelHistory(Turning):
         return level(mean_square)
 
     def mean_squares(
-        self,
-        positions: Places = None,
-        radiation_model: str | None = None,
-        resolution: float = 20.0,
+        self, positions: Places = None, radiation_model: str | None = None, resolution: float = 20.0
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Frequencies (Hz), and mean square pressure (Pa^2) in each bin at each place, (mics, bins).
 

@@ -10,17 +10,7 @@ from numpy.typing import NDArray
 from fmu_bearing.reports.data.curves import curve, curve_words
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import (
-    Absent,
-    Block,
-    Chart,
-    Choice,
-    Option,
-    Section,
-    Table,
-    Words,
-    small,
-)
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.run.balls import RACES, name_of
 
 _BINS = 72  # of the circle

@@ -85,10 +85,7 @@ def _settled(subject: Subject) -> list[Block]:
     caption, note = "Friction and heat of the settled bearings, without waviness", "The changes are added as "
     note += "roots of squares, upwards and downwards apart."
     (columns, rows), inputs = heat_table(point.bearings, ranges), ranges.table()
-    return [
-        Table(caption, columns, rows),
-        Table(f"{CAPTION[0].upper()}{CAPTION[1:]}", *inputs, note=note),
-    ]
+    return [Table(caption, columns, rows), Table(f"{CAPTION[0].upper()}{CAPTION[1:]}", *inputs, note=note)]
 
 
 def _table(subject: Subject) -> Table:

@@ -10,17 +10,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
-from fmu_bearing.reports.page.blocks import (
-    Absent,
-    Block,
-    Chart,
-    Choice,
-    Option,
-    Section,
-    Table,
-    Words,
-    small,
-)
+from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.sections.kinematic_marks import end_words, mark_kinematics
 
 AXES = ("x", "y", "z")
@@ -100,10 +90,7 @@ def _over_time(subject: Subject, bodies: list[str]) -> Chart:
         "Velocity of the centres over time",
         figure,
         f"Curves of the velocity along three axes of {_listed(bodies)} over time, at {rpm:,.0f} r/min.",
-        (
-            Choice("body", "Body", [Option(look.words(body), body) for body in bodies]),
-            window,
-        ),
+        (Choice("body", "Body", [Option(look.words(body), body) for body in bodies]), window),
         note=f"Instantaneous values. {curve_words(subject)} Drag to zoom, double-click to see all.",
     )
 

@@ -48,10 +48,7 @@ class Sphere:
 
 def _bands(frequency: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
     """Weights of the bins for each band."""
-    found = {
-        "A-weighted": 10.0 ** (a_weighting_db(frequency) / 10.0),
-        "unweighted": np.ones(len(frequency)),
-    }
+    found = {"A-weighted": 10.0 ** (a_weighting_db(frequency) / 10.0), "unweighted": np.ones(len(frequency))}
     for centre in _OCTAVES:
         inside = (frequency >= centre / math.sqrt(2.0)) & (frequency < centre * math.sqrt(2.0))
         name = f"octave {centre:g} Hz" if centre < 1000.0 else f"octave {centre / 1e3:g} kHz"

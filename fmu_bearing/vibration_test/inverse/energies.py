@@ -8,13 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.scene import Scene
-from fmu_bearing.vibration_test.inverse.runs import (
-    AMPLITUDE_UM,
-    BALL_EXPONENTS,
-    BENT_AT,
-    EXPONENT,
-    Spectra,
-)
+from fmu_bearing.vibration_test.inverse.runs import AMPLITUDE_UM, BALL_EXPONENTS, BENT_AT, EXPONENT, Spectra
 from fmu_bearing.vibration_test.lines import frequencies, waves
 from fmu_bearing.vibration_test.reading import Reading, share
 from fmu_bearing.vibration_test.rig import bands

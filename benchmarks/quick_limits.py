@@ -27,7 +27,7 @@ from benchmarks.quick_gates import (
     silent,
 )
 from fmu_bearing import Bearing, Scene, new_scene, read_scene, record, simulate, with_fidelity
-from fmu_bearing.modal.equations.quick import quick_operator
+from fmu_bearing.modal.equations.quick import operator_matrix, quick_run
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.nsk import sizes
@@ -341,7 +341,7 @@ def without_traction() -> Iterator[Row]:
         yield list(quick_over_full(what, scene, seconds=0.5))[1]
         restarts = [kept(scene, model, ["solver.restarts"], 0.5, step=1e-3)[0, -1] for model in MODELS]
         yield what, "restarts in 0.5 s", restarts
-        poles = np.linalg.eigvals(quick_operator(scene))
+        poles = np.linalg.eigvals(operator_matrix(quick_run(scene)))
         yield what, "largest growth, 1/s", [np.nan, poles.real.max(), np.nan]
 
 

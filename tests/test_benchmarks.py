@@ -28,7 +28,6 @@ from benchmarks import (
 from benchmarks.cases import CASES, GATES, SOLVERS, Case
 from benchmarks.first_order import FirstOrder
 from benchmarks.fmu import calls, whole
-from fmu_bearing.accuracy.reference import reference_from
 from fmu_bearing.cli import app
 from fmu_bearing.results.table import markdown, write_csv
 from fmu_bearing.run.metrics import SAMPLE
@@ -39,11 +38,11 @@ TINY = Case("7003C-spindle", 20000, (1.0, 0.0, 0.0), "start", window=2e-4, commu
 
 def test_one_case_through_to_the_table(tmp_path):
     start = TINY.bearing()
-    exact = reference_from(start, TINY.window, sample=SAMPLE)
+    exact = ours.reference_from(start, TINY.window, sample=SAMPLE)
     mine = ours.full_rows(TINY, SOLVERS[0], start, exact, budget=1e-3, repeats=1)
     problem = FirstOrder(start)
     times = np.array([2.5e-5, 5e-5])
-    short = reference_from(start, times[-1], sample=times[0])
+    short = ours.reference_from(start, times[-1], sample=times[0])
     entry = peers.solvers()["LSODA"]
     other = peers.peer_row(TINY.name, "LSODA", entry, problem, short.velocities, times, 1e-3, 30.0)
     rows = [*mine, other]

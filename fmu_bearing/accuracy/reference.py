@@ -12,7 +12,6 @@ Without waviness 4 us give 6e-10. At 1,000 r/min stiff traction makes Runge-Kutt
 """
 
 import time
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,54 +70,3 @@ def _timed(
 def relative_error(rows: NDArray[np.float64], exact: NDArray[np.float64]) -> float:
     """Rms difference over time and columns, over the rms of ``exact`` about each column's mean."""
     return float(np.sqrt(np.mean((rows - exact) ** 2) / np.mean((exact - exact.mean(0)) ** 2)))
-
-
-@dataclass(frozen=True)
-class Reference:
-    """A reference trajectory and an estimate of its error.
-
-    Attributes
-    ----------
-    times : ndarray
-        Times (s) after the start of the window.
-    velocities : ndarray
-        Inner ring x, y, z, outer ring x, y, z (m/s), one row per time, by the explicit method.
-    agreement : float
-        Relative rms difference of the implicit method's velocities.
-    explicit_cost, implicit_cost : float
-        CPU time (s) per simulated s.
-    """
-
-    times: NDArray[np.float64]
-    velocities: NDArray[np.float64]
-    agreement: float
-    explicit_cost: float
-    implicit_cost: float
-
-
-def reference_from(
-    bearing: Arrays,
-    duration: float,
-    *,
-    sample: float = 1e-4,
-    explicit_step: float = 4e-8,
-    implicit_step: float = 5e-7,
-    implicit_tolerance: float = 1e-8,
-) -> Reference:
-    """Integrate from the bearing's present state by both methods; that state is not changed.
-
-    Parameters
-    ----------
-    bearing : Arrays
-        Initialised, speed and inputs held.
-    duration, sample : float
-        Window and sampling interval (s).
-    explicit_step, implicit_step : float
-        Steps (s) of Runge-Kutta and of the engine's implicit method.
-    implicit_tolerance : float
-        Tolerance of the latter, relative to the rings' own velocity.
-    """
-    exact, explicit = explicit_rings(bearing, duration, sample, explicit_step)
-    other, implicit = implicit_rings(bearing, duration, sample, implicit_step, implicit_tolerance)
-    times = sample * np.arange(1.0, len(exact) + 1.0, dtype=np.float64)
-    return Reference(times, exact, relative_error(other, exact), explicit / duration, implicit / duration)

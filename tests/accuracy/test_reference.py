@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 
 from benchmarks.first_order import FirstOrder
-from fmu_bearing.accuracy.reference import (
-    explicit_rings,
-    implicit_rings,
-    reference_from,
-    relative_error,
-)
+from benchmarks.ours import reference_from
+from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P, U

@@ -10,7 +10,6 @@ from fmu_bearing.acoustics.analysis.origins import (
     OUTER,
     SHAFT,
     bearing_origins,
-    origin_of,
     origins,
 )
 from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies
@@ -48,14 +47,6 @@ def test_a_set_has_the_shaft_once_and_each_bearing():
     assert [one.name for one in lines if one.source == SHAFT] == ["f_r", *(f"{n} f_r" for n in range(2, 13))]
     assert {one.bearing for one in lines} == {0, 1, 2}
     assert len({(one.name, one.bearing) for one in lines}) == len(lines)
-
-
-def test_the_simplest_line_near_an_order_explains_it():
-    lines = origins([RATES], 20.0)
-    # f_o of a 7003C lies 0.003 orders beside 5 f_r: one term against five
-    assert origin_of(RATES.f_o / RATES.f_r, lines, 0.05).name == "f_o"
-    assert origin_of(0.2, lines, 0.05) is None
-    assert origin_of(5.0, lines, 1e-9).name == "5 f_r"
 
 
 def test_a_shaft_at_rest_has_no_orders():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.quick_fidelities import FAR, Plan, cases, grew, motion
-from fmu_bearing.modal.equations.quick import quick_operator
+from fmu_bearing.modal.equations.quick import operator_matrix, quick_run
 from tests.engine.test_condensed_modes import poles_of
 
 SEED = 52
@@ -31,7 +31,7 @@ def assert_calm(chosen, most=0.0):
     bad, growing = [], 0
     for case in chosen:
         scene = case.scene()
-        poles = poles_of(quick_operator(scene))
+        poles = poles_of(operator_matrix(quick_run(scene)))
         if poles[poles.imag > SLOWEST].real.max() > GROWS:
             growing += 1
             continue
@@ -58,7 +58,7 @@ def test_scenes_that_diverged_are_calm(case):
 def test_what_grows_in_the_operator_whirls_in_full(case):
     """Its lateral motion passes 5 mm/s within 0.2 s; with ceramic balls it has 0.3 to 0.5."""
     steel = replace(case, kind="steel")
-    poles = poles_of(quick_operator(steel.scene()))
+    poles = poles_of(operator_matrix(quick_run(steel.scene())))
     assert poles[poles.imag > SLOWEST].real.max() > GROWS
     whirls, _, _ = motion(steel.scene(), "full", Plan(("full",), 0.2, 0.02))
     assert whirls[1] > 5.0

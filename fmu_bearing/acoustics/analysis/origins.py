@@ -118,15 +118,6 @@ def origins(
     return sorted(found, key=lambda one: (one.order, one.bearing))
 
 
-def origin_of(order: float, known: Sequence[Origin], tolerance: float) -> Origin | None:
-    """Return what best explains a line at ``order``; None: nothing within ``tolerance`` (orders).
-
-    Of those within it the one with the fewest terms, of these the nearest.
-    """
-    near = [one for one in known if abs(one.order - order) <= tolerance]
-    return min(near, key=lambda one: (one.terms, abs(one.order - order)), default=None)
-
-
 def _wave(carrier: str, n: int, m: int, balls: int) -> int:
     """Return the order of the wave behind n times a carrier and m times its sideband."""
     return {"f_i": n * balls + m, "f_o": n * balls, "f_b": n}.get(carrier, 0)

@@ -119,10 +119,6 @@ class Coordinates:
         moved = np.where(places < self.rings, len(_PLACES) * self.balls, Q.RINGS)
         return places, places + np.where(places < self.flexure, moved, 2 * self.flexural)
 
-    def pattern_orders(self) -> NDArray[np.int64]:
-        """Order k of each pattern of the balls, shape (balls,)."""
-        return (np.arange(self.balls) + 1) // 2
-
     def ball_state(self, kind: int) -> slice:
         """Numbers of one of the nine ball states."""
         return slice(kind * self.balls, (kind + 1) * self.balls)

@@ -18,23 +18,11 @@ from fmu_bearing.modal.equations.shaft import matrices, rows_of
 from fmu_bearing.scene.read import Scene, with_fidelity
 
 
-def quick_operator(scene: Scene, inputs: dict[int, float] | None = None) -> NDArray[np.float64]:
-    """Return A of a scene's quick fidelities, shape (m, m), SI units.
-
-    States: displacements of the n coordinates (of a single bearing the rings' 11, of a set those of shaft and
-    housing), their rates, then modes of balls and cage of each bearing, real and imaginary parts.
-
-    Parameters
-    ----------
-    scene : Scene
-    inputs : dict, optional
-        Values by their places in the engine's ``u``, in place of the scene's.
-    """
-    return operator_matrix(quick_run(scene, inputs))
-
-
 def quick_run(scene: Scene, inputs: dict[int, float] | None = None) -> Arrays:
-    """Return a quiet scene in fidelity `rings`, initialised at its inputs or those given as above."""
+    """Return a quiet scene in fidelity `rings`, initialised.
+
+    ``inputs``: values by their places in the engine's ``u``, in place of the scene's.
+    """
     quiet = with_fidelity(scene, model="rings").model_copy(update={"sound": None, "imperfections": None})
     return Arrays.of(quiet.with_rigid_rings()).at(inputs or {}).init()
 
@@ -50,7 +38,11 @@ def found_growth(run: Arrays) -> tuple[float, float]:
 
 
 def operator_matrix(run: Arrays) -> NDArray[np.float64]:
-    """Return A of an initialised model of fidelity `rings` or `response`, see `quick_operator`."""
+    """Return A of an initialised model of fidelity `rings` or `response`, shape (m, m), SI units.
+
+    States: displacements of the n coordinates (of a single bearing the rings' 11, of a set those of shaft and
+    housing), their rates, then modes of balls and cage of each bearing, real and imaginary parts.
+    """
     if not SP.has_shaft(run.p):
         none, own = np.zeros((L.N, L.N)), np.eye(L.N)
         return _assembled([run.s[S.CONDENSED :][: L.SIZE]], [own], [np.ones(L.N)], none, none, own)

@@ -7,7 +7,6 @@
 ``axial``      lift-off, spacing that keeps the preload
 ``statics``    `statics`: what a scene's bearings carry under a load
 ``stiffness``  `stiffness`: K and C of the bearings, stiffness of their shaft
-``drawing``    a set drawn to scale, with its lines of contact
 =============  =========================================================================
 
 Shaft axes: X from the nose to the rear, Z up, origin at the nose. A bearing that carries force on the shaft

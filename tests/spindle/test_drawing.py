@@ -5,8 +5,9 @@ import math
 
 import pytest
 
+from examples.spindle_set.arrangements import draw_set
+from fmu_bearing.reports.sections.arrangement import pressure_centres
 from fmu_bearing.results.picture_parts import single
-from fmu_bearing.steady.drawing import draw_set, pressure_centres
 from tests.conftest import ROOT
 from tests.spindle.sets import scene
 

@@ -13,7 +13,6 @@ from fmu_bearing.reports.page.look import axis
 from fmu_bearing.results.table import tenths
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
-from fmu_bearing.steady.drawing import pressure_centres
 from fmu_bearing.steady.rest import forces, nose, preloads, started
 from fmu_bearing.steady.statics import Statics
 
@@ -66,6 +65,16 @@ def _drawing(scene: Scene) -> Chart:
     figure.update_yaxes(axis("mm", scaleanchor="x", scaleratio=1))
     words = f"{spindle.arrangement}: shaft and bearings to scale; lines of contact meet the axis"
     return Chart("arrangement", "Shaft, bearings, lines of contact", figure, words)
+
+
+def pressure_centres(scene: Scene) -> list[float]:
+    """Return where the lines of contact of each bearing of a set meet the shaft's axis, mm from the nose.
+
+    With the nominal contact angle and pitch diameter, as makers give it.
+    """
+    bearing = scene.bearing
+    reach = 0.5 * bearing.pitch_diameter_mm * math.tan(math.radians(bearing.contact_angle_deg))
+    return [one.position_mm - one.sign * reach for one in set_of(scene).bearing]
 
 
 def _bearings(found: Statics) -> Table:

@@ -2,11 +2,12 @@
 
 import os
 import re
+import tempfile
 import zipfile
 
-from fmu_bearing.files import plain_file
+from fmu_bearing.files import no_room, plain_file, read_text
 
-__all__ = ["absent", "instead", "one_line", "why"]
+__all__ = ["absent", "instead", "one_line", "text_of", "trouble", "why"]
 
 EMPTY, SCENE, SWEEP, FMU, TABLE = "an empty file", "a scene", "a sweep", "an FMU", "a table of values (CSV)"
 RESULT, RECORDING, CATALOGUE = "a result of a run", "a recording", "a catalogue of bearings"
@@ -92,6 +93,40 @@ def absent(path: str | os.PathLike[str], kind: str = "file") -> str:
     folder = os.path.dirname(os.fspath(path))
     where = f": there is no folder {folder}" if folder and not os.path.isdir(folder) else ""
     return f"there is no such {kind}{where}"
+
+
+def text_of(path: str | os.PathLike[str], due: str, most: float = 1e9, kind: str = "file") -> str:
+    """Return the text of a file in UTF-8, of ``most`` bytes or fewer.
+
+    Raises
+    ------
+    ValueError
+        With `trouble`, and where it holds something else than is ``due``.
+    """
+    try:
+        text = read_text(path, most)
+    except (OSError, ValueError) as problem:
+        raise ValueError(trouble(path, due, problem, kind)) from None
+    if mistaken := instead(path, due):
+        raise ValueError(mistaken)
+    return text
+
+
+def trouble(
+    path: str | os.PathLike[str], due: str, problem: Exception, kind: str = "file", known: bool = True
+) -> str:
+    """Return why a file that has to hold what is ``due`` cannot be read: absent, another one, damaged.
+
+    ``kind``: what it is called where it is absent; ``known``: whether the problem is said in words of ours.
+    """
+    if isinstance(problem, FileNotFoundError):
+        return absent(path, kind)
+    if not known:
+        if full := no_room(tempfile.gettempdir(), problem):
+            return f"cannot be unpacked: {full}"
+        return instead(path, due) or f"is not {due}, or damaged: {one_line(problem)}"
+    text = " as text in UTF-8" if isinstance(problem, UnicodeDecodeError) else ""
+    return instead(path, due) or f"cannot be read{text}: {why(problem)}"
 
 
 def instead(path: str | os.PathLike[str], due: str) -> str:

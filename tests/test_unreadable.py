@@ -129,7 +129,7 @@ def test_endless_text_is_not_read(reader, tmp_path):
         (
             'name = "7003C-bare"',
             'name = "a"\ncatalogues = ["/dev/zero"]',
-            "/dev/zero: cannot be read as a cat",
+            "/dev/zero: cannot be read: it is a pipe or a device",
         ),
     ],
 )

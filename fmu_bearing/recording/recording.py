@@ -15,7 +15,7 @@ from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.cautions import largest_of
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
-from fmu_bearing.file_words import RECORDING, absent, instead, why
+from fmu_bearing.file_words import RECORDING, instead, trouble
 from fmu_bearing.files import read_arrays, whole
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
@@ -300,10 +300,8 @@ class Recording(ChannelHistory):
             )  # fmt: skip
         except SceneError:
             raise
-        except FileNotFoundError:
-            raise ValueError(f"{path}: {absent(path)}") from None
         except OSError as problem:
-            raise ValueError(f"{path}: cannot be read: {why(problem)}") from None
+            raise ValueError(f"{path}: {trouble(path, RECORDING, problem)}") from None
         except Exception:  # of damaged files; they raise what NumPy and JSON come upon
             mistaken = instead(path, RECORDING)
             raise ValueError(

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.extras import need
-from fmu_bearing.file_words import NETCDF, RESULT, absent, instead, one_line, why
+from fmu_bearing.file_words import NETCDF, RESULT, trouble
 from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.results.base import Result, write_netcdf, written
@@ -106,14 +106,7 @@ class Run(Series, Result):
     def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """Write to ``.csv`` (as FMPy writes it: SI units, full precision) or ``.nc`` (netCDF, with units).
 
-        Raises
-        ------
-        ValueError
-            For another ending.
-        OSError
-            Where it cannot be written.
-        MissingExtra
-            For netCDF without xarray.
+        Errors are those of `Result.save`.
         """
         path = check_target(path)
         if path.suffix == ".csv":
@@ -262,7 +255,7 @@ class Run(Series, Result):
             except ResultError as problem:
                 words = str(problem)
             except Exception as problem:  # its libraries raise what they come upon in damaged files
-                words = instead(path, NETCDF) or f"is not a netCDF file, or damaged: {one_line(problem)}"
+                words = trouble(path, NETCDF, problem, known=False)
             if words:
                 gc.collect()  # closes what was opened in part, while nothing is printed of it
         if words:
@@ -354,7 +347,5 @@ def _plain(path: str | os.PathLike[str]) -> pathlib.Path:
     """Return the path of a file that can be read; `ResultError` where there is none."""
     try:
         return plain_file(path)
-    except FileNotFoundError:
-        raise ResultError(f"{path}: {absent(path)}") from None
     except OSError as problem:
-        raise ResultError(f"{path}: cannot be read: {why(problem)}") from None
+        raise ResultError(f"{path}: {trouble(path, NETCDF, problem)}") from None

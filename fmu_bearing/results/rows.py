@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.file_words import TABLE, absent, instead, why
+from fmu_bearing.file_words import TABLE, instead, trouble
 from fmu_bearing.files import plain_file
 from fmu_bearing.results.column_units import Title, is_units, written_unit
 
@@ -233,12 +233,8 @@ def _text(path: str | os.PathLike[str], due: str) -> str:
         data = plain_file(path, _LONGEST).read_bytes()
         wide = "" if data.startswith(_UTF_32) else _BEGINNINGS.get(data[:2], "")
         text = data.decode(wide) if wide else _narrow(path, data)
-    except FileNotFoundError:
-        raise ValueError(f"{path}: {absent(path)}") from None
     except (OSError, UnicodeDecodeError) as problem:
-        kind = " as text in UTF-8" if isinstance(problem, UnicodeDecodeError) else ""
-        words = f"cannot be read{kind}: {why(problem)}"
-        raise ValueError(f"{path}: {instead(path, due) or words}") from None
+        raise ValueError(f"{path}: {trouble(path, due, problem)}") from None
     if mistaken := instead(path, due):
         raise ValueError(f"{path}: {mistaken}")
     return text.replace("\u2212", "-")

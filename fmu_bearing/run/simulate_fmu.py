@@ -13,8 +13,8 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
-from fmu_bearing.file_words import FMU, absent, instead, one_line
-from fmu_bearing.files import no_room, plain_file
+from fmu_bearing.file_words import FMU, trouble
+from fmu_bearing.files import plain_file
 from fmu_bearing.results.result import COMPLETE, INTERRUPTED, REFUSED, ResultError
 from fmu_bearing.results.series import columns_of, structured
 from fmu_bearing.run.inputs import Input
@@ -72,8 +72,7 @@ class FmuPlayer:
         try:
             fmpy.extract(str(self.path), folder)
         except Exception as problem:  # of members that point outside, damaged ones, a full disk
-            full = no_room(folder, problem)
-            words = f"cannot be unpacked: {full}" if full else f"is not a valid FMU: {one_line(problem)}"
+            words = trouble(self.path, FMU, problem, known=False)
             raise ResultError(f"{self.path}: {words}") from None
 
     def _whole(self, table: NDArray[Any] | None, start: Mapping[str, float]) -> NDArray[Any] | None:
@@ -143,13 +142,8 @@ def open_fmu(path: pathlib.Path) -> FmuPlayer:
         return FmuPlayer(path, description)
     except ResultError:
         raise
-    except FileNotFoundError:
-        raise ResultError(f"{path}: {absent(path, 'FMU')}") from None
     except Exception as problem:  # FMPy, zipfile and zlib raise what they come upon
-        if full := no_room(tempfile.gettempdir(), problem):
-            raise ResultError(f"{path}: cannot be read: {full}") from None
-        words = instead(path, FMU) or f"is not a valid FMU: {one_line(problem)}"
-        raise ResultError(f"{path}: {words}") from None
+        raise ResultError(f"{path}: {trouble(path, FMU, problem, 'FMU', known=False)}") from None
 
 
 def _bound(value: str | float | None) -> float | None:

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import tomlkit
 from pydantic import ValidationError
 
-from fmu_bearing.file_words import CATALOGUE, absent, instead, why
-from fmu_bearing.files import read_text, real_path
+from fmu_bearing.file_words import CATALOGUE, text_of
+from fmu_bearing.files import real_path
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.base import Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
@@ -89,19 +89,10 @@ def _of_package(kind: str) -> Mapping[str, Entry]:
 def _of_file(path: Path) -> dict[str, Entry]:
     """Return the bearings of a user's file, all checked."""
     try:
-        text = read_text(path, _LONGEST)
-    except FileNotFoundError:
-        raise SceneError(f"{path}: {absent(path, 'catalogue file')}") from None
-    except (OSError, ValueError) as problem:
-        raise SceneError(
-            f"{path}: {instead(path, CATALOGUE) or f'cannot be read as a catalogue: {why(problem)}'}"
-        ) from None
-    if mistaken := instead(path, CATALOGUE):
-        raise SceneError(f"{path}: {mistaken}")
-    try:
+        text = text_of(path, CATALOGUE, _LONGEST, "catalogue file")
         tables = parse(text)
     except ValueError as problem:
-        raise SceneError(f"{path}: not valid TOML: {problem}") from None
+        raise SceneError(f"{path}: {problem}") from None
     problems = [line for name, table in tables.items() for line in _faults(name, table)]
     if problems:
         raise SceneError("\n".join(f"{path}: {line}" for line in problems))

@@ -8,8 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from fmu_bearing.file_words import SCENE, absent, instead, why
-from fmu_bearing.files import read_text, real_path
+from fmu_bearing.file_words import SCENE, text_of
+from fmu_bearing.files import real_path
 from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
@@ -189,17 +189,9 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
             "Scene.from_dict takes tables"
         )
     try:
-        text = read_text(path, LONGEST)
-    except FileNotFoundError:
-        raise SceneError(f"{path}: {absent(path, 'scene file')}") from None
-    except UnicodeDecodeError as problem:
-        raise SceneError(
-            f"{path}: {instead(path, SCENE) or f'is not text in UTF-8: {why(problem)}'}"
-        ) from None
-    except (OSError, ValueError) as problem:
-        raise SceneError(f"{path}: {instead(path, SCENE) or f'cannot be read: {why(problem)}'}") from None
-    if mistaken := instead(path, SCENE):
-        raise SceneError(f"{path}: {mistaken}")
+        text = text_of(path, SCENE, LONGEST, "scene file")
+    except ValueError as problem:
+        raise SceneError(f"{path}: {problem}") from None
     return read_scene_text(text, str(path), Path(path).parent)
 
 
@@ -216,7 +208,7 @@ def read_scene_text(text: str, name: str = "scene", folder: Path | None = None) 
     try:
         data = parse(text)
     except ValueError as problem:
-        raise SceneError(f"{name}: not valid TOML: {problem}") from None
+        raise SceneError(f"{name}: {problem}") from None
     sound = data.get("sound")
     if folder is not None and isinstance(sound, dict):
         table = sound.get("table_file")

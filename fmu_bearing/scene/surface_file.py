@@ -9,8 +9,8 @@ import numpy as np
 import tomlkit
 from numpy.typing import NDArray
 
-from fmu_bearing.file_words import SURFACE, absent, instead, why
-from fmu_bearing.files import read_text, write_whole
+from fmu_bearing.file_words import SURFACE, text_of
+from fmu_bearing.files import write_whole
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.imperfections import RACES, Imperfections
 from fmu_bearing.scene.surface import Surface
@@ -77,15 +77,7 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
         If the file cannot be read or does not hold a surface, with the key and what is allowed.
     """
     try:
-        text = read_text(path, _LONGEST)
-    except FileNotFoundError:
-        raise SceneError(f"{path}: {absent(path, 'file of a surface')}") from None
-    except (OSError, ValueError) as problem:
-        raise SceneError(f"{path}: {instead(path, SURFACE) or f'cannot be read: {why(problem)}'}") from None
-    if mistaken := instead(path, SURFACE):
-        raise SceneError(f"{path}: {mistaken}")
-    try:
-        return _surface(parse(text))
+        return _surface(parse(text_of(path, SURFACE, _LONGEST, "file of a surface")))
     except ValueError as problem:
         raise SceneError(f"{path}: {problem}") from None
 

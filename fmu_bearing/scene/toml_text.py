@@ -17,6 +17,7 @@ _NUMBER = re.compile(
 )
 _THOUSANDS = re.compile(r"(?: [0-9]{3})+")
 _FOUR = "tables and arrays of a scene are at most four levels deep, as [mounting.rotor]"
+_NOT = "not valid TOML:"
 _TWICE = ("Cannot overwrite", "Duplicate inline table key", "Cannot declare", "Cannot mutate")
 
 
@@ -32,13 +33,13 @@ def parse(text: str) -> dict[str, Any]:
     for number, line in enumerate(lines, start=1):
         # tomllib takes the square of the number of a name's parts
         if line.count(".") > DEEPEST and _QUOTED.sub("", line).partition("=")[0].count(".") > DEEPEST:
-            raise ValueError(f"line {number} names a table more than {DEEPEST} levels deep; {_FOUR}")
+            raise ValueError(f"{_NOT} line {number} names a table more than {DEEPEST} levels deep; {_FOUR}")
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise ValueError(f"its brackets are nested too deeply to be read; {_FOUR}") from None
+        raise ValueError(f"{_NOT} its brackets are nested too deeply to be read; {_FOUR}") from None
     except tomllib.TOMLDecodeError as problem:
-        raise ValueError(_corrected(lines, str(problem)) or str(problem)) from None
+        raise ValueError(f"{_NOT} {_corrected(lines, str(problem)) or problem}") from None
 
 
 def _corrected(lines: list[str], problem: str) -> str:

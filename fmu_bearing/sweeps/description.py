@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from fmu_bearing.file_words import SWEEP, instead, why
+from fmu_bearing.file_words import SWEEP, text_of
 from fmu_bearing.files import read_text
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.toml_text import LONGEST, parse
@@ -65,9 +65,9 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     """
     path = pathlib.Path(path)
     try:
-        data = parse(read_text(path, LONGEST))
-    except (OSError, ValueError) as problem:
-        raise SweepError(f"{path}: {instead(path, SWEEP) or f'cannot be read: {why(problem)}'}") from None
+        data = parse(text_of(path, SWEEP, LONGEST))
+    except ValueError as problem:
+        raise SweepError(f"{path}: {problem}") from None
     try:
         found = Description.model_validate(data)
     except ValidationError as failure:

@@ -14,8 +14,8 @@ from typing import IO, Any
 from xml.etree import ElementTree
 
 from fmu_bearing import children
-from fmu_bearing.file_words import FMU, absent, instead, one_line
-from fmu_bearing.files import no_room, plain_file
+from fmu_bearing.file_words import FMU, trouble
+from fmu_bearing.files import plain_file
 from fmu_bearing.validation.checks import CHECKS, NEEDED, meaning_of, name_of
 from fmu_bearing.validation.remarks import FINDING, SKIPPED, Result
 from fmu_bearing.validation.tools import TOOLS, words
@@ -81,13 +81,8 @@ def _unpack(path: Path, folder: Path) -> None:
             archive.extractall(folder)  # leaves out what points outside the folder
     except NotAnFmu:
         raise
-    except FileNotFoundError:
-        raise NotAnFmu(f"{path}: {absent(path, 'FMU')}") from None
     except Exception as problem:  # zipfile and zlib raise what they come upon in damaged files
-        if full := no_room(folder.parent, problem):
-            raise NotAnFmu(f"{path}: cannot be unpacked: {full}") from None
-        mistaken = instead(path, FMU) or f"is not an FMU, or damaged: {one_line(problem)}"
-        raise NotAnFmu(f"{path}: {mistaken}") from None
+        raise NotAnFmu(f"{path}: {trouble(path, FMU, problem, 'FMU', known=False)}") from None
 
 
 def _kind(path: Path, folder: Path) -> str:

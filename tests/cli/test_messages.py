@@ -273,10 +273,10 @@ def test_another_file_than_is_due(run, folder, words, answer):
         ("plot .", ".: cannot be read: it is a folder: name a file in it"),
         ("compare one.toml none.toml", "none.toml: there is no such scene file"),
         ("compare one.toml sub", "sub: cannot be read: it is a folder: name a file in it"),
-        ("info utf16.toml", "utf16.toml: is not text in UTF-8: it is UTF-16: save it as UTF-8"),
+        ("info utf16.toml", "utf16.toml: cannot be read as text in UTF-8: it is UTF-16: save it as UTF-8"),
         (
             "info latin.toml",
-            "latin.toml: is not text in UTF-8: byte 9 is no character of it: save it as UTF-8",
+            "latin.toml: cannot be read as text in UTF-8: byte 9 is no character of it: save it as UTF-8",
         ),
         ("scene check none.toml one.toml", "none.toml: there is no such scene file"),
     ],
@@ -291,7 +291,7 @@ def test_what_the_system_refuses_is_said_in_words(run, folder, monkeypatch):
     def refuse(path, *_, **__):
         raise PermissionError(13, os.strerror(13), str(path))
 
-    monkeypatch.setattr("fmu_bearing.scene.read.read_text", refuse)
+    monkeypatch.setattr("fmu_bearing.file_words.read_text", refuse)
     assert said(run, "info", "one.toml") == "one.toml: cannot be read: permission denied"
 
 

@@ -237,7 +237,7 @@ def test_members_that_point_outside_stay_inside(broken, tmp_path, absolute):
     with zipfile.ZipFile(path, "a") as archive:
         archive.writestr(name, "x")
     if absolute:
-        with pytest.raises(ResultError, match="is not a valid FMU: .*outside"):
+        with pytest.raises(ResultError, match="is not an FMU, or damaged: .*outside"):
             simulate(path, 1.0)
     else:
         simulate(path, 1.0)  # the dots are left out

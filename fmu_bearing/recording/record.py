@@ -39,12 +39,9 @@ RecordingSource = Recording | SceneSource
 
 #: Default variables of a recording, besides speed and channels.
 OUTPUTS = (
-    "friction_torque",
-    "contact.inner.load_mean",
-    "contact.outer.load_mean",
-    "contact.inner.angle_mean",
+    "friction_torque", "contact.inner.load_mean", "contact.outer.load_mean", "contact.inner.angle_mean",
     "contact.outer.angle_mean",
-)
+)  # fmt: skip
 SHORTEST = 0.02  # s of a recording that Ctrl-C ends: periods of 50 Hz and more
 DURATION = 0.5  # s: of a scene that is recorded where a recording is taken
 _QUICK = 0.5  # s: a run without a bar, where nothing is said of it

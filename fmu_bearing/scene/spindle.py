@@ -20,27 +20,11 @@ OR_CLASS = 'or preload_class = "light", or preload_offset_um = 10.0'
 
 #: Sets by their directions, from the nose on, and what makers call them.
 ARRANGEMENTS = {
-    "+": "single",
-    "-": "single",
-    "+-": "DB (O)",
-    "-+": "DF (X)",
-    "++": "DT",
-    "--": "DT",
-    "++-": "TBT (O)",
-    "+--": "TBT (O)",
-    "--+": "TFT (X)",
-    "-++": "TFT (X)",
-    "+++": "triple tandem",
-    "---": "triple tandem",
-    "++--": "QBC (O)",
-    "--++": "QFC (X)",
-    "+++-": "QBT (O)",
-    "+---": "QBT (O)",
-    "---+": "QFT (X)",
-    "-+++": "QFT (X)",
-    "++++": "QT",
-    "----": "QT",
-}
+    "+": "single", "-": "single", "+-": "DB (O)", "-+": "DF (X)", "++": "DT", "--": "DT", "++-": "TBT (O)",
+    "+--": "TBT (O)", "--+": "TFT (X)", "-++": "TFT (X)", "+++": "triple tandem", "---": "triple tandem",
+    "++--": "QBC (O)", "--++": "QFC (X)", "+++-": "QBT (O)", "+---": "QBT (O)", "---+": "QFT (X)",
+    "-+++": "QFT (X)", "++++": "QT", "----": "QT",
+}  # fmt: skip
 #: Directions by makers' name; the first where a set has two, which carries +x ahead or with more bearings.
 DIRECTIONS = {
     words.split()[0]: signs for signs, words in reversed(ARRANGEMENTS.items()) if words.split()[0].isupper()

@@ -16,13 +16,10 @@ from fmu_bearing.scene.values import fields_of, value_at
 
 #: Short names of frequent axes.
 ALIASES = {
-    "speed": "operation.speed_rpm",
-    "preload": "mounting.preload_N",
-    "pedestal": "mounting.pedestal_stiffness_N_m",
-    "viscosity": "lubricant.viscosity_Pa_s",
-    "seed": "imperfections.seed",
-    "fidelity": "fidelity.model",
-}
+    "speed": "operation.speed_rpm", "preload": "mounting.preload_N",
+    "pedestal": "mounting.pedestal_stiffness_N_m", "viscosity": "lubricant.viscosity_Pa_s",
+    "seed": "imperfections.seed", "fidelity": "fidelity.model",
+}  # fmt: skip
 #: Dimensions whose name is not the last part of the key.
 _NAMES = {"fidelity.model": "fidelity"}
 _RANGE = re.compile(r"([^:,]+):([^:,]+):(\d+)(log)?")

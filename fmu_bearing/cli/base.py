@@ -219,8 +219,10 @@ class Writing(list[Path]):
         return True
 
 
-def end(code: int, files: Writing | None = None) -> None:
-    """Say which file could not be written, and end a command with a code that is not 0."""
+def end(code: int, files: Writing | None = None, named: bool = False) -> None:
+    """Say which files were written, if ``named``, and which could not be; end a command with a code not 0."""
+    if named and files:
+        tell(f"written: {', '.join(map(str, files))}")
     if files is not None and files.problem:
         tell(f"error: {files.problem}")
         code = code or REFUSED

@@ -86,6 +86,4 @@ def compare(
         typer.echo(finding.words())
     for line in found.doubts():
         tell(line)
-    if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(0, files)
+    end(0, files, named=True)

@@ -97,6 +97,4 @@ def error_motion(
         )
     for line in found.remarks():
         base.tell(f"remark: {line}")
-    if files:
-        base.tell(f"written: {', '.join(map(str, files))}")
-    base.end(code, files)
+    base.end(code, files, named=True)

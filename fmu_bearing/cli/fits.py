@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli import options
-from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals, tell
+from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
@@ -63,6 +63,4 @@ def fits(
         show(*table)
     for line in found.remarks:
         typer.echo(line)
-    if files:
-        tell(f"written: {', '.join(map(str, files))}")
-    end(0, files)
+    end(0, files, named=True)

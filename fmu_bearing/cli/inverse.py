@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, Writing, check_new, end, print_json, tell
+from fmu_bearing.cli.base import Refusal, Writing, check_new, end, print_json
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
@@ -109,9 +109,7 @@ def find(
     show(f"surfaces of {found.words}", *found.rows())
     for line in found.remarks:
         typer.echo(line)
-    if files:
-        tell(f"written: {path}")
-    end(0, files)
+    end(0, files, named=True)
 
 
 def _bands(text: str) -> dict[str, float]:

@@ -89,9 +89,7 @@ def modes(
         _show_crossings(diagram)
     for line in dict.fromkeys(found.cautions() + (diagram.cautions() if diagram else [])):
         base.tell(f"caution: {line}")
-    if files:
-        base.tell(f"written: {', '.join(map(str, files))}")
-    base.end(0, files)
+    base.end(0, files, named=True)
 
 
 def _show(found: "Modes", highest: float, words: str) -> None:

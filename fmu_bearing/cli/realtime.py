@@ -83,6 +83,4 @@ def realtime(
     typer.echo(found.advice())
     for name, reason in found.left_out.items():
         base.tell(f"not timed: {name}: {reason}")
-    if files:
-        typer.echo(f"written: {output}")
-    base.end(code, files)
+    base.end(code, files, named=True)

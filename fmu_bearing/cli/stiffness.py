@@ -103,9 +103,7 @@ def stiffness(
         _show_planes(one)
     for line in found.cautions():
         base.tell(f"caution: {line}")
-    if files:
-        base.tell(f"written: {', '.join(map(str, files))}")
-    base.end(code, files)
+    base.end(code, files, named=True)
 
 
 def _spacing(text: str) -> "Spacing":

@@ -102,9 +102,7 @@ def tradeoff(
         base.print_json({"settings": base.named(*study.table()), "files": files})
     else:
         show(f"{study.scene}: accuracy and cost", *study.table())
-        if files:
-            typer.echo(f"written: {', '.join(map(str, files))}")
-    base.end(code, files)
+    base.end(code, files, named=not as_json)
 
 
 @base.app.command()
@@ -208,9 +206,7 @@ def _each_alone(
         base.print_json({"moves": base.named(*study.table()), "files": files})
     else:
         show(f"{study.scene}: what rests on assumed values", *study.table())
-        if files:
-            typer.echo(f"written: {', '.join(map(str, files))}")
-    base.end(code, files)
+    base.end(code, files, named=not as_json)
 
 
 @base.app.command()

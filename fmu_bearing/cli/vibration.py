@@ -118,9 +118,7 @@ def vibration(
     show(f"strongest lines, {_SHOWN} of each band", *found.lines_table(_SHOWN))
     for remark in found.remarks:
         typer.echo(remark)
-    if files:
-        base.tell(f"written: {', '.join(map(str, files))}")
-    base.end(code, files)
+    base.end(code, files, named=True)
 
 
 def _check_rig(settings: Sequence[str] | None) -> None:

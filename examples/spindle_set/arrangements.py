@@ -3,15 +3,17 @@
 import argparse
 import math
 import pathlib
-
-from matplotlib import patches
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from fmu_bearing import Scene, read_scene
+from fmu_bearing.extras import need
 from fmu_bearing.reports.sections.arrangement import pressure_centres
 from fmu_bearing.results.picture_parts import COLOURS, empty, save
 from fmu_bearing.scene.member import set_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 PAIR = pathlib.Path(__file__).with_name("7003C-DB.toml")
 SETS = {
@@ -43,8 +45,9 @@ def scenes() -> dict[str, Scene]:
     return found
 
 
-def draw_set(scene: Scene, axes: Axes, title: str = "") -> None:
+def draw_set(scene: Scene, axes: "Axes", title: str = "") -> None:
     """Draw a scene's set into ``axes``, mm."""
+    patches = need("matplotlib.patches", "a picture")
     spindle, bearing = set_of(scene), scene.bearing
     start = 0.0
     for length, diameter, bore in spindle.shaft.sections_mm:
@@ -79,7 +82,7 @@ def draw_set(scene: Scene, axes: Axes, title: str = "") -> None:
     axes.autoscale_view()
 
 
-def set_figure(scenes: dict[str, Scene], columns: int = 3) -> Figure:
+def set_figure(scenes: dict[str, Scene], columns: int = 3) -> "Figure":
     """Return a figure of sets side by side, by their titles."""
     rows = -(-len(scenes) // columns)
     figure = empty((3.4 * columns, 2.4 * rows))

@@ -3,11 +3,12 @@
 import math
 
 import numpy as np
+from scipy.optimize import brentq
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import ST, C, P, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.rigid_preload import cold_place, load_at_place, place_under
+from fmu_bearing.engine.statics.rigid_preload import cold_place, place_under
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
@@ -135,5 +136,9 @@ class Rest:
         place, status = cold_place(self.p, self.u, self.u[U.PRELOAD], self.w)
         assert status == OK
         c, speed = self._conditions(cold, self.p)
-        assert load_at_place(self.p, c, place, speed, self.found) == OK
-        return c[C.PRELOAD]
+
+        def beyond(load):
+            c[C.PRELOAD] = load
+            return place_under(self.p, c, speed, self.found)[0] - place
+
+        return brentq(beyond, 0.01, 1e4, xtol=1e-9)

@@ -145,16 +145,16 @@ def _study() -> dict[str, Callable[..., Any]]:
     from numba import carray
 
     from fmu_bearing.engine.fidelities.full import march as full
-    from fmu_bearing.engine.layout import U
+    from fmu_bearing.engine.layout import U, W
     from fmu_bearing.engine.mechanics import conditions as oil, equations
     from fmu_bearing.engine.newton import jacobian as newton
     from fmu_bearing.engine.reference import first_order as rates, playback, runge_kutta as explicit
-    from fmu_bearing.engine.statics import held as statics
+    from fmu_bearing.engine.statics import quasistatic as statics
 
     rhs = equations.right_hand_side
     rk4, rows = explicit.runge_kutta, explicit.ROWS
     sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
-    speed, newton_of_set = U.SPEED, full.solve_at_state
+    speed, tilts, newton_of_set = U.SPEED, W.TILT, full.solve_at_state
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 
     def repeat(p, c, y, w, f, n, angle, speed, times):
@@ -189,9 +189,12 @@ def _study() -> dict[str, Callable[..., Any]]:
     def held(p, u, c, d, g, q, w, n):
         of_bearing, inputs, held_values = carray(p, (n[0],)), carray(u, (n[1],)), carray(c, (n[2],))
         conditions(of_bearing, inputs, inputs[speed], held_values)
+        work = carray(w, (n[6],))
+        upright = work[tilts : tilts + 2]
+        upright[0] = upright[1] = 0.0
         return at_displacement(
-            of_bearing, held_values, inputs[speed], carray(d, (n[3],)), carray(g, (n[4],)),
-            carray(q, (n[5],)), carray(w, (n[6],)),
+            of_bearing, held_values, inputs[speed], carray(d, (n[3],)), upright, 0.0, carray(g, (n[4],)),
+            carray(q, (n[5],)), work,
         )  # fmt: skip
 
     def answer_set(p, s, w, n, gh):

@@ -3,16 +3,20 @@
 import numpy as np
 
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
-from fmu_bearing.engine.layout import EQ, C, P, U, W
+from fmu_bearing.engine.layout import EQ, SP, C, P, Q, S, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.quasistatic import equilibrium
+from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.rest import balance, begin_rest
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from tests.engine.helpers import RPM
 
+#: N m/rad: of springs under an outer ring that is upright, and tilted, where rounding leaves 1e-9 N m
+UPRIGHT, TILTED = 1e13, 1e9
+
 
 class Bearing:
-    """A scene's parameters and conditions, and the kernel's answers in SI units."""
+    """A scene's parameters and conditions, and where the kernel brings its rings to rest, in SI units."""
 
     def __init__(self, scene, **parameters):
         self.p = pack(scene, np.empty(0))
@@ -21,16 +25,28 @@ class Bearing:
         self.u = np.zeros(U.SIZE)
         self.u[U.PEDESTAL] = 1e8
         self.u[U.SHAFT_T :] = REFERENCE_TEMPERATURE
-        self.c = np.zeros(C.SIZE)
+        self.p[P.GRAVITY] = self.p[P.RIGID] = 0.0
+        self.s = np.zeros(S.size(self.p))
+        self.c = self.s[S.C : S.C + C.SIZE]
         self.w = np.zeros(W.size(self.p))
         self.out = np.zeros(EQ.SIZE)
         self.balls = int(self.p[P.BALLS])
         conditions(self.p, self.u, 0.0, self.c)
 
     def solve(self, rpm, load, offset=(0.0, 0.0), status=OK):
-        """Equilibrium under (Fx, Fy, Fz, My, Mz); the bearing itself, for its rows."""
-        load, offset = np.array(load, dtype=float), np.array(offset, dtype=float)
-        assert equilibrium(self.p, self.c, rpm * RPM, load, offset, self.out, self.w) == status
+        """Equilibrium under (Fx, Fy, Fz, My, Mz), the outer ring tilted; the bearing itself, for its rows."""
+        self.c[C.PEDESTAL_ROTATIONAL] = TILTED if any(offset) else UPRIGHT
+        self.p[P.MISALIGNMENT_Y : P.MISALIGNMENT_Y + 2] = offset
+        return self.rest(rpm, load, status)
+
+    def rest(self, rpm, load, status=OK):
+        """As `solve`, with the outer ring on the springs of its pedestal."""
+        self.c[[C.PRELOAD, C.LOAD_Y, C.LOAD_Z]] = load[:3]
+        more = members.scratch(self.p, 0) + SP.START_MORE
+        self.w[W.SET + more + Q.INNER_BY :][:2] = load[3:]
+        begin_rest(self.p, self.s, self.w, rpm * RPM)
+        assert balance(self.p, self.s, self.w, rpm * RPM, 0.0) == status
+        self.out[:] = self.w[W.FOUND : W.FOUND + EQ.SIZE]
         return self
 
     def row(self, at_row):
@@ -41,6 +57,12 @@ class Bearing:
     def shift(self):
         """Displacement of the inner ring against the outer: x, y, z, tilts y and z."""
         return self.out[EQ.SHIFT : EQ.SHIFT + 5].copy()
+
+    @property
+    def tilt(self):
+        """Tilts y and z of the outer ring."""
+        at = W.SET + members.scratch(self.p, 0) + SP.START_TILT
+        return self.w[at : at + 2].copy()
 
     @property
     def stiffness(self):

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.engine.layout import EQ, STRIDE, P, Q, Y
+from fmu_bearing.compiled import call
+from fmu_bearing.engine.layout import EQ, STRIDE, C, F, P, Q, S, U, Y
 from fmu_bearing.engine.statics.place import place_balls
-from tests.engine.helpers import RPM
+from fmu_bearing.engine.statics.rigid_preload import cold_place
+from fmu_bearing.engine.status import OK
+from tests.engine.helpers import RPM, Run, quiet
 from tests.engine.quasistatic import Bearing
 
 
@@ -54,3 +57,20 @@ def test_balls_follow_the_outer_ring(scene, sag):
     still = cartesian(nominal, bearing.row(EQ.WX), bearing.row(EQ.WR), zero)
     np.testing.assert_allclose(spin, still, rtol=1e-12, atol=1e-9)
     assert orbit.mean() == pytest.approx(0.42 * 20e3 * RPM, rel=0.02)
+
+
+def test_a_rigidly_preloaded_bearing_rests_under_a_load_across(scene):
+    """The mount holds the place alone: all other forces on rings and balls balance at the start."""
+    run = Run(quiet(scene("7003C-bare")), 20000, RIGID=1.0, CAGE=0.0)
+    run.u[U.LOAD_Z] = -300.0
+    run.init()
+    f, y, c = np.zeros(F.SIZE), run.s[S.Y : S.Y + Y.SIZE], run.s[S.C : S.C + C.SIZE]
+    call("right_hand_side", run.p, c, y, run.w, f, 0.0, run.u[U.SPEED], 0.0)
+    place, status = cold_place(run.p, run.u, run.u[U.PRELOAD], run.w)
+    assert status == OK and y[Y.Q0] == place
+    assert y[Y.Q0 + Q.Z] < -1e-6
+    mass, turning = run.p[P.OUTER_MASS], run.p[P.OUTER_TRANSVERSE] / run.p[P.PITCH_RADIUS]
+    outer = f[F.BODY + Q.OUTER : F.BODY + Q.CAGE] * [mass, mass, mass, 0.0, turning, turning]
+    inner = f[F.BODY + Q.Y : F.BODY + Q.INNER_BY] * run.p[P.INNER_MASS]
+    # what may be out of balance in a steady state: 1e-4 N
+    np.testing.assert_allclose([*outer, *inner], 0.0, atol=1e-3)

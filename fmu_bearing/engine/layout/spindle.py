@@ -241,6 +241,7 @@ START_PULL = _start(LANES)  # N, N m: on both rings, then on the driven rows
 START_MORE = _start(LANES)  # N, N m: on both rings, by which steady forces exceed quasi-static ones
 START_BEFORE = _start(LANES)  # N, N m: and the quasi-static ones
 START_ECCENTRICITY = _start()  # m: set aside
+START_ASIDE = _start(2)  # m: y z of the outer ring, which was put on the axis
 TURNED = 3 * LANES  # cosine and sine of a bearing's orbit angle since its Jacobian
 SCRATCH = max(TURNED + 2, _start.next)  # per bearing: its answer in driven rows, what drives them, other
 # equations: rows of one more than unknowns; then vectors

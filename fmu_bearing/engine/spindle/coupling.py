@@ -152,7 +152,7 @@ def factor_set(p, s, w, gh):
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     if has_port(p):
-        hold_rows(ws, members.matrix(p), n, n)
+        hold_rows(ws, members.matrix(p), SP.PLANE, n, n)
     return invert_set(p, members.set_state(p, s), ws)
 
 

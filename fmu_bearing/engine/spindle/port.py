@@ -92,9 +92,9 @@ def lead_stage(p, s, w, stage, t):
 
 
 @kernel
-def hold_rows(x, at, count, width):
-    """Take the shaft, whose motion is given, out of ``count`` equations at ``x[at:]``, rows of ``width``."""
-    for i in range(SP.PLANE):
+def hold_rows(x, at, given, count, width):
+    """Take the first ``given`` unknowns out of ``count`` equations at ``x[at:]``, rows of ``width``."""
+    for i in range(given):
         for k in range(count):
             x[at + i * width + k] = 0.0
             x[at + k * width + i] = 0.0

@@ -1,7 +1,8 @@
-"""Where shaft, housing and outer rings of a set rest: Newton's method in displacements.
+"""Where shaft, housing and rings rest, of a set and of a single bearing: Newton's method in displacements.
 
 Unknowns: coordinates of shaft, housing and sliding rings, places x y z and tilts of each ring on a pedestal
-of its own. Contacts are springs: a step is judged by the force along it, which must not turn round.
+of its own. A single bearing has its inner ring in the place of a shaft. Contacts are springs: a step is
+judged by the force along it, which must not turn round.
 
 ``z``, ``g``, ``step``: places in the set's own work space of vectors of `unknowns` numbers: the unknowns (m,
 rad), the forces out of balance at them (N, N m), a step of the unknowns. Each bearing's part of the scratch
@@ -13,17 +14,18 @@ import math
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.dense import eliminate, invert
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W
+from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W, Y
 from fmu_bearing.engine.layout.sizes import FOUR
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import feet_matrix
 from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
 from fmu_bearing.engine.spindle.shaft import has_housing, shaft_forces, weighs
-from fmu_bearing.engine.statics.held import held_tilted
-from fmu_bearing.engine.statics.mounted import outer_moment
+from fmu_bearing.engine.statics.axial import quasistatic
+from fmu_bearing.engine.statics.place import sunk
+from fmu_bearing.engine.statics.quasistatic import held, outer_moment
 from fmu_bearing.engine.status import NO_START, OK
 
-_ITERATIONS = 200
+_ITERATIONS = 400
 _BACKTRACKS = 12
 _LONGEST = 5e-6  # m: step of a ring, tilts at the pitch radius; a tenth of the groove centres' distance
 _FLOOR = 1.0  # N/m: moves a shaft that nothing holds by the longest step at most
@@ -37,15 +39,43 @@ def on_pedestal(p, b):
 
 
 @kernel
+def shared_unknowns(p):
+    """Return how many unknowns no ring has for its own: the coordinates, or a single bearing's inner ring."""
+    return members.coordinates(p) if members.has_shaft(p) else SP.PLANE
+
+
+@kernel
+def driven_rows(p, b):
+    """Return how many rows of the rings of bearing ``b`` these unknowns move."""
+    return int(p[members.row(p, b) + SP.ROW_DRIVEN]) if members.has_shaft(p) else SP.PLANE
+
+
+@kernel
+def row_motion(p, b, i, k):
+    """How driven row ``i`` of bearing ``b`` moves by shared unknown ``k``."""
+    if not members.has_shaft(p):
+        return 1.0 if i == k else 0.0
+    return p[int(p[members.row(p, b) + SP.ROW_AT_T]) + k * SP.LANES + i]
+
+
+@kernel
+def given_rows(p):
+    """Return how many of the first unknowns are given: a shaft's at a port, the place of a rigid preload."""
+    if has_port(p):
+        return SP.PLANE
+    return 1 if p[P.RIGID] != 0.0 else 0
+
+
+@kernel
 def free_rows(p, b):
-    """Return how many unknowns the outer ring of bearing ``b`` has beside the set's coordinates."""
-    return SP.PLANE if on_pedestal(p, b) and p[members.row(p, b) + SP.ROW_DRIVEN] < SP.DRIVEN else 0
+    """Return how many unknowns the outer ring of bearing ``b`` has for its own."""
+    return SP.PLANE if on_pedestal(p, b) and driven_rows(p, b) < SP.DRIVEN else 0
 
 
 @kernel
 def unknowns(p):
     """Return how many unknowns the start has."""
-    total = members.coordinates(p)
+    total = shared_unknowns(p)
     for b in range(members.count(p)):
         total += free_rows(p, b)
     return total
@@ -54,7 +84,7 @@ def unknowns(p):
 @kernel
 def first_unknown(p, b):
     """Return the first unknown of the outer ring of bearing ``b``."""
-    total = members.coordinates(p)
+    total = shared_unknowns(p)
     for k in range(b):
         total += free_rows(p, k)
     return total
@@ -77,12 +107,11 @@ def outer_row(i):
 @kernel
 def put_rings(p, b, ws, own, z):
     """Put the places of the rings of bearing ``b`` for the unknowns ``ws[z:]`` into its scratch."""
-    r = members.row(p, b)
     at = members.scratch(p, b)
     members.place_rows(p, b, own, ws, z, ws, at + SP.START_PULL)
     for i in range(SP.HOUSING):
         ws[at + SP.START_OUTER + i] = 0.0
-    for i in range(int(p[r + SP.ROW_DRIVEN])):
+    for i in range(driven_rows(p, b)):
         if i >= Q.OUTER:
             ws[at + SP.START_OUTER + i - Q.OUTER] = ws[at + SP.START_PULL + i]
     mine = z + first_unknown(p, b)
@@ -96,18 +125,34 @@ def put_rings(p, b, ws, own, z):
 
 
 @kernel
+def put_rings_in_state(p, b, y, ws):
+    """Put the rings of bearing ``b`` in the state ``y`` to where they were settled last."""
+    at = members.scratch(p, b)
+    for i in range(SP.HOUSING):
+        y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
+    for i in range(SP.PLANE):
+        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
+
+
+@kernel
+def neutral_aside(p, b, c, w):
+    """Move the pedestal in ``c`` so that the outer ring of bearing ``b``, settled last, is on the axis."""
+    ws = members.set_work(p, w)
+    at = members.scratch(p, b) + SP.START_OUTER
+    c[C.NEUTRAL_Y] = -ws[at + Q.Y]
+    c[C.NEUTRAL_Z] = -ws[at + Q.Z]
+
+
+@kernel
 def ring_motion(p, b, i, out, to):
     """Put to ``out[to:]`` how row ``i`` of inner against outer ring, bearing ``b``, moves by each unknown."""
-    n = members.coordinates(p)
-    r = members.row(p, b)
-    t = int(p[r + SP.ROW_AT_T])
     for k in range(unknowns(p)):
         out[to + k] = 0.0
-    for m in range(int(p[r + SP.ROW_DRIVEN])):
+    for m in range(driven_rows(p, b)):
         sign = 1.0 if m == i else -1.0 if m == Q.OUTER + outer_row(i) else 0.0
         if sign != 0.0:
-            for k in range(n):
-                out[to + k] += sign * p[t + k * SP.LANES + m]
+            for k in range(shared_unknowns(p)):
+                out[to + k] += sign * row_motion(p, b, m, k)
     if i < free_rows(p, b):
         out[to + first_unknown(p, b) + i] -= 1.0
 
@@ -139,7 +184,7 @@ def pedestal_stiffness(c, i, k):
 def show_ring_forces(p, b, speed, force, s, w, out, to):
     """Put to ``out[to:]`` what quasi-static balls and weights put on all rows of both rings (N, N m).
 
-    ``force``: of the balls on the inner ring, as `held_tilted` has just found it.
+    ``force``: of the balls on the inner ring, as `held` has just found it.
     """
     ws = members.set_work(p, w)
     pb = members.parameters(p, b)
@@ -162,10 +207,10 @@ def show_ring_forces(p, b, speed, force, s, w, out, to):
 
 
 @kernel
-def settle_bearing(p, s, w, b, speed, z, g):
+def settle_bearing(p, s, w, b, speed, share, z, g):
     """Settle bearing ``b`` where the unknowns at ``z`` put its rings; add its forces to those at ``g``.
 
-    Returns its status.
+    ``share`` of the imperfections (0 or 1). Returns its status.
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
@@ -177,7 +222,7 @@ def settle_bearing(p, s, w, b, speed, z, g):
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
     force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
     found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-    status = held_tilted(members.parameters(p, b), c, speed, ring, tilt, 1.0, force, found, wb)
+    status = held(members.parameters(p, b), c, speed, ring, tilt, share, force, found, wb)
     pull = at + SP.START_PULL
     outer = at + SP.START_OUTER
     show_ring_forces(p, b, speed, force, s, w, ws, pull)
@@ -194,14 +239,14 @@ def settle_bearing(p, s, w, b, speed, z, g):
     mine = g + first_unknown(p, b)
     for i in range(free_rows(p, b)):
         ws[mine + i] = ws[pull + Q.OUTER + outer_row(i)]
-    for k in range(int(p[members.row(p, b) + SP.ROW_DRIVEN]), SP.LANES):
+    for k in range(driven_rows(p, b), SP.LANES):
         ws[pull + k] = 0.0
     members.pull(p, b, ws, pull, ws, g)
     return status
 
 
 @kernel
-def forces_at(p, s, w, speed, z, g):
+def forces_at(p, s, w, speed, share, z, g):
     """Put forces out of balance for the unknowns at ``z`` to ``g``; the worst status of a bearing."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
@@ -212,14 +257,25 @@ def forces_at(p, s, w, speed, z, g):
     for i in range(count):
         ws[g + i] = 0.0
     shaft_forces(p, own, ws, z, still, 0.0, 0.0, 0.0, ws, g)
+    if not members.has_shaft(p):
+        ws[g + Q.X] = s[S.C + C.PRELOAD]
+        ws[g + Q.Y] = s[S.C + C.LOAD_Y]
+        ws[g + Q.Z] = s[S.C + C.LOAD_Z]
     status = OK
     for b in range(members.count(p)):
-        here = settle_bearing(p, s, w, b, speed, z, g)
+        here = settle_bearing(p, s, w, b, speed, share, z, g)
         if here != OK:
             status = here
-    if has_port(p):
-        clear(ws, g, SP.PLANE)
+    clear(ws, g, given_rows(p))
     return status
+
+
+@kernel
+def upright_stiffness(p, i, k):
+    """Entry, by shared unknowns, of the stiffness of the shaft and of what supports its tilt."""
+    if not members.has_shaft(p):
+        return p[P.TILT_STIFFNESS] if i == k and i >= Q.INNER_BY else 0.0
+    return p[members.table(p, SP.AT_STIFFNESS) + k * members.padded_size(p) + i]
 
 
 @kernel
@@ -230,17 +286,16 @@ def equations(p, s, w, damping):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    n = members.coordinates(p)
+    n = shared_unknowns(p)
     count = unknowns(p)
     at = members.matrix(p)
     width = count + 1
     spare = start_vector(p, SP.MOTIONS)
     for i in range(count * width):
         ws[at + i] = 0.0
-    shaft = members.table(p, SP.AT_STIFFNESS)
     for i in range(n):
         for k in range(n):
-            ws[at + i * width + k] += p[shaft + k * members.padded_size(p) + i]
+            ws[at + i * width + k] += upright_stiffness(p, i, k)
     if has_housing(p):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
         feet_matrix(p, own, SP.FEET, 1.0, ws, at + h * width + h, width, spare)
@@ -261,17 +316,15 @@ def equations(p, s, w, damping):
         for i in range(free_rows(p, b)):
             for k in range(free_rows(p, b)):
                 ws[at + (mine + i) * width + mine + k] += pedestal_stiffness(c, outer_row(i), outer_row(k))
-        r = members.row(p, b)
-        t = int(p[r + SP.ROW_AT_T]) + Q.OUTER
-        stands = on_pedestal(p, b) and int(p[r + SP.ROW_DRIVEN]) == SP.DRIVEN
+        stands = on_pedestal(p, b) and driven_rows(p, b) == SP.DRIVEN
         for entry in range(SP.HOUSING * SP.HOUSING if stands else 0):
             i = entry // SP.HOUSING
             k = entry % SP.HOUSING
             stiffness = pedestal_stiffness(c, i, k)
             for m in range(n if stiffness != 0.0 else 0):
-                share = stiffness * p[t + m * SP.LANES + i]
+                share = stiffness * row_motion(p, b, Q.OUTER + i, m)
                 for h in range(n):
-                    ws[at + m * width + h] += share * p[t + h * SP.LANES + k]
+                    ws[at + m * width + h] += share * row_motion(p, b, Q.OUTER + k, h)
     for i in range(count):
         ws[at + i * width + i] += damping * inertia(p, i)
 
@@ -279,14 +332,11 @@ def equations(p, s, w, damping):
 @kernel
 def inertia(p, i):
     """Inertia of unknown ``i`` over the shaft's along its axis; it makes forces and moments comparable."""
-    if i < members.coordinates(p):
+    if members.has_shaft(p) and i < members.coordinates(p):
         return p[members.table(p, SP.AT_SCALE) + i]
-    for b in range(members.count(p)):
-        first = first_unknown(p, b)
-        if i >= first and i < first + free_rows(p, b):
-            lever = members.parameters(p, b)[P.PITCH_RADIUS]
-            return 1.0 if i - first < Q.INNER_BY else lever * lever
-    return 1.0
+    # unknowns of one ring: x y z by bz
+    lever = p[P.PITCH_RADIUS]
+    return 1.0 if (i - shared_unknowns(p)) % SP.PLANE < Q.INNER_BY else lever * lever
 
 
 @kernel
@@ -305,8 +355,7 @@ def newton_step(p, s, w, g, step, damping):
     count = unknowns(p)
     equations(p, s, w, damping)
     at = members.matrix(p)
-    if has_port(p):
-        hold_rows(ws, at, count, count + 1)
+    hold_rows(ws, at, given_rows(p), count, count + 1)
     for i in range(count):
         ws[at + i * (count + 1) + count] = ws[g + i]
     if not eliminate(ws, at, count):
@@ -361,6 +410,8 @@ def keep_stiffness(p, s, w):
 
     Axial and radial with its other motions held, against a tilt with the shaft free to move aside.
     """
+    if not members.has_shaft(p):
+        return
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     give = SP.RESISTANCE
@@ -381,8 +432,53 @@ def keep_stiffness(p, s, w):
 
 
 @kernel
-def rest(p, s, w, speed):
-    """Bring the unknowns to rest; status code. Bearings are left settled where their rings then are."""
+def begin_rest(p, s, w, speed):
+    """Begin the unknowns at the coordinates; of a single bearing where axial load and pedestal put its rings.
+
+    Where there is no rest under axial load alone, the guess is where that search ended.
+    """
+    ws = members.set_work(p, w)
+    z = start_vector(p, SP.UNKNOWNS)
+    if members.has_shaft(p):
+        for i in range(members.coordinates(p)):
+            ws[z + i] = members.set_state(p, s)[SP.S_HEAD + i]
+        return
+    c = s[S.C : S.C + C.SIZE]
+    axial = w[W.STILL_FOUND : W.STILL_END]
+    quasistatic(p, c, speed, axial)
+    own_weight, lying = weights(p, p)
+    aside, down = sunk(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
+    for place in (z, z + SP.PLANE):
+        ws[place + Q.X] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
+        ws[place + Q.Y] = aside
+        ws[place + Q.Z] = down
+        ws[place + Q.INNER_BY] = p[P.MISALIGNMENT_Y]
+        ws[place + Q.INNER_BZ] = p[P.MISALIGNMENT_Z]
+    ws[z + Q.X] = s[S.PLACE] if p[P.RIGID] != 0.0 else ws[z + Q.X] + axial[ST.AXIAL_SHIFT]
+
+
+@kernel
+def rest(p, s, w, speed, share):
+    """Bring the unknowns to rest; status code. Bearings are left settled where their rings then are.
+
+    ``share`` of the imperfections (0 or 1). A ring that hangs on a few balls at speed, with no axial load,
+    may have no rest that can be found: then one with a little axial load serves, a start from which such a
+    ring sets itself moving anyway.
+    """
+    status = balance(p, s, w, speed, share)
+    if status != OK and not members.has_shaft(p):
+        c = s[S.C : S.C + C.SIZE]
+        load = c[C.PRELOAD]
+        c[C.PRELOAD] += 1.0 + 0.05 * (abs(load) + abs(c[C.LOAD_Y]) + abs(c[C.LOAD_Z]))
+        begin_rest(p, s, w, speed)
+        status = balance(p, s, w, speed, share)
+        c[C.PRELOAD] = load
+    return status
+
+
+@kernel
+def balance(p, s, w, speed, share):
+    """As `rest`, with the loads as they are."""
     ws = members.set_work(p, w)
     count = unknowns(p)
     z = start_vector(p, SP.UNKNOWNS)
@@ -390,7 +486,7 @@ def rest(p, s, w, speed):
     g = start_vector(p, SP.FORCES)
     after = start_vector(p, SP.TRIAL_FORCES)
     step = start_vector(p, SP.STEPS)
-    status = forces_at(p, s, w, speed, z, g)
+    status = forces_at(p, s, w, speed, share, z, g)
     total = 100.0
     for b in range(members.count(p)):
         total += abs(ws[members.scratch(p, b) + SP.START_FORCE])
@@ -403,19 +499,19 @@ def rest(p, s, w, speed):
         if not (ahead > 0.0):
             damping = max(10.0 * damping, 1e3)
             continue
-        share = 1.0
+        gone = 1.0
         for n in range(_BACKTRACKS):
             for i in range(count):
-                ws[trial + i] = ws[z + i] + share * ws[step + i]
-            status = forces_at(p, s, w, speed, trial, after)
+                ws[trial + i] = ws[z + i] + gone * ws[step + i]
+            status = forces_at(p, s, w, speed, share, trial, after)
             along = 0.0
             for i in range(count):
                 along += ws[after + i] * ws[step + i]
             smaller = force_size(p, ws, after) < 0.5 * size
             if along >= -0.9 * ahead or smaller or n == _BACKTRACKS - 1:
                 break
-            share *= min(max(ahead / (ahead - along), 0.1), 0.7)
-        damping = max(0.3 * damping, _FLOOR) if share > 0.5 else 4.0 * damping
+            gone *= min(max(ahead / (ahead - along), 0.1), 0.7)
+        damping = max(0.3 * damping, _FLOOR) if gone > 0.5 else 4.0 * damping
         for i in range(count):
             ws[z + i] = ws[trial + i]
             ws[g + i] = ws[after + i]

@@ -1,9 +1,10 @@
-"""Where a set rests with the steady forces of its bearings.
+"""Where perfect bearings rest with their steady forces.
 
-``rest`` moves the set with quasi-static bearings. By how much steady forces exceed quasi-static ones is found
+``rest`` moves all with quasi-static bearings. By how much steady forces exceed quasi-static ones is found
 with the rings where they rest, and added; then the set is brought to rest again. Fidelity full counts it on
 all rows of both rings, with what loads across the axis do to balls and cage; rings and response, which are
-linearised about even balls, along the axis alone. Arguments: see `members`; ``y``: see `layout.y`.
+linearised about even balls, along the axis alone. The steady state of a single bearing is found with free
+rings, so that nothing is added. Arguments: see `members`; ``y``: see `layout.y`.
 
 States here have the outer ring's centre on the axis: a shift of the whole bearing changes no force.
 """
@@ -15,10 +16,10 @@ from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.bodies import lands
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.rest import outer_row, rest, show_ring_forces
+from fmu_bearing.engine.spindle.rest import put_rings_in_state, rest, show_ring_forces
 from fmu_bearing.engine.spindle.shaft import weighs
-from fmu_bearing.engine.statics.held import held, held_tilted
-from fmu_bearing.engine.statics.place import place_balls, place_cage
+from fmu_bearing.engine.statics.place import place_balls, place_cage, upright_point
+from fmu_bearing.engine.statics.quasistatic import held
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, make_even, settle_evenly
 from fmu_bearing.engine.steady.point import REST, settle_at_rest
@@ -28,20 +29,8 @@ _CLOSE = 1e-6  # of the load
 
 
 @kernel
-def place_rings_held(p, b, y, ws):
-    """Put the rings of bearing ``b`` in the state ``y`` to where the set rested last, all else to zero."""
-    at = members.scratch(p, b)
-    for i in range(Y.SIZE):
-        y[i] = 0.0
-    for i in range(SP.HOUSING):
-        y[Y.Q0 + Q.OUTER + i] = 0.0 if i == Q.Y or i == Q.Z else ws[at + SP.START_OUTER + i]
-    for i in range(SP.PLANE):
-        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + y[Y.Q0 + Q.OUTER + outer_row(i)]
-
-
-@kernel
 def place_held(p, b, speed, y, s, w):
-    """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where the set rested last.
+    """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where they rested last.
 
     Forces of its balls on the inner ring are left in ``W.LOAD``.
     """
@@ -54,8 +43,13 @@ def place_held(p, b, speed, y, s, w):
     force = wb[W.LOAD : W.LOAD + EQ.FREEDOMS]
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
-    held_tilted(pb, c, speed, ring, tilt, 0.0, force, found, wb)
-    place_rings_held(p, b, y, ws)
+    held(pb, c, speed, ring, tilt, 0.0, force, found, wb)
+    for i in range(Y.SIZE):
+        y[i] = 0.0
+    put_rings_in_state(p, b, y, ws)
+    for i in (Q.Y, Q.Z):
+        y[Y.Q0 + i] -= y[Y.Q0 + Q.OUTER + i]
+        y[Y.Q0 + Q.OUTER + i] = 0.0
     place_balls(pb, y, found)
     if pb[P.CAGE] != 0.0:
         place_cage(pb, y, found)
@@ -73,19 +67,11 @@ def axial_excess(p, b, speed, s, w):
     ws = members.set_work(p, w)
     c = sb[S.C : S.C + C.SIZE]
     at = members.scratch(p, b)
-    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-    force = wb[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    ring = wb[W.PATTERN + PT.STEP : W.PATTERN + PT.STEP + SP.PLANE]
-    for i in range(SP.PLANE):
-        ring[i] = ws[at + SP.START_RING + i] if i == Q.X else 0.0
-    if speed == 0.0 or held(pb, c, speed, ring, force, found, wb) != OK or force[Q.X] == 0.0:
-        return 0.0
-    before = force[Q.X]
     y = wb[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
-    place_rings_held(p, b, y, ws)
-    place_balls(pb, y, found)
-    if pb[P.CAGE] != 0.0:
-        place_cage(pb, y, found)
+    shift, outer = ws[at + SP.START_RING + Q.X], ws[at + SP.START_OUTER + Q.X]
+    if speed == 0.0 or upright_point(pb, c, speed, shift, outer, y, wb) != OK or wb[W.LOAD + Q.X] == 0.0:
+        return 0.0
+    before = wb[W.LOAD + Q.X]
     make_even(pb, c, y, speed)
     if not settle_evenly(pb, c, y, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]):
         return 0.0
@@ -175,8 +161,8 @@ def rest_steadily(p, s, w, speed, across):
     ``across``: all of them, else along the axis alone.
     """
     show_excess(p, s, w, not across)
-    status = rest(p, s, w, speed)
-    for _ in range(_ROUNDS):
+    status = rest(p, s, w, speed, 0.0)
+    for _ in range(_ROUNDS if members.has_shaft(p) else 0):
         if status != OK:
             break
         far = False
@@ -184,7 +170,7 @@ def rest_steadily(p, s, w, speed, across):
             if add_excess(p, b, speed, across, s, w):
                 far = True
         # also where nothing moves any more: the search has left the bearings elsewhere
-        status = rest(p, s, w, speed)
+        status = rest(p, s, w, speed, 0.0)
         if not far:
             break
     for b in range(members.count(p)):
@@ -234,7 +220,7 @@ def show_rest(p, b, s, w):
 def rest_as_known(p, s, w, speed):
     """As `rest_steadily` along the axis, with the excess of the steady forces as it is known; status code."""
     show_excess(p, s, w, True)
-    status = rest(p, s, w, speed)
+    status = rest(p, s, w, speed, 0.0)
     for b in range(members.count(p)):
         keep_rest(p, b, s, w)
     return status

@@ -1,14 +1,12 @@
-"""Quasi-static equilibrium: the first guess of the operating point (``steady``).
+"""Quasi-static balls: what they put on rings that are held. Where rings rest: ``spindle.rest``.
 
 =================  ==========================================================================
 ``ball_balance``   one ball: contacts, rolling, gyroscopic friction, place
 ``stiffness``      contacts in series, stiffness matrix of the bearing
-``quasistatic``    Jones-Harris equilibrium of the inner ring in five degrees of freedom
-``held``           forces and stiffness of a bearing whose rings are held
-``axial``          the same for axial load alone: one unknown
-``mounted``        the equilibrium with the outer ring on its pedestal
-``rigid_preload``  the inner ring's place under rigid preload, and the load it means
-``place``          from an equilibrium to the state: rings, balls, cage
+``quasistatic``    forces and stiffness of a bearing whose rings are held, after Jones and Harris
+``axial``          equilibrium under axial load alone: one unknown
+``place``          from quasi-static balls to the state: balls, cage, a bearing that is shifted
+``rigid_preload``  the inner ring's place under a preload, how it moves to another
 ``spin_balance``   orbit and spin, where friction, drag and gyroscopic moments balance
 =================  ==========================================================================
 """

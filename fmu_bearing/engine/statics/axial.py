@@ -1,6 +1,6 @@
 """Equilibrium of equal balls under axial load alone: one unknown, no work space.
 
-The same balls as in ``quasistatic``, for rigid preload, which needs the axial curve many times over.
+The same balls as in ``quasistatic``. A guess for other loads begins here, and places of a preload are these.
 """
 
 from fmu_bearing.engine.jit import kernel
@@ -10,6 +10,7 @@ from fmu_bearing.engine.status import NO_START, OK
 
 _ROUNDS = 100
 _BACK = 6  # doublings of 20 um: 1.3 mm
+TOUCHING = 0.01  # N: without preload the ring is where the balls just touch, not anywhere free
 
 
 @kernel
@@ -35,7 +36,7 @@ def quasistatic(p, c, speed, out):
     ``out``: places ``ST.AXIAL_SHIFT`` to ``ST.AXIAL_RESIDUAL``. Bracketing and bisection-safe secant steps:
     bounded work.
     """
-    target = c[C.PRELOAD]
+    target = max(c[C.PRELOAD], TOUCHING)
     low = -2e-5
     high = 1e-5
     x = 0.0

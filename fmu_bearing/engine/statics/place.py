@@ -1,45 +1,14 @@
-"""From a quasi-static equilibrium to the state: where rings, balls and cage are, for all fidelities."""
+"""From quasi-static balls to the state: where rings, balls and cage are, for all fidelities."""
 
 import math
 
-from fmu_bearing.engine.constants import GRAVITY, PI
+from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, C, P, Q, W, Y
-from fmu_bearing.engine.statics.mounted import mounted_equilibrium
+from fmu_bearing.engine.layout import EQ, PT, C, P, Q, W, Y
+from fmu_bearing.engine.statics.quasistatic import held
 from fmu_bearing.engine.status import OK
 
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
-
-
-@kernel
-def loads(p, c, load):
-    """Set the loads on the inner ring with its weight (N, N m); return the pedestal's load in z (N)."""
-    load[Q.X] = c[C.PRELOAD]
-    load[Q.Y] = c[C.LOAD_Y]
-    load[Q.Z] = c[C.LOAD_Z]
-    load[Q.INNER_BY] = 0.0
-    load[Q.INNER_BZ] = 0.0
-    carried = load[Q.Z]
-    if p[P.GRAVITY] != 0.0:
-        load[Q.Z] -= GRAVITY * p[P.INNER_MASS]
-        carried = load[Q.Z] - GRAVITY * (p[P.OUTER_MASS] + p[P.BALLS] * p[P.BALL_MASS])
-        if p[P.CAGE] != 0.0:
-            carried -= GRAVITY * p[P.CAGE_MASS]
-    return carried
-
-
-@kernel
-def equilibrium(p, c, speed, load, share, tilt, found, w):
-    """Equilibrium on the pedestal with ``share`` of the imperfections (0 or 1); status code.
-
-    A ring that hangs on a few balls at speed, with no axial load, may have none that can be found: then
-    one with a little axial load serves, a start from which such a ring sets itself moving anyway.
-    """
-    status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
-    if status != OK:
-        load[Q.X] += 1.0 + 0.05 * (abs(load[Q.X]) + abs(load[Q.Y]) + abs(load[Q.Z]))
-        status = mounted_equilibrium(p, c, speed, load, share, tilt, found, w)
-    return status
 
 
 @kernel
@@ -54,19 +23,6 @@ def sunk(c, load_y, load_z):
 def too_far(p, y, z):
     """Whether an outer ring at ``y``, ``z`` (m) is farther than pockets and waves have equations for."""
     return abs(y) + abs(z) > _FAR * p[P.PITCH_RADIUS]
-
-
-@kernel
-def place_rings(c, y, found, tilt, load_y, load_z):
-    """Outer ring where preload and pedestal loads (N) push it, inner ring against it; both tilted."""
-    o = Y.Q0 + Q.OUTER
-    y[o] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-    y[o + Q.Y], y[o + Q.Z] = sunk(c, load_y, load_z)
-    for i in range(2):
-        y[o + Q.BY + i] = tilt[i]
-        y[Y.Q0 + Q.INNER_BY + i] = tilt[i] + found[EQ.SHIFT + Q.INNER_BY + i]
-    for i in range(3):
-        y[Y.Q0 + i] = y[o + i] + found[EQ.SHIFT + i]
 
 
 @kernel
@@ -157,27 +113,26 @@ def place_cage(p, y, found):
 
 
 @kernel
-def quasistatic_point(p, c, speed, across, y, w):
-    """State ``y`` at the quasi-static point under the loads in ``c``; status code.
+def upright_point(p, c, speed, shift, outer, y, w):
+    """Quasi-static state ``y`` of the perfect bearing between upright rings in line; status code.
 
-    ``across``: with the loads across the axis and weights, else under the axial load alone.
+    ``shift``: of the inner ring against the outer one, which is at ``outer``, along the axis (m). Forces on
+    the inner ring are left in ``W.LOAD``. Where balls find no place ``y`` stays.
     """
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
+    ring = w[W.PATTERN + PT.STEP : W.PATTERN + PT.STEP + EQ.FREEDOMS]
     tilt = w[W.TILT : W.TILT + 2]
+    for i in range(EQ.FREEDOMS):
+        ring[i] = shift if i == Q.X else 0.0
+    for i in range(2):
+        tilt[i] = 0.0
     found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    carried = loads(p, c, load)
-    load_y = c[C.LOAD_Y]
-    if not across:
-        carried = 0.0
-        load_y = 0.0
-        for i in range(1, EQ.FREEDOMS):
-            load[i] = 0.0
-    status = equilibrium(p, c, speed, load, 0.0, tilt, found, w)
+    status = held(p, c, speed, ring, tilt, 0.0, w[W.LOAD : W.LOAD + EQ.FREEDOMS], found, w)
     if status != OK:
         return status
     for i in range(Y.SIZE):
         y[i] = 0.0
-    place_rings(c, y, found, tilt, load_y, carried)
+    y[Y.Q0 + Q.OUTER] = outer
+    y[Y.Q0] = outer + shift
     place_balls(p, y, found)
     if p[P.CAGE] != 0.0:
         place_cage(p, y, found)

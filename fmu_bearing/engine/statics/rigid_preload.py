@@ -13,9 +13,6 @@ from fmu_bearing.engine.mechanics.conditions import conditions, unmount
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
-_ROUNDS = 60
-TOUCHING = 0.01  # N: without preload the ring is where the balls just touch, not anywhere free
-
 
 @kernel
 def place_under(p, c, speed, found):
@@ -43,69 +40,8 @@ def cold_place(p, u, load, w):
         still[i] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
     unmount(p, c)
-    c[C.PRELOAD] = max(load, TOUCHING)
+    c[C.PRELOAD] = load
     return place_under(p, c, 0.0, found)
-
-
-@kernel
-def load_at_place(p, c, place, speed, found):
-    """Axial load (N) under which the ring is at ``place`` (m) at ``speed`` (rad/s), left in ``c``; status.
-
-    Bisection with secant steps on the increasing curve of place over load, the quasi-static equilibrium in
-    ``found``. A place that asks for a pull ends at no load: the ring is then free of its balls.
-    """
-    high = max(c[C.PRELOAD], 1.0)
-    low = 0.0
-    c[C.PRELOAD] = low
-    below, status = place_under(p, c, speed, found)
-    if status != OK:
-        # slow balls find no rest without a load: from the load downwards, as far as they find one
-        low = high
-        c[C.PRELOAD] = low
-        below, status = place_under(p, c, speed, found)
-        while status == OK and below >= place and low > TOUCHING:
-            low *= 0.25
-            c[C.PRELOAD] = low
-            below, status = place_under(p, c, speed, found)
-    if status != OK or below >= place:
-        return status
-    above = place
-    for _ in range(_ROUNDS):
-        c[C.PRELOAD] = high
-        above, status = place_under(p, c, speed, found)
-        if status != OK:
-            return status
-        if above >= place:
-            break
-        low = high
-        below = above
-        high *= 2.0
-    for n in range(_ROUNDS):
-        load = low + (high - low) * (place - below) / (above - below)
-        margin = 0.02 * (high - low)
-        if n % 3 == 2 or load <= low + 1e-3 * margin or load >= high - 1e-3 * margin:
-            load = 0.5 * (low + high)
-        c[C.PRELOAD] = load
-        here, status = place_under(p, c, speed, found)
-        if status != OK or abs(here - place) < 1e-15 or high - low < 1e-9 * (1.0 + high):
-            return status
-        if here < place:
-            low = load
-            below = here
-        else:
-            high = load
-            above = here
-    return OK
-
-
-@kernel
-def rigid_start(p, u, c, s, w, found):
-    """Place at the start into ``s`` and, into ``c``, the axial load it means at speed and temperatures."""
-    place, status = cold_place(p, u, u[U.PRELOAD], w)
-    if status != OK:
-        return status
-    s[S.PLACE] = place
-    return load_at_place(p, c, place, u[U.SPEED], found)
 
 
 @kernel

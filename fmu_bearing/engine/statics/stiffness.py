@@ -70,10 +70,10 @@ def contact_tensor(seat):
 
 @kernel
 def ball_share(p, c, pose, x, r, a):
-    """Stiffness of the inner ring through one ball and the ball's own motion into ``a`` (``ST.SHARE_SIZE``).
+    """Stiffness of the inner ring through one ball, which follows, into ``a`` (``ST.SHARE_SIZE``).
 
-    Rows ``ST.FX`` to ``ST.DR``: forces and moments on the ring, then the ball's place; columns ``ST.ALONG``
-    to ``ST.TILT_T``: displacements and tilts of the ring, all in the ball's axes. ``pose``: see `Pose`;
+    Rows ``ST.FX`` to ``ST.MT``: forces and moments on the ring; columns ``ST.ALONG`` to ``ST.TILT_T``:
+    displacements and tilts of the ring, all in the ball's axes. ``pose``: see `Pose`;
     ``x``, ``r``: the ball's place (m). Zero where the inner contact is open.
     """
     for i in range(ST.SHARE_SIZE):
@@ -118,8 +118,6 @@ def ball_share(p, c, pose, x, r, a):
         # moment of the force about the ring's own, moving, centre
         a[ST.MR + k] = ut * fx - ux * ft + qt * gx - qx * gt
         a[ST.MT + k] = ux * fr - ur * fx + qx * gr - qr * gx
-        a[ST.DX + k] = dx
-        a[ST.DR + k] = dr
 
 
 @kernel
@@ -138,5 +136,5 @@ def add_turned(c, s, a, out, at):
             across = a[n * (k + 1) + i]
             a[n * k + i] = -s * along - c * across
             a[n * (k + 1) + i] = c * along - s * across
-    for i in range(ST.STIFFNESS_SIZE):
+    for i in range(ST.SHARE_SIZE):
         out[at + i] += a[i]

@@ -13,9 +13,9 @@ in real time can make one per step; what a piece leaves to the next are ``PT.KEP
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, C, P, Q, W, Y
-from fmu_bearing.engine.statics.held import held as between_held_rings
-from fmu_bearing.engine.statics.place import place_balls, place_cage, quasistatic_point, shift_bearing
+from fmu_bearing.engine.layout import PT, ST, C, P, Q, W, Y
+from fmu_bearing.engine.statics.axial import quasistatic
+from fmu_bearing.engine.statics.place import upright_point
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER, make_even, settle_evenly
 from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, growth_beside
@@ -45,27 +45,7 @@ _ROUNDS = 60
 _WAYS = ((1e-3, 10.0), (1e-3, 1e3), (1e-4, 100.0))
 _STIFFER = 100.0
 _REACH = 3.0
-# m: patterns count angles about the axis. An outer ring that has left it further is settled in axes that go
-# with it; nearer, the torque of a ring 0.5 um off is within 2e-6 of the one found so.
-_SUNK = 1e-4
 _ACROSS = 1e-12  # m, rad: rings less apart are in line
-
-
-@kernel
-def is_sunk(y):
-    """Whether the outer ring has left the axis so far that patterns about the axis leave out too much."""
-    return abs(y[Y.Q0 + Q.OUTER + Q.Y]) + abs(y[Y.Q0 + Q.OUTER + Q.Z]) > _SUNK
-
-
-@kernel
-def bring_to_axis(p, c, y):
-    """Shift a bearing until its outer ring is on the axis, its pedestal with it; return the way back (m)."""
-    aside_y = y[Y.Q0 + Q.OUTER + Q.Y]
-    aside_z = y[Y.Q0 + Q.OUTER + Q.Z]
-    c[C.NEUTRAL_Y] = -aside_y
-    c[C.NEUTRAL_Z] = -aside_z
-    shift_bearing(p, y, -aside_y, -aside_z)
-    return aside_y, aside_z
 
 
 @kernel
@@ -195,23 +175,16 @@ def along_axis(p, c, y, speed, held, state, w):
 
     That state itself where there is none.
     """
+    outer = y[Y.Q0 + Q.OUTER]
+    shift = y[Y.Q0] - outer
     status = OK
-    if held >= BOTH or p[P.RIGID] != 0.0:
-        found = w[W.FOUND : W.FOUND + EQ.SIZE]
-        ring = w[W.PATTERN + PT.STEP : W.PATTERN + PT.STEP + EQ.FREEDOMS]
-        for i in range(EQ.FREEDOMS):
-            ring[i] = y[Y.Q0] - y[Y.Q0 + Q.OUTER] if i == Q.X else 0.0
-        status = between_held_rings(p, c, speed, ring, w[W.LOAD : W.LOAD + EQ.FREEDOMS], found, w)
-        for i in range(Y.SIZE):
-            state[i] = 0.0
-        for i in (Q.INNER + Q.X, Q.OUTER + Q.X):
-            state[Y.Q0 + i] = y[Y.Q0 + i]
-        if status == OK:
-            place_balls(p, state, found)
-            if p[P.CAGE] != 0.0:
-                place_cage(p, state, found)
-    else:
-        status = quasistatic_point(p, c, speed, False, state, w)
+    if held < BOTH and p[P.RIGID] == 0.0:
+        axial = w[W.STILL_FOUND : W.STILL_END]
+        status = quasistatic(p, c, speed, axial)
+        shift = axial[ST.AXIAL_SHIFT]
+        outer = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
+    if status == OK:
+        status = upright_point(p, c, speed, shift, outer, state, w)
     if status != OK:
         for i in range(Y.SIZE):
             state[i] = y[i]

@@ -11,12 +11,9 @@ of the full right-hand side with its Jacobian.
 from fmu_bearing.engine.fidelities.condensed.ball_form import hold_rolling
 from fmu_bearing.engine.fidelities.condensed.uneven import grown, hold_losses
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, ST, STRIDE, C, L, P, Q, R, S, U, W, Y
+from fmu_bearing.engine.layout import PT, STRIDE, C, L, P, Q, R, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
-from fmu_bearing.engine.statics.axial import quasistatic
-from fmu_bearing.engine.statics.held import held as between_held_rings
-from fmu_bearing.engine.statics.place import place_balls, place_cage
-from fmu_bearing.engine.statics.rigid_preload import TOUCHING, cold_place
+from fmu_bearing.engine.statics.rigid_preload import cold_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import between_races, make_even, settle_evenly
@@ -52,36 +49,6 @@ def move_mount(p, u, s, w):
         s[S.PLACE] = place
         lv[L.MEAN + Q.X] = place
         lv[L.Q0 + Q.X] = place
-
-
-@kernel
-def under_load(p, c, speed, outer, y, w):
-    """State ``y`` at the quasi-static point under the axial load in ``c`` alone; status code.
-
-    ``outer``: axial place (m) of the outer ring, from where the balls' places count.
-    """
-    axial = w[W.STILL_FOUND : W.STILL_END]
-    load = c[C.PRELOAD]
-    c[C.PRELOAD] = max(load, TOUCHING)
-    status = quasistatic(p, c, speed, axial)
-    c[C.PRELOAD] = load
-    if status != OK:
-        return status
-    ring = w[W.PATTERN + PT.STEP : W.PATTERN + PT.STEP + EQ.FREEDOMS]
-    for i in range(EQ.FREEDOMS):
-        ring[i] = axial[ST.AXIAL_SHIFT] if i == Q.X else 0.0
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    status = between_held_rings(p, c, speed, ring, w[W.LOAD : W.LOAD + EQ.FREEDOMS], found, w)
-    if status != OK:
-        return status
-    for i in range(Y.SIZE):
-        y[i] = 0.0
-    y[Y.Q0 + Q.OUTER] = outer
-    y[Y.Q0] = outer + ring[Q.X]
-    place_balls(p, y, found)
-    if p[P.CAGE] != 0.0:
-        place_cage(p, y, found)
-    return OK
 
 
 @kernel

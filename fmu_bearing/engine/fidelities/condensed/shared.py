@@ -26,12 +26,10 @@ from fmu_bearing.engine.fidelities.full.vectors import copy_rows
 from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
-from fmu_bearing.engine.layout import EQ, FOUR, STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.body_slopes import land_slopes
 from fmu_bearing.engine.newton.jacobian import jacobian
-from fmu_bearing.engine.statics.place import equilibrium, loads, place_balls, place_rings
-from fmu_bearing.engine.status import OK
 
 
 @kernel
@@ -131,29 +129,6 @@ def hold_operator(p, s, w):
     jacobian_with_cage(p, c, lv, speed, w, jac)
     find_friction(p, lv, jac)
     find_operator(p, lv, jac, lv[L.Y0 + Y.OM], w)
-
-
-@kernel
-def quasistatic_places(p, c, speed, w):
-    """Rings and balls at the quasi-static equilibrium under all loads into the trial state; status code."""
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    tilt = w[W.TILT : W.TILT + 2]
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    carried = loads(p, c, load)
-    status = equilibrium(p, c, speed, load, 1.0, tilt, found, w)
-    if status != OK:
-        return status
-    y = w[W.STAGE : W.STAGE + Y.SIZE]
-    for i in range(Y.SIZE):
-        y[i] = 0.0
-    place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
-    place_balls(p, y, found)
-    for j in range(STRIDE):
-        w[T.X + j] = y[Y.X + j]
-        w[T.R + j] = y[Y.R + j]
-    for i in range(Y.Q0):
-        y[i] = 0.0
-    return OK
 
 
 @kernel

@@ -19,8 +19,6 @@ from fmu_bearing.engine.steady.point import (
     NOT_FOUND,
     SEARCHING,
     begin_search,
-    bring_to_axis,
-    is_sunk,
     losing_state,
     search,
     state_at,
@@ -179,7 +177,7 @@ def keep_pieces(w, lv, back):
 
 
 @kernel
-def begin_uneven(p, c, speed, turning, ring_held, s, w):
+def begin_uneven(c, speed, turning, ring_held, s, w):
     """Begin the search for what uneven balls add near the quasi-static state ``PT.FIRST_STATE``.
 
     ``c``: conditions without imperfections, with the loads; ``ring_held``: see `steady.even`. The losses that
@@ -197,8 +195,6 @@ def begin_uneven(p, c, speed, turning, ring_held, s, w):
     own = lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE]
     for i in range(C.SIZE):
         own[i] = c[i]
-    if is_sunk(first):
-        bring_to_axis(p, own, first)
     for i in range(PT.MOST):
         w[W.PATTERN + PT.UNKNOWNS + i] = 0.0
     for i in range(PT.RIGHT):

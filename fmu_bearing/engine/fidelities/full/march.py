@@ -282,7 +282,7 @@ def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     begin_step(p, s)
     take_inputs(p, u, s, w, h)
-    if sinks(p, s, w):
+    if sinks(p, s):
         return TOO_SOFT
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]

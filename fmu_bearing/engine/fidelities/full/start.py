@@ -1,10 +1,9 @@
 """The state at initialisation: the steady one at the inputs, of a single bearing and of a set.
 
-A single bearing rests under preload, radial loads, weights and misalignment on its own springs. In a set the
-preload is put in as offsets, shaft and housing rest, and the rings of each bearing are placed there. Flexible
-rings are bent by their loads; each ball has its own place, orbit and spin. From the quasi-static state of the
-bearing with its imperfections, all is moved by what steady and quasi-static state of the perfect bearing
-differ by. Arguments: see `spindle.members`.
+Shaft, housing and rings rest under preload, loads, weights and misalignment on their springs; in a set the
+preload is put in as offsets. Flexible rings are bent by their loads; each ball has its own place, orbit and
+spin. From the quasi-static state of the bearing with its imperfections, all is moved by what steady and
+quasi-static state of the perfect bearing differ by where it rests. Arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.choices import FULL
@@ -25,40 +24,29 @@ from fmu_bearing.engine.spindle.inputs import (
 )
 from fmu_bearing.engine.spindle.port import begin_motion, has_port
 from fmu_bearing.engine.spindle.rest import (
+    begin_rest,
     free_rows,
     keep_stiffness,
-    outer_row,
+    neutral_aside,
+    put_rings_in_state,
+    rest,
     settle_bearing,
     start_vector,
+    weights,
 )
 from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
-from fmu_bearing.engine.statics.place import (
-    equilibrium,
-    loads,
-    place_balls,
-    place_cage,
-    place_rings,
-    shift_bearing,
-    sunk,
-    too_far,
-)
-from fmu_bearing.engine.statics.rigid_preload import cold_place, rigid_start
+from fmu_bearing.engine.statics.place import place_balls, place_cage, shift_bearing, sunk, too_far
+from fmu_bearing.engine.statics.rigid_preload import cold_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 from fmu_bearing.engine.steady.even import BOTH, NONE
-from fmu_bearing.engine.steady.point import (
-    NOT_FOUND,
-    bring_to_axis,
-    is_sunk,
-    move_to_steady,
-    settle_perfect,
-)
+from fmu_bearing.engine.steady.point import NOT_FOUND, move_to_steady, settle_perfect
 
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 
 
 @kernel
-def place_rest(p, c, y, found, s, w):
+def place_rest(p, y, found, s, w):
     """Place balls and cage in the state ``y`` about the rings there, from the equilibrium ``found``."""
     place_balls(p, y, found)
     if p[P.CAGE] != 0.0:
@@ -68,10 +56,12 @@ def place_rest(p, c, y, found, s, w):
 
 
 @kernel
-def become_steady(p, c, y, first, held, s, w, speed):
-    """Move the quasi-static state ``y`` by what the steady state differs from ``first``, the perfect one.
+def become_steady(p, c, y, first, before, held, s, w, speed):
+    """Move the state ``y`` by what the steady state of the perfect bearing differs from ``before``.
 
-    ``held``: see `steady.even`. Where no steady state is near, orbit and spins alone are balanced.
+    ``first``: the quasi-static state of the perfect bearing with its rings where they rest under steady
+    forces, ``before``: under quasi-static ones; ``held``: see `steady.even`. Where no steady state is near,
+    orbit and spins alone are balanced.
     """
     jac = s[S.JAC : S.CONDENSED]
     settled = NOT_FOUND
@@ -79,6 +69,11 @@ def become_steady(p, c, y, first, held, s, w, speed):
     if p[P.FIDELITY] == FULL:
         settled = settle_perfect(p, c, first, speed, held, w, jac)
     s[S.SETTLED] = settled
+    for i in range(Y.SIZE):
+        y[i] -= before[i]
+    move_to_steady(p, first, settled, w)
+    for i in range(Y.SIZE):
+        y[i] += first[i]
     if settled == NOT_FOUND:
         balance_spins(p, c, y, 0.0, speed, w, jac)
         if p[P.CAGE] != 0.0:
@@ -86,12 +81,6 @@ def become_steady(p, c, y, first, held, s, w, speed):
             for j in range(int(p[P.BALLS])):
                 orbit += y[Y.OM + j] / p[P.BALLS]
             y[Y.V0 + Q.CAGE + Q.TURN] = orbit
-        return
-    for i in range(Y.SIZE):
-        y[i] -= first[i]
-    move_to_steady(p, first, settled, w)
-    for i in range(Y.SIZE):
-        y[i] += first[i]
 
 
 @kernel
@@ -114,28 +103,6 @@ def begin_means(s):
     for i in range(3):
         s[S.MEAN_HEAT + i] = s[S.F + F.HEAT + i]
     s[S.MEAN_TORQUE] = s[S.F + F.TORQUE]
-
-
-@kernel
-def place_perfect(p, c, speed, carried, first, w):
-    """Put the quasi-static state of the perfect bearing to ``first``; leave it where there is none.
-
-    Under the load in ``W.LOAD`` and what the pedestal has ``carried`` (N): see `rest_alone`. An outer ring
-    that has sunk is brought to the axis.
-    """
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    tilt = w[W.TILT : W.TILT + 2]
-    if equilibrium(p, c, speed, load, 0.0, tilt, found, w) != OK:
-        return
-    for i in range(Y.SIZE):
-        first[i] = 0.0
-    place_rings(c, first, found, tilt, c[C.LOAD_Y], carried)
-    place_balls(p, first, found)
-    if p[P.CAGE] != 0.0:
-        place_cage(p, first, found)
-    if is_sunk(first):
-        bring_to_axis(p, c, first)
 
 
 @kernel
@@ -180,78 +147,113 @@ def pushed_back(p, w):
 
 
 @kernel
-def rest_alone(p, u, s, w, speed):
-    """Put the rings of a single bearing to rest in the state, what balls need to ``W.FOUND``.
-
-    Returns a status code, and the load (N) in z that the pedestal carries.
-    """
-    c = s[S.C : S.C + C.SIZE]
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    load = w[W.LOAD : W.LOAD + EQ.FREEDOMS]
-    tilt = w[W.TILT : W.TILT + 2]
-    if p[P.RIGID] != 0.0:
-        status = rigid_start(p, u, c, s, w, found)
-        if status != OK:
-            return status, 0.0
-    carried = loads(p, c, load)
-    status = equilibrium(p, c, speed, load, 1.0, tilt, found, w)
-    if status != OK:
-        return status, carried
-    y = s[S.Y : S.Y + Y.SIZE]
-    place_rings(c, y, found, tilt, c[C.LOAD_Y], carried)
-    if too_far(p, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z]):
-        return TOO_SOFT, carried
-    if p[P.RIGID] != 0.0:
-        y[Y.Q0] = s[S.PLACE]
-    return OK, carried
+def begin_preload(p, u, s, w):
+    """Put the offsets of a set, or the place of a rigid preload, to where preload puts them; status code."""
+    if members.has_shaft(p):
+        return preload_set(p, u, s, w)
+    if p[P.RIGID] == 0.0:
+        return OK
+    s[S.PLACE], status = cold_place(p, u, u[U.PRELOAD], w)
+    return status
 
 
 @kernel
-def rest_together(p, u, s, w, speed, t):
-    """Put shaft and housing of a set to rest in its own state; status code."""
-    own = members.set_state(p, s)
+def has_flaws(p, s):
+    """Whether a bearing has imperfections."""
+    for b in range(members.count(p)):
+        if members.state(p, s, b)[S.C + C.OVERSIZE_SCALE] != 0.0:
+            return True
+    return False
+
+
+@kernel
+def note_rest(p, s, w, sign):
+    """Add ``sign`` times the rest found last to the set's coordinates and to where outer rings are."""
     ws = members.set_work(p, w)
+    z = start_vector(p, SP.UNKNOWNS)
+    for i in range(members.coordinates(p) if members.has_shaft(p) else 0):
+        members.set_state(p, s)[SP.S_HEAD + i] += sign * ws[z + i]
+    for b in range(members.count(p)):
+        at = members.scratch(p, b)
+        for i in range(2):
+            ws[at + SP.START_ASIDE + i] += sign * ws[at + SP.START_OUTER + Q.Y + i]
+
+
+@kernel
+def place_perfect(p, s, w, speed, to, sign):
+    """Put the quasi-static states of the perfect bearings, outer rings on the axis, to ``w[to:]`` of each.
+
+    Their rings are where they rested last, which is added ``sign`` times to where the start puts them;
+    pedestals in the conditions are moved with them.
+    """
+    note_rest(p, s, w, sign)
+    for b in range(members.count(p)):
+        place_held(p, b, speed, members.work(p, w, b)[to : to + Y.SIZE], s, w)
+        neutral_aside(p, b, members.state(p, s, b)[S.C : S.C + C.SIZE], w)
+
+
+@kernel
+def place_flawed(p, s, w, speed):
+    """Place rings, balls and cage of all bearings in the state, outer rings on the axis; status code.
+
+    `TOO_SOFT`: a pedestal lets its ring too far down.
+    """
+    ws = members.set_work(p, w)
+    z = start_vector(p, SP.UNKNOWNS)
+    for b in range(members.count(p)):
+        pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+        settle_bearing(p, s, w, b, speed, 1.0, z, start_vector(p, SP.TRIAL_FORCES))
+        y = sb[S.Y : S.Y + Y.SIZE]
+        put_rings_in_state(p, b, y, ws)
+        aside_y, aside_z = y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z]
+        if too_far(pb, aside_y, aside_z):
+            return TOO_SOFT
+        shift_bearing(pb, y, -aside_y, -aside_z)
+        place_rest(pb, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
+    note_rest(p, s, w, 1.0)
+    return OK
+
+
+@kernel
+def rest_all(p, u, s, w, speed):
+    """Find where shaft, housing and rings rest, and place them, balls and cages there; status code.
+
+    That is the quasi-static rest of the bearings with their imperfections, then moved by what steady and
+    quasi-static rest of perfect bearings differ by. States of perfect bearings are left in ``PT.FIRST_STATE``
+    for the steady rest, in ``W.STAGE`` for the quasi-static one.
+    """
+    own = members.set_state(p, s)
     take_loads(p, u, own)
-    status = preload_set(p, u, s, w)
+    status = begin_preload(p, u, s, w)
     if status != OK:
         return status
-    z = start_vector(p, SP.UNKNOWNS)
     if has_port(p):
         for i in range(SP.PLANE):
-            ws[z + i] = u[U.PORT + i]
-    status = rest_steadily(p, s, w, speed, p[P.FIDELITY] == FULL)
+            own[SP.S_HEAD + i] = u[U.PORT + i]
+    begin_rest(p, s, w, speed)
+    for i in range(members.padded_size(p)):
+        own[SP.S_HEAD + i] = 0.0
+    status = rest(p, s, w, speed, 0.0)
     if status != OK:
         return status
-    if pushed_back(p, w) and not has_port(p):
+    place_perfect(p, s, w, speed, W.STAGE, -1.0)
+    if has_flaws(p, s):
+        status = rest(p, s, w, speed, 1.0)
+        if status != OK:
+            return status
+    if members.has_shaft(p) and pushed_back(p, w) and not has_port(p):
         return NO_START
-    for i in range(members.coordinates(p)):
-        own[SP.S_HEAD + i] = ws[z + i]
-    keep_stiffness(p, s, w)
-    if has_port(p):
-        begin_motion(p, u, own, t)
-    return OK
+    status = place_flawed(p, s, w, speed)
+    if status == OK:
+        status = rest_steadily(p, s, w, speed, p[P.FIDELITY] == FULL)
+    if status == OK:
+        place_perfect(p, s, w, speed, W.PATTERN + PT.FIRST_STATE, 1.0)
+        keep_stiffness(p, s, w)
+    return status
 
 
 @kernel
-def rest_member(p, s, w, b, speed):
-    """Put the rings of bearing ``b`` of a set where shaft and housing rest; the balls' to ``W.FOUND``."""
-    pb = members.parameters(p, b)
-    sb = members.state(p, s, b)
-    ws = members.set_work(p, w)
-    settle_bearing(p, s, w, b, speed, start_vector(p, SP.UNKNOWNS), start_vector(p, SP.TRIAL_FORCES))
-    y = sb[S.Y : S.Y + Y.SIZE]
-    at = members.scratch(p, b)
-    for i in range(SP.HOUSING):
-        y[Y.Q0 + Q.OUTER + i] = ws[at + SP.START_OUTER + i]
-    if too_far(pb, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z]):
-        return TOO_SOFT
-    for i in range(SP.PLANE):
-        y[Y.Q0 + i] = ws[at + SP.START_RING + i] + ws[at + SP.START_OUTER + outer_row(i)]
-    return OK
-
-
-@kernel
-def sinks(p, s, w):
+def sinks(p, s):
     """Whether the loads of now would push the ring of a single bearing too far on its pedestal.
 
     Once it is there no step leads back: with the stiffness of before the pedestal would fling it.
@@ -259,7 +261,8 @@ def sinks(p, s, w):
     if members.has_shaft(p):
         return False
     c = s[S.C : S.C + C.SIZE]
-    aside, down = sunk(c, c[C.LOAD_Y], loads(p, c, w[W.LOAD : W.LOAD + EQ.FREEDOMS]))
+    own_weight, lying = weights(p, p)
+    aside, down = sunk(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
     return too_far(p, aside, down)
 
 
@@ -272,38 +275,24 @@ def twist(p, b, c, y, w):
 
 
 @kernel
-def begin_bearing(p, u, s, w, b, speed, carried, t):
-    """Balls and cage of bearing ``b`` about its rings at rest, moved to the steady state; its clock.
-
-    ``carried``: see `rest_alone`.
-    """
+def begin_bearing(p, s, w, b, speed, t):
+    """Move bearing ``b``, as `rest_all` has placed it, to the steady state; its clock."""
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
     together = members.has_shaft(p)
     c = sb[S.C : S.C + C.SIZE]
     y = sb[S.Y : S.Y + Y.SIZE]
-    # the steady state is found about the axis
-    moved = together or is_sunk(y)
-    aside_y, aside_z = bring_to_axis(pb, c, y) if moved else (0.0, 0.0)
-    place_rest(pb, c, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
     first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-    for i in range(Y.SIZE):
-        first[i] = y[i]
-    if c[C.OVERSIZE_SCALE] != 0.0:
-        if together:
-            place_held(p, b, speed, first, s, w)
-        else:
-            place_perfect(pb, c, speed, carried, first, wb)
-    if not together:
-        # a rigid preload was given as the load that it means here
-        c[C.PRELOAD] = u[U.PRELOAD]
-    become_steady(pb, c, y, first, BOTH if together else NONE, sb, wb, speed)
+    before = wb[W.STAGE : W.STAGE + Y.SIZE]
+    # the steady state is found about the axis: patterns count angles there
+    become_steady(pb, c, y, first, before, BOTH if together else NONE, sb, wb, speed)
     settle(pb, c, y, 0.0, speed, sb, wb)
-    if moved:
-        shift_bearing(pb, y, aside_y, aside_z)
-        c[C.NEUTRAL_Y] = 0.0
-        c[C.NEUTRAL_Z] = 0.0
+    at = members.scratch(p, b) + SP.START_ASIDE
+    ws = members.set_work(p, w)
+    shift_bearing(pb, y, ws[at], ws[at + 1])
+    c[C.NEUTRAL_Y] = 0.0
+    c[C.NEUTRAL_Z] = 0.0
     if together:
         twist(p, b, c, y, w)
     if pb[P.RIGID] != 0.0:
@@ -331,20 +320,15 @@ def start(p, u, s, w, t):
         sb = members.state(p, s, b)
         for i in range(C.USED):
             sb[S.C + i] = members.work(p, w, b)[W.CONDITIONS + i]
-    together = members.has_shaft(p)
-    carried = 0.0
-    if together:
-        status = rest_together(p, u, s, w, speed, t)
-    else:
-        status, carried = rest_alone(p, u, s, w, speed)
+    status = rest_all(p, u, s, w, speed)
     if status != OK:
         return status
+    if has_port(p):
+        begin_motion(p, u, own, t)
     for b in range(members.count(p)):
-        if together:
-            status = rest_member(p, s, w, b, speed)
-            if status != OK:
-                return status
-        begin_bearing(p, u, s, w, b, speed, carried, t)
+        begin_bearing(p, s, w, b, speed, t)
+    for i in range(0 if members.has_shaft(p) else members.coordinates(p)):
+        own[SP.S_HEAD + i] = s[S.Y + Y.Q0 + i]
     copy_rows(p, s, w)
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]

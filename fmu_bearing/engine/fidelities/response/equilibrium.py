@@ -85,17 +85,6 @@ def linearise(p, s, w, speed):
 
 
 @kernel
-def begin_at_start(p, s, w, speed):
-    """Put the equilibrium to where all was just put; a set comes to rest once more, its balls free."""
-    own = members.set_state(p, s)
-    if members.has_shaft(p):
-        rest_from(p, s, w, speed, own, SP.S_HEAD)
-        return
-    for i in range(members.padded_size(p)):
-        own[members.history(p) + i] = own[SP.S_HEAD + i]
-
-
-@kernel
 def rest_at_inputs(p, s, w, speed):
     """Find the rest of a set from the last one, or from the places in ``SP.S_HEAD``; whether it was found."""
     own = members.set_state(p, s)
@@ -116,14 +105,12 @@ def renew_from_zero(p, u, s, w, speed):
     (``solver.restarts`` counts it, and a warning says so). Sound is left to the pieces that follow.
     """
     own = members.set_state(p, s)
-    together = members.has_shaft(p)
-    for again in range(1 if together else 2):
-        status = held.hold_from_zero(p, u, s, w, again == 0)
-        if status != OK:
-            return status
-        begin_at_start(p, s, w, speed)
-        if linearise(p, s, w, speed):
-            return OK
+    status = held.hold_from_zero(p, u, s, w)
+    if status != OK:
+        return status
+    rest_from(p, s, w, speed, own, SP.S_HEAD)
+    if linearise(p, s, w, speed):
+        return OK
     own[members.march(p) + SP.LINES] = 0.0
     for b in range(members.count(p)):
         members.condensed(members.state(p, s, b))[L.COUNT] = 0.0

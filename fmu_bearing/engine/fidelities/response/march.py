@@ -19,7 +19,7 @@ from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
 from fmu_bearing.engine.fidelities.full.start import begin_means, sinks
 from fmu_bearing.engine.fidelities.response import bearing, drift, renewal
-from fmu_bearing.engine.fidelities.response.equilibrium import begin_at_start, linearise
+from fmu_bearing.engine.fidelities.response.equilibrium import linearise, rest_from
 from fmu_bearing.engine.fidelities.response.exchange import copy, move_rings, settles
 from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
 from fmu_bearing.engine.fidelities.rings import equations, growth, held
@@ -139,7 +139,7 @@ def start_response(p, u, s, w, t):
         return status
     own = members.set_state(p, s)
     speed = u[U.SPEED]
-    begin_at_start(p, s, w, speed)
+    rest_from(p, s, w, speed, own, SP.S_HEAD)
     for b in range(members.count(p)):
         lv = members.condensed(members.state(p, s, b))
         for i in range(2 * STRIDE):
@@ -212,7 +212,7 @@ def march_response(p, u, s, w, h):
         if not bearing.is_near(sb, speed, h):
             near = False
     off = held.set_inputs(p, u, s, w, h)
-    if sinks(p, s, w):
+    if sinks(p, s):
         return TOO_SOFT
     status, fresh = renewal.go_on(p, u, s, w, h, off, drift.follow(p, u, s, w, h, off))
     if status != OK:

@@ -82,6 +82,8 @@ def held_piece(p, s, w):
             members.set_state(p, back)[SP.S_HEAD + i] = ws[found + i]
         enter(p, s, EXCEED if stage == SETTLE else HOLD)
     elif stage == HOLD:
+        if not together and held.rest_set(p, inputs_of(p, s), True, back, w) != OK:
+            return False
         if held.hold_point(p, inputs_of(p, s), b, False, back, w) != OK:
             return False
         next_member(p, s, HOLD, MASSES)

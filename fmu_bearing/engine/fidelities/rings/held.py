@@ -5,14 +5,10 @@ Arguments: see `spindle.members`.
 
 import math
 
-from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, move_mount, off, under_load
-from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
-from fmu_bearing.engine.fidelities.condensed.rows import keep_balls
+from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, move_mount, off
 from fmu_bearing.engine.fidelities.condensed.shared import (
     even_spacing,
-    flat,
     hold_operator,
-    quasistatic_places,
 )
 from fmu_bearing.engine.fidelities.condensed.uneven import (
     begin_uneven,
@@ -21,9 +17,9 @@ from fmu_bearing.engine.fidelities.condensed.uneven import (
     uneven_out_of_date,
 )
 from fmu_bearing.engine.fidelities.full.start import start
-from fmu_bearing.engine.fidelities.rings.rest import at_rest, find_levers
+from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import (
     bearing_conditions,
@@ -33,7 +29,14 @@ from fmu_bearing.engine.spindle.inputs import (
     offset_change,
     take_loads,
 )
-from fmu_bearing.engine.spindle.rest import keep_stiffness, settle_bearing, start_vector
+from fmu_bearing.engine.spindle.rest import (
+    begin_rest,
+    keep_stiffness,
+    neutral_aside,
+    put_rings_in_state,
+    settle_bearing,
+    start_vector,
+)
 from fmu_bearing.engine.spindle.steady import (
     place_held,
     renew_excess,
@@ -41,8 +44,8 @@ from fmu_bearing.engine.spindle.steady import (
     rest_steadily,
     show_rest,
 )
-from fmu_bearing.engine.statics.place import place_balls, quasistatic_point
-from fmu_bearing.engine.statics.rigid_preload import TOUCHING, load_at_place
+from fmu_bearing.engine.statics.axial import TOUCHING, quasistatic
+from fmu_bearing.engine.statics.place import place_balls, upright_point
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, NONE, OUTER
 
@@ -129,7 +132,7 @@ def hold_points(p, u, known, at_once, s, w):
 
 @kernel
 def hold_point(p, u, b, at_once, s, w):
-    """Renew what bearing ``b`` holds but its operator, of a set where `rest_set` has found it at rest."""
+    """Renew what bearing ``b`` holds but its operator, where `rest_set` has found it at rest."""
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
@@ -143,19 +146,19 @@ def hold_point(p, u, b, at_once, s, w):
     speed = u[U.SPEED]
     given = ws[SP.INPUT : SP.INPUT + U.SIZE]
     bearing_inputs(p, u, b, given)
+    show_rest(p, b, s, w)
+    at = members.scratch(p, b)
+    carried = max(-ws[at + SP.START_FORCE], TOUCHING)
     if together:
-        show_rest(p, b, s, w)
-        given[U.PRELOAD] = max(-ws[members.scratch(p, b) + SP.START_FORCE], TOUCHING)
-    elif rigid and u[U.PRELOAD] != c[C.PRELOAD]:
-        move_mount(p, u, s, w)
+        given[U.PRELOAD] = carried
     turning = held_speed(pb, given, speed, lv, c)
-    status = OK
     if rigid:
         # the mount gives the load that the present sizes and speed ask for
-        status = load_at_place(pb, c, sb[S.PLACE], turning, wb[W.STILL_FOUND : W.STILL_END])
+        c[C.PRELOAD] = carried
+    axial = wb[W.STILL_FOUND : W.STILL_END]
+    status = quasistatic(pb, c, turning, axial)
     if status == OK:
-        outer = ws[members.scratch(p, b) + SP.START_OUTER] if together else c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
-        status = under_load(pb, c, turning, outer, y, wb)
+        status = upright_point(pb, c, turning, axial[ST.AXIAL_SHIFT], ws[at + SP.START_OUTER], y, wb)
     if status == OK:
         if rigid:
             y[Y.Q0] = sb[S.PLACE]
@@ -163,21 +166,17 @@ def hold_point(p, u, b, at_once, s, w):
         hold_at(pb, speed, turning, OUTER if together else NONE, sb, wb)
         if together:
             # what the shaft puts across the axis counts as this bearing's load
-            at = members.scratch(p, b) + SP.START_FORCE
-            c[C.LOAD_Y], c[C.LOAD_Z] = ws[at + Q.Y], ws[at + Q.Z]
+            force = at + SP.START_FORCE
+            c[C.LOAD_Y], c[C.LOAD_Z] = ws[force + Q.Y], ws[force + Q.Z]
         if uneven_out_of_date(lv, c, speed):
             first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-            found = OK
-            if together:
-                place_held(p, b, turning, first, s, w)
-            else:
-                found = quasistatic_point(pb, c, turning, True, first, wb)
-            if found == OK:
-                begin_uneven(pb, c, speed, turning, BOTH if together else NONE, sb, wb)
+            place_held(p, b, turning, first, s, w)
+            begin_uneven(c, speed, turning, BOTH if together else NONE, sb, wb)
+            neutral_aside(p, b, lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE], w)
         c[C.LOAD_Y], c[C.LOAD_Z] = given[U.LOAD_Y], given[U.LOAD_Z]
         hold_uneven(pb, speed, at_once, sb, wb)
-        at = members.per_bearing(p, b)
-        own[at + SP.HELD_OFFSET] = own[at + SP.OFFSET_COLD] + offset_change(p, u, b)
+        bearing_at = members.per_bearing(p, b)
+        own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     c[C.PRELOAD] = given[U.PRELOAD]
     return status
 
@@ -191,22 +190,19 @@ def exceed(p, u, b, s, w):
 
 @kernel
 def rest_set(p, u, known, s, w):
-    """Find where a set rests at the inputs ``u``; status code. Of a single bearing nothing is to be found.
+    """Find where all rests at the inputs ``u``, with perfect bearings; status code.
 
     ``known``: with the excess of its bearings' steady forces as it is known, see `exceed`. The coordinates
     there are left among the set's own work space's vectors, see ``SP.UNKNOWNS``.
     """
-    if not members.has_shaft(p):
-        return OK
     own = members.set_state(p, s)
-    ws = members.set_work(p, w)
+    if p[P.RIGID] != 0.0 and u[U.PRELOAD] != members.condensed(s)[L.CONDITIONS + C.PRELOAD]:
+        move_mount(p, u, s, w)
     for b in range(members.count(p)):
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     exchange_offsets(p, own)
-    z = start_vector(p, SP.UNKNOWNS)
-    for i in range(members.coordinates(p)):
-        ws[z + i] = own[SP.S_HEAD + i]
+    begin_rest(p, s, w, u[U.SPEED])
     if known:
         status = rest_as_known(p, s, w, u[U.SPEED])
     else:
@@ -221,72 +217,30 @@ def rest_set(p, u, known, s, w):
 
 
 @kernel
-def settle_alone(p, u, s, w, settled):
-    """Put a single bearing to rest on even races, from its quasi-static place; status code.
-
-    Where there is no such rest, and where it need not be ``settled``, it stays there.
-    """
-    own = members.set_state(p, s)
-    ws = members.set_work(p, w)
-    lv = members.condensed(s)
-    c = s[S.C : S.C + C.SIZE]
-    place = members.vector(p, SP.PLACE)
-    given = c[C.PRELOAD]
-    status = OK
-    if p[P.RIGID] != 0.0:
-        # the load that the place of the ring means here, as at the start
-        status = load_at_place(p, c, s[S.PLACE], u[U.SPEED], w[W.STILL_FOUND : W.STILL_END])
-    for part in range(2):
-        if status == OK:
-            status = quasistatic_places(p, c, u[U.SPEED], w)
-        if status != OK:
-            break
-        if p[P.RIGID] != 0.0:
-            w[W.STAGE + Y.Q0] = s[S.PLACE]
-        flat(p, c, lv, w)
-        for i in range(L.COLUMN):
-            ws[place + i] = w[W.STAGE + Y.Q0 + i] if i < L.N else 0.0
-        if part == 1:
-            # the balls come to their rest between the rings as they are
-            derivatives(p, c, lv, 0.0, u[U.SPEED], 0.0, w)
-        elif not settled or at_rest(p, s, w, u[U.SPEED]):
-            break
-    c[C.PRELOAD] = given
-    if status != OK:
-        return status
-    keep_balls(w, lv, L.EVEN)
-    for i in range(L.COLUMN):
-        own[SP.S_HEAD + i] = ws[place + i]
-    members.moved(p, 0, own, SP.S_HEAD, lv, L.MEAN)
-    return OK
-
-
-@kernel
-def settle_together(p, u, s, w):
-    """Put a set to where `rest_set` has found its rest, and the balls' places there to ``L.EVEN``."""
+def settle_all(p, u, s, w):
+    """Put all to where `rest_set` has found its rest, and the balls' places there to ``L.EVEN``."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     z = start_vector(p, SP.UNKNOWNS)
-    for i in range(members.coordinates(p)):
-        own[SP.S_HEAD + i] = ws[z + i]
     for b in range(members.count(p)):
         wb = members.work(p, w, b)
-        settle_bearing(p, s, w, b, u[U.SPEED], z, start_vector(p, SP.TRIAL_FORCES))
+        settle_bearing(p, s, w, b, u[U.SPEED], 0.0, z, start_vector(p, SP.TRIAL_FORCES))
         y = wb[W.STAGE : W.STAGE + Y.SIZE]
-        for i in range(SP.HOUSING):
-            y[Y.Q0 + Q.OUTER + i] = ws[members.scratch(p, b) + SP.START_OUTER + i]
+        put_rings_in_state(p, b, y, ws)
         place_balls(members.parameters(p, b), y, wb[W.FOUND : W.FOUND + EQ.SIZE])
         lv = members.condensed(members.state(p, s, b))
         for j in range(STRIDE):
             lv[L.EVEN + j] = y[Y.X + j]
             lv[L.EVEN_R + j] = y[Y.R + j]
+    for i in range(members.coordinates(p)):
+        own[SP.S_HEAD + i] = ws[z + i] if members.has_shaft(p) else w[W.STAGE + Y.Q0 + i]
 
 
 @kernel
-def hold_from_zero(p, u, s, w, settled):
+def hold_from_zero(p, u, s, w):
     """As `hold_all`, but search the rest from zero coordinates, and put all there; status code.
 
-    The balls' places, ball 0 at angle 0, go to ``L.EVEN``; ``settled``: see `settle_alone`.
+    The balls' places, ball 0 at angle 0, go to ``L.EVEN``.
     """
     own = members.set_state(p, s)
     for i in range(3 * members.padded_size(p)):
@@ -295,9 +249,7 @@ def hold_from_zero(p, u, s, w, settled):
     if status != OK:
         return status
     take_offsets(p, own)
-    if not members.has_shaft(p):
-        return settle_alone(p, u, s, w, settled)
-    settle_together(p, u, s, w)
+    settle_all(p, u, s, w)
     return OK
 
 
@@ -318,10 +270,7 @@ def start_held(p, u, s, w, t):
         for j in range(STRIDE):
             lv[L.EVEN + j] = sb[S.Y + Y.X + j]
             lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
-    status = hold_all(p, u, True, s, w)
-    if status != OK or members.has_shaft(p):
-        return status
-    return settle_alone(p, u, s, w, True)
+    return hold_all(p, u, True, s, w)
 
 
 @kernel

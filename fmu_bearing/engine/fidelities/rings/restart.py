@@ -36,7 +36,7 @@ def forget_motion(lv):
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
     own = members.set_state(p, s)
-    status = held.hold_from_zero(p, u, s, w, True)
+    status = held.hold_from_zero(p, u, s, w)
     if status != OK:
         return status
     predictor.forget(own, members.march(p), members.history(p), members.padded_size(p))
@@ -65,7 +65,7 @@ def march_rings(p, u, s, w, h):
         steps.begin_means(members.state(p, s, b))
     end = s[S.TIME] + h
     status = take_inputs(p, u, s, w, h)
-    if sinks(p, s, w):
+    if sinks(p, s):
         return TOO_SOFT
     if status == OK:
         status = go_on(p, u, s, w, h, h, end)

@@ -20,12 +20,11 @@ from tests.spindle.test_dynamics_oracle import ECCENTRIC
 RPM = 20e3
 BALLS = 11.4  # m/s: speed of the balls
 TIGHT = {"fidelity.tolerance": 1e-6}
-#: Of a value, by fidelity: `full` settles the set's bearing about its ring's centre, the single one about the
-#: fixed axis, where a slope between balls keeps the ring's 0.5 um to 1e-3 (1.7e-6 of the torque, 1e-5 of a
-#: tilt). In rings and response a set has its losses where quasi-static forces put its rings across the
-#: axis: 3.6e-5 of the torque, 1.2e-4 of the contacts' share, 7e-3 of the little that they slip.
-CLOSE = {"full": 4e-6, "rings": 2e-4, "response": 2e-4}
-SLIP = {"full": 4e-6, "rings": 1e-2, "response": 1e-2}
+#: Of a value, by fidelity. In rings and response a set has its losses where quasi-static forces put its rings
+#: across the axis: 5e-5 of the torque, 1.2e-4 of the contacts' share and of their slip. In `rings` its
+#: renewals have two pieces more: 1.5 ms after a jump of speed balls still move (1e-4), slip (5e-3) as before.
+CLOSE = {"full": 1e-6, "rings": 2e-4, "response": 2e-4}
+SLIP = {"full": 1e-6, "rings": 1e-2, "response": 2e-4}
 #: What is nothing, by unit: a millionth of the balls' speed, of the load; 1e-5 of approach and tilt.
 NOTHING = {"m/s": 1e-6 * BALLS, "N": 5e-4, "N.m": 1e-7, "W": 2e-5, "m": 3e-11, "rad": 5e-9}
 
@@ -33,7 +32,7 @@ NOTHING = {"m/s": 1e-6 * BALLS, "N": 5e-4, "N.m": 1e-7, "W": 2e-5, "m": 3e-11, "
 #: Figures of the doors that belong to a set as such, or to a mounting: see the tests.
 OWN = ("scene", "arrangement", "position_mm", "preload", "nose", "spacing", "cautions", "verdicts")
 #: Of a figure of the doors under a radial load, as above; small ones of the largest of their kind.
-AT_REST = 4e-6
+AT_REST = 2e-7
 #: The torque is that of fidelity response; damping is small beside stiffness over frequency.
 LOOSER = {"friction_torque": 6e-5, "heat_W": 2e-4, "C": 5e-5, "against_static": 1e-5}
 #: Ends of a torque's range lie where the cage begins to whirl, too. There it may rest or whirl, and either
@@ -258,24 +257,26 @@ def test_torque_and_levels_with_a_cage(fidelity):
     assert value(ours, "mic[1].leq") == pytest.approx(theirs.get("mic[1].leq"), abs=0.3)
 
 
-#: Times `CLOSE` by which outputs of gate scenes differ today, of a perfect bearing (True) and with its
-#: surfaces: the start of `full` is settled to the solver's tolerance, and with unequal balls both take their
-#: losses at different places of the rings. With them the 7009C, which tilt loosely, whirl.
+#: Times `CLOSE` by which outputs of gate scenes differ, of a perfect bearing (True) and with its surfaces.
+#: Heat of the tilt support counts with the shaft in a set: 4e-6. The 7009C, which tilt loosely, start 3e-6
+#: apart. In `rings` with waves a renewal that comes 2 ms later moves rings by 5e-3 of their motion meanwhile.
 GATE_BOUNDS = [
     ("7003C-bare", "full", True, 1.0),
     ("7003C-bare", "rings", True, 1.0),
     ("7003C-bare", "response", True, 1.0),
-    ("7003C-bare", "full", False, 1e3),
+    ("7003C-bare", "full", False, 1.0),
     ("7003C-bare", "rings", False, 30.0),
-    ("7003C-bare", "response", False, 30.0),
-    ("7003C-spindle", "full", True, 10.0),
+    ("7003C-bare", "response", False, 1.0),
+    ("7003C-spindle", "full", True, 1.0),
     ("7003C-spindle", "rings", True, 1.0),
     ("7003C-spindle", "response", True, 1.0),
-    ("7003C-spindle", "full", False, 1e3),
+    ("7003C-spindle", "full", False, 5.0),
     ("7003C-spindle", "rings", False, 30.0),
-    ("7003C-spindle", "response", False, 30.0),
-    ("7009C-full-ceramic", "full", True, 10.0),
-    ("7009C-steel", "full", True, 10.0),
+    ("7003C-spindle", "response", False, 1.0),
+    ("7009C-full-ceramic", "full", True, 1.0),
+    ("7009C-full-ceramic", "full", False, 4.0),
+    ("7009C-steel", "full", True, 1.0),
+    ("7009C-steel", "full", False, 4.0),
 ]
 
 

@@ -28,3 +28,11 @@ def test_held_at_its_equilibrium_a_bearing_carries_the_load(scene, rpm, load):
     assert np.abs((found - bearing.stiffness) / scale).max() < 1e-6
     balls = slice(EQ.LOAD_I, EQ.LOAD_I + bearing.balls)
     np.testing.assert_allclose(out[balls], bearing.row(EQ.LOAD_I), rtol=1e-6, atol=1e-6)
+
+
+def test_no_ring_gives_the_force_that_holds_balls_on_their_orbits(scene):
+    """An inner ring beside the axis pushes balls along their orbits, the outer contacts only outwards."""
+    bearing = Bearing(scene("7003C-bare")).solve(0.0, (500, 0, -75, 0, 0))
+    upwards = np.cos(2.0 * np.pi * np.arange(bearing.balls) / bearing.balls)
+    felt = (bearing.row(EQ.LOAD_O) * np.cos(bearing.row(EQ.ANGLE_O)) * upwards).sum()
+    assert felt == pytest.approx(-75.020, abs=2e-3)

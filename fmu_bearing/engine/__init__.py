@@ -8,6 +8,7 @@
 ``status``             status codes of the entries
 ``choices``            what a scene may choose, with its numbers in ``p``: one table each
 ``lanes``              four balls at a time
+``complex_numbers``    complex numbers in flat arrays
 ``dense``              small dense matrices: product, elimination, inverse, complex equations
 ``eigen``              eigenvalues and eigenvectors of small complex matrices
 ``mechanics``          forces and equations of motion of balls, cage and rings

@@ -1,5 +1,6 @@
 """Small dense matrices: product, elimination, inverse and complex equations."""
 
+from fmu_bearing.engine.complex_numbers import real_times, square
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, L
@@ -130,7 +131,7 @@ def invert(a, at, n, out, to):
 
 
 @kernel
-def solve_complex(re, im, n, m):
+def solve_complex(a, n, m):
     """Solve ``n`` complex equations, rows of ``m`` numbers, in place; False if singular.
 
     A row: ``n`` coefficients, then a right side per number left.
@@ -139,28 +140,18 @@ def solve_complex(re, im, n, m):
         best = 0.0
         pivot = k
         for i in range(k, n):
-            size = re[i * m + k] * re[i * m + k] + im[i * m + k] * im[i * m + k]
-            if size > best:
-                best = size
+            if square(a[i * m + k]) > best:
+                best = square(a[i * m + k])
                 pivot = i
         if not (best > 0.0 and best < _LARGEST):
             return False
-        pr = re[pivot * m + k] / best
-        pi = -im[pivot * m + k] / best
-        swap(re, k * m + k, pivot * m + k, m - k)
-        swap(im, k * m + k, pivot * m + k, m - k)
+        per = real_times(1.0 / best, a[pivot * m + k].conjugate())
+        swap(a, k * m + k, pivot * m + k, m - k)
         for j in range(k, m):
-            xr = re[k * m + j]
-            xi = im[k * m + j]
-            re[k * m + j] = xr * pr - xi * pi
-            im[k * m + j] = xr * pi + xi * pr
+            a[k * m + j] *= per
         for i in range(n):
             if i != k:
-                fr = re[i * m + k]
-                fi = im[i * m + k]
-                for j in range(k, m):
-                    re[i * m + j] -= fr * re[k * m + j] - fi * im[k * m + j]
-                    im[i * m + j] -= fr * im[k * m + j] + fi * re[k * m + j]
+                subtract(a, i * m + k, a[i * m + k], k * m + k, m - k)
     return True
 
 

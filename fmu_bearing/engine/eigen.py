@@ -1,12 +1,14 @@
 """Eigenvalues and eigenvectors of small complex matrices.
 
-Householder's reduction to Hessenberg form, the QR algorithm with Wilkinson's shifts by Givens' rotations, and
-back substitution (Golub and Van Loan, Matrix Computations, 7.4 to 7.6). Matrices are real and imaginary parts
-by rows of ``n`` numbers. Callers scale their matrices: rows and columns of like size.
+Reduction to Hessenberg form and the QR algorithm with Wilkinson's shifts, both by Givens' rotations, and back
+substitution (Golub and Van Loan, Matrix Computations, 7.4 to 7.6). Matrices are by rows of ``n`` numbers.
+Callers scale them: rows and columns of like size.
 """
 
+import cmath
 import math
 
+from fmu_bearing.engine.complex_numbers import over, real_times, square
 from fmu_bearing.engine.jit import kernel
 
 _ROUNDS = 60  # per eigenvalue; 2 to 4 are needed
@@ -15,114 +17,85 @@ _ODD = 10  # rounds without an eigenvalue after which a shift is taken aside
 
 
 @kernel
-def root_of(re, im):
-    """Square root of a complex number."""
-    size = math.hypot(re, im)
-    a = math.sqrt(0.5 * (size + abs(re)))
-    b = 0.5 * im / a if a > 0.0 else 0.0
-    if re >= 0.0:
-        return a, b
-    return abs(b), math.copysign(a, im)
+def size_of(z):
+    """Sum of the sizes of both parts."""
+    return abs(z.real) + abs(z.imag)
 
 
 @kernel
-def reduce(re, im, zr, zi, n):
-    """Reduce to Hessenberg form in place; the transformations go to ``zr``, ``zi``."""
-    for i in range(n * n):
-        zr[i] = 0.0
-        zi[i] = 0.0
+def reduce(a, z, n):
+    """Reduce to Hessenberg form in place; the transformations go to ``z``."""
     for i in range(n):
-        zr[i * n + i] = 1.0
+        for k in range(n):
+            z[i * n + k] = 1.0 if i == k else 0.0
     for k in range(n - 2):
         # eliminate the rest of column k by rotations of two rows each
         for i in range(k + 2, n):
-            rotate_out(re, im, zr, zi, n, k + 1, i, k)
+            low = a[i * n + k]
+            if low != 0.0:
+                c, s = rotation(a[(k + 1) * n + k], low)
+                rotate_rows(a, n, k + 1, i, 0, c, s)
+                a[i * n + k] = 0.0
+                rotate_columns(a, n, k + 1, i, n, c, s)
+                rotate_columns(z, n, k + 1, i, n, c, s)
 
 
 @kernel
-def rotate_out(re, im, zr, zi, n, top, low, column):
-    """Rotate rows ``top`` and ``low`` so that the lower entry of ``column`` vanishes, then the columns."""
-    br, bi = re[low * n + column], im[low * n + column]
-    if br == 0.0 and bi == 0.0:
-        return
-    c, sr, si = rotation(re[top * n + column], im[top * n + column], br, bi)
-    rotate_rows(re, im, n, top, low, 0, c, sr, si)
-    re[low * n + column] = 0.0
-    im[low * n + column] = 0.0
-    rotate_columns(re, im, n, top, low, n, c, sr, si)
-    rotate_columns(zr, zi, n, top, low, n, c, sr, si)
-
-
-@kernel
-def rotation(ar, ai, br, bi):
+def rotation(a, b):
     """Cosine and complex sine of Givens' rotation that takes (a, b) to (r, 0): r = c a + s b."""
-    a = math.hypot(ar, ai)
-    b = math.hypot(br, bi)
-    size = math.hypot(a, b)
-    if b == 0.0:
-        return 1.0, 0.0, 0.0
-    if a == 0.0:
-        return 0.0, br / b, -bi / b
+    far, high = math.hypot(a.real, a.imag), math.hypot(b.real, b.imag)
+    if high == 0.0:
+        return 1.0, 0j
+    if far == 0.0:
+        return 0.0, real_times(1.0 / high, b.conjugate())
     # s = sign(a) conj(b) / size
-    ur, ui = ar / a, ai / a
-    return a / size, (ur * br + ui * bi) / size, (ui * br - ur * bi) / size
+    per = 1.0 / math.hypot(far, high)
+    return far * per, real_times(per / far, a * b.conjugate())
 
 
 @kernel
-def rotate_rows(re, im, n, top, low, first, c, sr, si):
+def rotate_rows(a, n, top, low, first, c, s):
     """Rows: (top, low) becomes (c top + s low, c low - conj(s) top), from column ``first`` on."""
     for j in range(first, n):
-        t, b = top * n + j, low * n + j
-        xr, xi, yr, yi = re[t], im[t], re[b], im[b]
-        re[t] = c * xr + (sr * yr - si * yi)
-        im[t] = c * xi + (sr * yi + si * yr)
-        re[b] = c * yr - (sr * xr + si * xi)
-        im[b] = c * yi - (sr * xi - si * xr)
+        x, y = a[top * n + j], a[low * n + j]
+        a[top * n + j] = real_times(c, x) + s * y
+        a[low * n + j] = real_times(c, y) - s.conjugate() * x
 
 
 @kernel
-def rotate_columns(re, im, n, one, two, rows, c, sr, si):
+def rotate_columns(a, n, one, two, rows, c, s):
     """Columns: the inverse of `rotate_rows`, in the first ``rows`` rows."""
     for i in range(rows):
-        t, b = i * n + one, i * n + two
-        xr, xi, yr, yi = re[t], im[t], re[b], im[b]
-        re[t] = c * xr + (sr * yr + si * yi)
-        im[t] = c * xi + (sr * yi - si * yr)
-        re[b] = c * yr - (sr * xr - si * xi)
-        im[b] = c * yi - (sr * xi + si * xr)
+        x, y = a[i * n + one], a[i * n + two]
+        a[i * n + one] = real_times(c, x) + s.conjugate() * y
+        a[i * n + two] = real_times(c, y) - s * x
 
 
 @kernel
-def shift_of(re, im, n, k):
+def shift_of(a, n, k):
     """Eigenvalue of the last two rows of ``k`` that is nearer to the last diagonal."""
-    a, b, c, d = (k - 2) * n + k - 2, (k - 2) * n + k - 1, (k - 1) * n + k - 2, (k - 1) * n + k - 1
-    half_r, half_i = 0.5 * (re[a] - re[d]), 0.5 * (im[a] - im[d])
-    pr = re[b] * re[c] - im[b] * im[c]
-    pi = re[b] * im[c] + im[b] * re[c]
-    qr, qi = root_of(half_r * half_r - half_i * half_i + pr, 2.0 * half_r * half_i + pi)
-    if half_r * qr + half_i * qi < 0.0:
-        qr, qi = -qr, -qi
-    # d - b c / (half + root)
-    lr, li = half_r + qr, half_i + qi
-    size = lr * lr + li * li
-    if size == 0.0:
-        return re[d], im[d]
-    return re[d] - (pr * lr + pi * li) / size, im[d] - (pi * lr - pr * li) / size
+    at = (k - 2) * n + k - 2
+    last = a[at + n + 1]
+    half, both = 0.5 * (a[at] - last), a[at + 1] * a[at + n]
+    root = cmath.sqrt(half * half + both)
+    if half.real * root.real + half.imag * root.imag < 0.0:
+        root = -root
+    if half + root == 0.0:
+        return last
+    return last - over(both, half + root)
 
 
 @kernel
-def triangular(re, im, zr, zi, n):
+def triangular(a, z, n):
     """Make the Hessenberg matrix triangular, the transformations follow in ``z``; False if not in bounds."""
     k = n
     rounds = 0
     while k > 1:
         low = k - 1
         while low > 0:
-            size = abs(re[(low - 1) * n + low - 1]) + abs(im[(low - 1) * n + low - 1])
-            size += abs(re[low * n + low]) + abs(im[low * n + low])
-            if abs(re[low * n + low - 1]) + abs(im[low * n + low - 1]) <= _SMALL * size:
-                re[low * n + low - 1] = 0.0
-                im[low * n + low - 1] = 0.0
+            at = low * n + low
+            if size_of(a[at - 1]) <= _SMALL * (size_of(a[at - n - 1]) + size_of(a[at])):
+                a[at - 1] = 0.0
                 break
             low -= 1
         if low == k - 1:
@@ -132,73 +105,60 @@ def triangular(re, im, zr, zi, n):
         rounds += 1
         if rounds > _ROUNDS:
             return False
-        sr, si = shift_of(re, im, n, k)
+        shift = shift_of(a, n, k)
         if rounds % _ODD == 0:
-            sr += abs(re[(k - 1) * n + k - 2])
+            shift += abs(a[(k - 1) * n + k - 2].real)
         # one implicit step: the first rotation is that of the shifted matrix, the others chase the bulge
-        c, tr, ti = rotation(
-            re[low * n + low] - sr, im[low * n + low] - si, re[(low + 1) * n + low], im[(low + 1) * n + low]
-        )
+        c, s = rotation(a[low * n + low] - shift, a[(low + 1) * n + low])
         for i in range(low, k - 1):
             if i > low:
-                at, under = i * n + i - 1, (i + 1) * n + i - 1
-                c, tr, ti = rotation(re[at], im[at], re[under], im[under])
-            rotate_rows(re, im, n, i, i + 1, max(i - 1, 0), c, tr, ti)
-            rotate_columns(re, im, n, i, i + 1, min(i + 3, k), c, tr, ti)
-            rotate_columns(zr, zi, n, i, i + 1, n, c, tr, ti)
+                c, s = rotation(a[i * n + i - 1], a[(i + 1) * n + i - 1])
+            rotate_rows(a, n, i, i + 1, max(i - 1, 0), c, s)
+            rotate_columns(a, n, i, i + 1, min(i + 3, k), c, s)
+            rotate_columns(z, n, i, i + 1, n, c, s)
             if i > low:
-                re[(i + 1) * n + i - 1] = 0.0
-                im[(i + 1) * n + i - 1] = 0.0
+                a[(i + 1) * n + i - 1] = 0.0
     return True
 
 
 @kernel
-def eigen(re, im, zr, zi, vr, vi, n):
+def eigen(a, z, v, n):
     """Eigenvalues to the diagonal of the matrix (destroyed), eigenvectors to the columns of ``v``.
 
-    ``re``, ``im``: the matrix, with as many numbers of scratch behind it; ``z``: scratch of its size. False
-    where the algorithm does not converge.
+    ``a``: the matrix, with as many numbers of scratch behind it; ``z``: scratch of its size. False where the
+    algorithm does not converge.
     """
-    reduce(re, im, zr, zi, n)
-    if not triangular(re, im, zr, zi, n):
+    reduce(a, z, n)
+    if not triangular(a, z, n):
         return False
     largest = 0.0
     for i in range(n):
         for j in range(i, n):
-            largest = max(largest, abs(re[i * n + j]) + abs(im[i * n + j]))
+            largest = max(largest, size_of(a[i * n + j]))
     least = 1e-16 * largest + 1e-300
     for k in range(n):
         # solve (T - t_kk) x = 0 upwards from x_k = 1; x takes column k of v for the time being
         for i in range(n):
-            vr[i * n + k] = 1.0 if i == k else 0.0
-            vi[i * n + k] = 0.0
+            v[i * n + k] = 1.0 if i == k else 0.0
         for i in range(k - 1, -1, -1):
-            sum_r, sum_i = 0.0, 0.0
+            total = 0j
             for j in range(i + 1, k + 1):
-                sum_r -= re[i * n + j] * vr[j * n + k] - im[i * n + j] * vi[j * n + k]
-                sum_i -= re[i * n + j] * vi[j * n + k] + im[i * n + j] * vr[j * n + k]
-            dr = re[i * n + i] - re[k * n + k]
-            di = im[i * n + i] - im[k * n + k]
-            if abs(dr) + abs(di) < least:
-                dr = least
-            size = dr * dr + di * di
-            vr[i * n + k] = (sum_r * dr + sum_i * di) / size
-            vi[i * n + k] = (sum_i * dr - sum_r * di) / size
+                total -= a[i * n + j] * v[j * n + k]
+            apart = a[i * n + i] - a[k * n + k]
+            if size_of(apart) < least:
+                apart = complex(least, apart.imag)
+            v[i * n + k] = over(total, apart)
     # z times the triangle x, behind the matrix
     for i in range(n):
         for k in range(n):
-            sum_r, sum_i = 0.0, 0.0
+            total = 0j
             for j in range(k + 1):
-                sum_r += zr[i * n + j] * vr[j * n + k] - zi[i * n + j] * vi[j * n + k]
-                sum_i += zr[i * n + j] * vi[j * n + k] + zi[i * n + j] * vr[j * n + k]
-            re[n * n + i * n + k] = sum_r
-            im[n * n + i * n + k] = sum_i
+                total += z[i * n + j] * v[j * n + k]
+            a[n * n + i * n + k] = total
     for k in range(n):
-        size = 0.0
+        total = 0.0
         for i in range(n):
-            size += re[n * n + i * n + k] ** 2 + im[n * n + i * n + k] ** 2
-        per = 1.0 / math.sqrt(size)
+            total += square(a[n * n + i * n + k])
         for i in range(n):
-            vr[i * n + k] = per * re[n * n + i * n + k]
-            vi[i * n + k] = per * im[n * n + i * n + k]
+            v[i * n + k] = real_times(1.0 / math.sqrt(total), a[n * n + i * n + k])
     return True

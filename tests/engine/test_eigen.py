@@ -9,12 +9,10 @@ from fmu_bearing.engine.eigen import eigen
 def solved(matrix):
     """Eigenvalues and eigenvectors by the kernel."""
     n = len(matrix)
-    re, im = np.zeros(2 * n * n), np.zeros(2 * n * n)
-    re[: n * n], im[: n * n] = matrix.real.ravel(), matrix.imag.ravel()
-    scratch = [np.zeros(n * n) for _ in range(4)]
-    assert eigen(re, im, *scratch, n)
-    values = (re + 1j * im)[: n * n].reshape(n, n).diagonal()
-    return values, (scratch[2] + 1j * scratch[3]).reshape(n, n)
+    found, vectors = np.zeros((2, n, n), complex), np.zeros((n, n), complex)
+    found[0] = matrix
+    assert eigen(found.ravel(), np.zeros(n * n, complex), vectors.ravel(), n)
+    return found[0].diagonal(), vectors
 
 
 @pytest.mark.parametrize("seed", range(40))

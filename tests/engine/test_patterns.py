@@ -12,9 +12,9 @@ from fmu_bearing.engine.fidelities.condensed.phi import moments, weigh
 )
 def test_moments_are_integrals_over_a_step(x):
     """exp(x), then the integrals of exp(x (1 - s)) s^m, m = 0 .. 4."""
-    w = np.zeros(12)
-    moments(np.real(x), np.imag(x), w, 0)
-    assert w[0] + 1j * w[1] == pytest.approx(np.exp(x), rel=1e-12, abs=1e-300)
+    found = np.zeros(6, complex)
+    moments(complex(x), found)
+    assert found[0] == pytest.approx(np.exp(x), rel=1e-12, abs=1e-300)
     for m in range(5):
         # what stiff modes feel lies at the end of the step
         begin = max(0.0, 1.0 - 60.0 / max(abs(np.real(x)), 1e-9))
@@ -22,7 +22,7 @@ def test_moments_are_integrals_over_a_step(x):
             unit * quad(lambda s, m=m, part=part: part(np.exp(x * (1 - s)) * s**m), begin, 1.0, limit=400)[0]
             for unit, part in ((1.0, np.real), (1j, np.imag))
         )
-        assert w[2 + 2 * m] + 1j * w[3 + 2 * m] == pytest.approx(exact, rel=1e-8)
+        assert found[1 + m] == pytest.approx(exact, rel=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,5 @@ A3 = _vector()
 A4 = _vector()
 LEVERS = _vector()  # m or 1: what makes a coordinate a displacement; 0 in spare lanes
 JERK = _vector()  # rates of acceleration, kept over a change of step
-GROWING = _vector()  # m, rad: a motion that may grow, see rings/growth: real parts,
-GROWING_IM = _vector()  # imaginary parts
+GROWING = _vector(2)  # m, rad: a motion that may grow, complex, see rings/growth
 VECTORS = _vector.next

@@ -2,7 +2,7 @@
 
 It begins at ``S.JAC`` in ``s`` and uses the blocks of Jacobian and factors, which this fidelity does not need
 then: forces of one ball on the rings, sampled round the orbit, and their circumferential orders. A complex
-vector is ``COMPONENTS`` real parts, then as many imaginary parts.
+vector is ``COMPONENTS`` numbers, each its real part, then its imaginary one.
 """
 
 from fmu_bearing.engine.layout.condensed import AWAYS, FORCES, PATTERNS, N as RINGS
@@ -15,8 +15,7 @@ REACH = 8  # highest circumferential order of the balls' unequal loads
 AZIMUTHS = 96  # samples over the orbit at most
 TURNS = 2 * (BALL_ORDERS + 1)  # samples over a ball's own turning at most
 
-IMAGINARY = COMPONENTS  # place of the imaginary parts in a complex vector
-COMPLEX = 2 * COMPONENTS  # numbers of one
+COMPLEX = 2 * COMPONENTS  # numbers of a complex vector
 
 # kinds of sample
 FORCE = 0  # N, N m

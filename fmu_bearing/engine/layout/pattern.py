@@ -21,14 +21,11 @@ MOST = BALL * MAX_BALLS + TAIL  # unknowns
 EVEN = 11  # unknowns where all balls are equal
 EVEN_ROW = EVEN + 1
 
-# of an eigenvector: itself, its rates, the right side of its equations and their answer
+# of a complex eigenvector: itself, its rates, the right side of its equations and their answer
 _eigen = Places()
-VECTOR = _eigen(MOST)
-VECTOR_IM = _eigen(MOST)  # imaginary parts
-RATE = _eigen(MOST)
-RATE_IM = _eigen(MOST)
-RIGHT = _eigen(MOST)
-RIGHT_IM = _eigen(MOST)
+VECTOR = _eigen(2 * MOST)
+RATE = _eigen(2 * MOST)
+RIGHT = _eigen(2 * MOST)
 
 _at = Places()
 UNKNOWNS = _at(MOST)

@@ -101,19 +101,17 @@ MATRIX = _at(_L.N * _L.N)
 INVERSE = _at(_L.N * _L.N)
 # balls and cage between the rings: complex matrices by rows, see condensed/operator
 _INNER = _L.INTERNAL * _L.INTERNAL
-STATES = _at(4 * _INNER)  # rates of the states by states: real parts twice, then imaginary parts twice
+STATES = _at(4 * _INNER)  # rates of the states by states, twice
 TURNS = _at(2 * _INNER)
 VECTORS = _at(2 * _INNER)  # modes in columns
-INVERSE_RE = _at(2 * _INNER)  # rows of the modes and of a unit matrix, which becomes their inverse
-INVERSE_IM = _at(2 * _INNER)
-PER_RING = 4  # numbers: complex, by place and by velocity
-BY_RINGS = _at(PER_RING * _L.INTERNAL * _L.FAMILY_RINGS)  # rates by the rings' places and velocities
+MODES_INVERSE = _at(4 * _INNER)  # rows of the modes and of a unit matrix, which becomes their inverse
+BY_RINGS = _at(4 * _L.INTERNAL * _L.FAMILY_RINGS)  # rates by the rings' places and velocities
 HOLDS = _at(_L.AWAYS * _J.BALL)  # 1/s2: a ball's accelerations by its place of rest, by contacts: see L.AWAYS
 PUSHED = 2 * 2 * _L.AWAYS * _L.FAMILY_RINGS  # numbers of
 PUSHES = _at(PUSHED)  # 1/s2: accelerations of the rings by them
 PRESSED = _at(2 * PRESSED_SIZE)  # of each race
 HEIGHTENED = _at(_J.BALL)  # a ball's accelerations by the height of a race
-KEPT = _at(2 * _L.COMPLEX)  # states of balls and cage over a renewal
+KEPT = _at(4 * _L.INTERNAL)  # states of balls and cage over a renewal, complex
 OPERATOR_END = _at.next
 # lines of fidelity response
 LINE_SIDE = _L.N * _L.COLUMN  # right side of the rings' equations: behind the columns of coefficients
@@ -124,7 +122,6 @@ DRIVEN = _at(2 * _L.FAMILY_RINGS * _L.COMPLEX)  # and driven by each coordinate 
 BESIDE_RE = _at(_L.MATRIX)  # 1/s2: accelerations of the rings by them, and by what goes beside balls at rest
 BESIDE_IM = _at(_L.MATRIX)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
-BY_HEIGHT = _at(_LN.COMPLEX)  # one order of the force per height
 # held values, which are found before the modes
 _at = Places(STATES)
 HELD_F = _at(_F.SIZE)  # right-hand side at the held state
@@ -156,7 +153,6 @@ LEDGER: tuple[Area, ...] = (
     Area("T.DRIVEN", DRIVEN, 2 * _L.FAMILY_RINGS * _L.COMPLEX, _LINES),
     Area("T.BESIDE", BESIDE_RE, 2 * _L.MATRIX, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
-    Area("T.BY_HEIGHT", BY_HEIGHT, _LN.COMPLEX, _LINES),
     Area("T.HELD_F", HELD_F, _F.SIZE, _HELD),
     Area("T.HELD_ROWS", HELD_ROWS, 2 * STRIDE, _HELD),
     Area("T.HELD_LOST", HELD_LOST, _L.LOST, _HELD),

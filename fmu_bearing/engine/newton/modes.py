@@ -9,6 +9,7 @@ equal ball loads.
 
 import math
 
+from fmu_bearing.engine.complex_numbers import complex_at, over
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import in_groups
 from fmu_bearing.engine.layout import FL, FOUR, STRIDE, A, J, P, Q, W, Y
@@ -111,7 +112,7 @@ def groove_inertia(p, pushed, moved, same, total):
 
 @kernel
 def coupling(p, mode, other, total):
-    """How a mode answers another of its order through the balls: real and imaginary part.
+    """How a mode answers another of its order through the balls: complex.
 
     ``total``: inertia (kg) of the mode's groove against the motion of the other's, row by row. The mean over
     all places of the balls; (a + i b) of the other mode is multiplied by it.
@@ -127,19 +128,18 @@ def coupling(p, mode, other, total):
     in_phase = p[mode + P.MODE_X] * x + p[mode + P.MODE_R] * r + p[mode + P.MODE_T] * along[2] * psi_t
     ahead = p[mode + P.MODE_X] * total[2] + p[mode + P.MODE_R] * radial[2]
     half = 0.5 / p[mode + P.MODE_MASS]
-    return half * in_phase, half * (ahead * psi_t - p[mode + P.MODE_T] * t)
+    return complex(half * in_phase, half * (ahead * psi_t - p[mode + P.MODE_T] * t))
 
 
 @kernel
 def mode_block(p, mode, spin, cv, cx, total):
-    """Diagonal of the Newton matrix for one mode, the balls eliminated: real and imaginary part."""
+    """Diagonal of the Newton matrix for one mode, the balls eliminated: complex."""
     n = p[mode + P.MODE_ORDER]
     g = p[mode + P.MODE_GYROSCOPIC]
     damping = p[mode + P.MODE_DAMPING]
     stiff = p[mode + P.MODE_STIFFNESS] / p[mode + P.MODE_MASS] - (n * n + 2.0 * n * g) * spin * spin
-    real, imaginary = coupling(p, mode, mode, total)
-    real += 1.0 + cv * damping + cx * stiff
-    return real, imaginary - 2.0 * cv * spin * (n + g) - cx * damping * n * spin
+    own = complex(1.0 + cv * damping + cx * stiff, -2.0 * cv * spin * (n + g) - cx * damping * n * spin)
+    return coupling(p, mode, mode, total) + own
 
 
 @kernel
@@ -178,35 +178,25 @@ def inverse_of_modes(flexure, modes):
 
 @kernel
 def invert_modes(p, speed, cv, cx, totals, inverse):
-    """Inverse of the modes' blocks: coefficients of own and partner's residual, real and imaginary part."""
+    """Inverse of the modes' blocks: coefficients of own and partner's residual, complex."""
     table = int(p[P.AT_MODES])
     for k in range(int(p[P.MODES])):
         mode = table + k * P.MODE_SIZE
         race = int(p[mode + P.MODE_BODY])
-        ar, ai = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[between(race, race) :])
+        a = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[between(race, race) :])
         m = partner(p, k)
-        br = 0.0
-        bi = 0.0
-        dr = 1.0
-        di = 0.0
-        er = ar
-        ei = ai
+        b, d, determinant = 0j, complex(1.0, 0.0), a
         if m >= 0:
             other = table + m * P.MODE_SIZE
             opposite = 1 - race
             spin = 0.0 if race == 0 else speed
-            br, bi = coupling(p, mode, other, totals[between(race, opposite) :])
-            cr, ci = coupling(p, other, mode, totals[between(opposite, race) :])
-            dr, di = mode_block(p, other, spin, cv, cx, totals[between(opposite, opposite) :])
-            er = ar * dr - ai * di - (br * cr - bi * ci)
-            ei = ar * di + ai * dr - (br * ci + bi * cr)
-        per = 1.0 / (er * er + ei * ei)
-        own = k * FL.PER_INVERSE + FL.OWN
-        others = k * FL.PER_INVERSE + FL.PARTNER
-        inverse[own] = (dr * er + di * ei) * per
-        inverse[own + 1] = (di * er - dr * ei) * per
-        inverse[others] = -(br * er + bi * ei) * per
-        inverse[others + 1] = -(bi * er - br * ei) * per
+            b = coupling(p, mode, other, totals[between(race, opposite) :])
+            c = coupling(p, other, mode, totals[between(opposite, race) :])
+            d = mode_block(p, other, spin, cv, cx, totals[between(opposite, opposite) :])
+            determinant = a * d - b * c
+        found = complex_at(inverse, k * FL.PER_INVERSE, 2)
+        found[FL.OWN // 2] = over(d, determinant)
+        found[FL.PARTNER // 2] = over(-b, determinant)
 
 
 @kernel

@@ -5,6 +5,7 @@ family of two planes answers it forward
 and backward: with U = u_0 + i u_1, u_0 gives half of either, u_1 half of either a quarter turn on.
 """
 
+from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
 from fmu_bearing.engine.fidelities.condensed.drives import active, groups
 from fmu_bearing.engine.fidelities.condensed.families import family_size, member, planes, side
 from fmu_bearing.engine.jit import kernel
@@ -50,24 +51,33 @@ def drive_modes(lv, family, whirl, by_place, by_rate, growth, omega, w, to):
 
 
 @kernel
-def by_modes(lv, family, out, driven, w):
-    """Return what modes of a family at ``w[driven:]`` do, by the row ``lv[out:]``; complex."""
+def by_modes(lv, family, out, driven, x):
+    """Return what modes of a family at ``x[driven:]`` do, by the row ``lv[out:]``; complex."""
     re, im = splat(0.0), splat(0.0)
     for m in range(0, groups(lv, family), FOUR):
-        ar, ai = load(w, driven + m), load(w, driven + L.MODES + m)
+        ar, ai = load(x, driven + m), load(x, driven + L.MODES + m)
         ur, ui = load(lv, out + m), load(lv, out + L.MODES + m)
         re += ur * ar - ui * ai
         im += ur * ai + ui * ar
-    return sum_four(re), sum_four(im)
+    return complex(sum_four(re), sum_four(im))
 
 
 @kernel
-def both_whirls(forward_re, forward_im, backward_re, backward_im):
-    """Return what a plane does in itself and a quarter turn on, by a forward and a backward whirl."""
-    return (
-        0.5 * (forward_re + backward_re), 0.5 * (forward_im - backward_im),
-        0.5 * (forward_re - backward_re), 0.5 * (forward_im + backward_im),
-    )  # fmt: skip
+def both_whirls(lv, family, out, forward, backward, w):
+    """Return what a plane does in itself and a quarter turn on, by modes of a forward and a backward whirl.
+
+    Complex, by the row ``lv[out:]``; the modes are at ``w[forward:]`` and ``w[backward:]``.
+    """
+    one = real_times(0.5, by_modes(lv, family, out, forward, w))
+    other = real_times(0.5, by_modes(lv, family, out, backward, w)).conjugate()
+    return one + other, one - other
+
+
+@kernel
+def add_beside(w, i, k, sign, z):
+    """Add ``sign`` times a complex number to what coordinate ``i`` of the rings does by coordinate ``k``."""
+    w[T.BESIDE_RE + i + L.COLUMN * k] += sign * z.real
+    w[T.BESIDE_IM + i + L.COLUMN * k] += sign * z.imag
 
 
 @kernel
@@ -92,22 +102,16 @@ def beside_rings(lv, growth, omega, w):
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
-                fr, fi = by_modes(lv, family, out, T.DRIVEN + b * L.COMPLEX, w)
-                br, bi = by_modes(lv, family, out, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX, w)
-                re, im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
+                forward, backward = T.DRIVEN + b * L.COMPLEX, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX
+                own, turned = both_whirls(lv, family, out, forward, backward, w)
                 for plane in range(planes(family)):
-                    i, k = member(family, plane, a), member(family, plane, b)
                     sign = side(plane, a) * side(plane, b)
-                    w[T.BESIDE_RE + i + L.COLUMN * k] += sign * re
-                    w[T.BESIDE_IM + i + L.COLUMN * k] += sign * im
+                    add_beside(w, member(family, plane, a), member(family, plane, b), sign, own)
                 if family == 1:
                     # i times the turned one by the second plane's motion, minus that in it by the first one's
-                    i, k = member(1, 0, a), member(1, 1, b)
-                    w[T.BESIDE_RE + i + L.COLUMN * k] -= side(1, b) * turned_im
-                    w[T.BESIDE_IM + i + L.COLUMN * k] += side(1, b) * turned_re
-                    i, k = member(1, 1, a), member(1, 0, b)
-                    w[T.BESIDE_RE + i + L.COLUMN * k] += side(1, a) * turned_im
-                    w[T.BESIDE_IM + i + L.COLUMN * k] -= side(1, a) * turned_re
+                    aside = complex(-turned.imag, turned.real)
+                    add_beside(w, member(1, 0, a), member(1, 1, b), side(1, b), aside)
+                    add_beside(w, member(1, 1, a), member(1, 0, b), -side(1, a), aside)
 
 
 @kernel
@@ -115,6 +119,7 @@ def beside_places(p, lv, w, re, im):
     """Add accelerations by the balls' places of rest in ``T.LINE_FORCE`` to the right side, see `lines`."""
     if not active(lv):
         return
+    away = complex_at(w, T.LINE_FORCE + 2 * LN.AWAY, L.AWAYS * L.PATTERNS)
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
         per = planes(family) / p[P.BALLS]
@@ -125,22 +130,20 @@ def beside_places(p, lv, w, re, im):
                 drive_modes(lv, family, whirl, row, row, 0.0, 0.0, w, driven)
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
+            i, j = T.LINE_SIDE + member(family, 0, a), T.LINE_SIDE + member(1, 1, a)
             for k in range(L.AWAYS):
-                fr, fi = by_modes(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
-                br, bi = by_modes(lv, family, out, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX, w)
-                push = f + L.PUSH + 2 * (L.AWAYS * a + k)
+                forward, backward = T.DRIVEN + k * L.COMPLEX, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX
+                own, turned = both_whirls(lv, family, out, forward, backward, w)
                 # contacts with balls at rest have pushed already
-                fr, fi, br, bi = fr - lv[push], fi - lv[push + 1], br - lv[push], bi - lv[push + 1]
-                own_re, own_im, turned_re, turned_im = both_whirls(fr, fi, br, bi)
-                first = T.LINE_FORCE + LN.AWAY + L.AWAYS * family + k
-                xr, xi = per * w[first], per * w[first + LN.IMAGINARY]
-                i = T.LINE_SIDE + member(family, 0, a)
-                re[i] += own_re * xr - own_im * xi
-                im[i] += own_re * xi + own_im * xr
+                push = pair(lv, f + L.PUSH + 2 * (L.AWAYS * a + k))
+                own, turned = own - push.real, turned - complex(0.0, push.imag)
+                x = real_times(per, away[L.AWAYS * family + k])
+                first = own * x
                 if family == 1:
-                    yr, yi = per * w[first + L.AWAYS], per * w[first + L.AWAYS + LN.IMAGINARY]
-                    re[i] -= turned_re * yi + turned_im * yr
-                    im[i] += turned_re * yr - turned_im * yi
-                    i = T.LINE_SIDE + member(1, 1, a)
-                    re[i] += side(1, a) * (own_re * yr - own_im * yi + turned_re * xi + turned_im * xr)
-                    im[i] += side(1, a) * (own_re * yi + own_im * yr - turned_re * xr + turned_im * xi)
+                    y = real_times(per, away[2 * L.AWAYS + k])
+                    first += 1j * (turned * y)
+                    second = real_times(side(1, a), own * y - 1j * (turned * x))
+                    re[j] += second.real
+                    im[j] += second.imag
+                re[i] += first.real
+                im[i] += first.imag

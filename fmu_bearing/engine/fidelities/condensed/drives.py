@@ -3,6 +3,7 @@
 See `operator`; `patterns` steps them.
 """
 
+from fmu_bearing.engine.complex_numbers import pair, real_times
 from fmu_bearing.engine.fidelities.condensed.balls import between
 from fmu_bearing.engine.fidelities.condensed.families import family_size
 from fmu_bearing.engine.jit import kernel
@@ -62,41 +63,34 @@ def by_families(x, at, to, w):
 @kernel
 def linear_place(lv, family, k, w):
     """Return the complex place of rest x or r (``k``) of a pattern that the rings' linear motion gives."""
-    re, im = 0.0, 0.0
-    follow = L.FAMILY + family * L.FAMILY_SIZE + L.FOLLOW
-    for b in range(family_size(family)):
-        here = T.FAMILY_PLACES * family + 2 * b
-        at = follow + 2 * (k * L.FAMILY_RINGS + b)
-        for moved in range(2):
-            xr, xi = (
-                w[T.PLACES + moved * 2 * T.FAMILY_PLACES + here],
-                w[T.PLACES + moved * 2 * T.FAMILY_PLACES + here + 1],
-            )
-            fr, fi = lv[at], lv[at + 1]
-            re += fr * xr - fi * xi
-            im += fr * xi + fi * xr
-            at += 2 * 2 * L.FAMILY_RINGS
-    return re, im
+    total = 0j
+    for part in range(2):
+        follow = L.FAMILY + family * L.FAMILY_SIZE + L.FOLLOW + 2 * (2 * part + k) * L.FAMILY_RINGS
+        place = (T.PLACES if part == 0 else T.RATES) + T.FAMILY_PLACES * family
+        for b in range(family_size(family)):
+            total += pair(lv, follow + 2 * b) * pair(w, place + 2 * b)
+    return total
 
 
 @kernel
-def linear_press(lv, race, tau, x0, r0, xr, xi, rr, ri, w):
+def pressing(w, k, tau):
+    """Complex coordinate at place ``k`` of a family's, ahead by its rate for ``tau`` (s)."""
+    return pair(w, T.PLACES + k) + real_times(tau, pair(w, T.RATES + k))
+
+
+@kernel
+def linear_press(lv, race, tau, x0, r0, x, r, w):
     """Return by how much the rings' linear motion presses a contact (m): uniform, then complex of family 1.
 
-    ``x0`` .. ``ri``: the linear places x, r of a ball, of family 0, then of family 1; ``tau`` (s): of contact
-    damping.
+    ``x0``, ``r0``: the linear places of a ball, of family 0; ``x``, ``r``: complex, of family 1; ``tau`` (s):
+    of contact damping.
     """
     at = L.PRESS + race * L.PRESS_SIZE
     ex, er, lever = lv[at], lv[at + 1], lv[at + L.PRESS_LEVER]
-    still = ex * (w[T.PLACES + 2 * race] + tau * w[T.RATES + 2 * race])
     one = T.FAMILY_PLACES + 2 * 2 * race
-    re, im = ex * xr + er * rr, ex * xi + er * ri
-    re -= er * (w[T.PLACES + one] + tau * w[T.RATES + one])
-    im -= er * (w[T.PLACES + one + 1] + tau * w[T.RATES + one + 1])
-    one += 2
-    re -= lever * (w[T.PLACES + one] + tau * w[T.RATES + one])
-    im -= lever * (w[T.PLACES + one + 1] + tau * w[T.RATES + one + 1])
-    return ex * x0 + er * r0 - still, re, im
+    still = ex * x0 + er * r0 - ex * pressing(w, 2 * race, tau).real
+    turned = real_times(ex, x) + real_times(er, r - pressing(w, one, tau))
+    return still, turned - real_times(lever, pressing(w, one + 2, tau))
 
 
 @kernel
@@ -119,13 +113,11 @@ def find_away(p, lv, w):
     loose ones and light ones do: nothing there is linear, and what one ball does would change with forces
     that nobody feels. Where all carry little, as much as they carry at the held point is no less than whole.
     """
-    x0, _ = linear_place(lv, 0, 0, w)
-    r0, _ = linear_place(lv, 0, 1, w)
-    xr, xi = linear_place(lv, 1, 0, w)
-    rr, ri = linear_place(lv, 1, 1, w)
+    x0, r0 = linear_place(lv, 0, 0, w).real, linear_place(lv, 0, 1, w).real
+    x1, r1 = linear_place(lv, 1, 0, w), linear_place(lv, 1, 1, w)
     tau = p[P.CONTACT_DAMPING]
-    i0, ir, ii = linear_press(lv, 0, tau, x0, r0, xr, xi, rr, ri, w)
-    o0, outr, outi = linear_press(lv, 1, tau, x0, r0, xr, xi, rr, ri, w)
+    i0, i1 = linear_press(lv, 0, tau, x0, r0, x1, r1, w)
+    o0, o1 = linear_press(lv, 1, tau, x0, r0, x1, r1, w)
     x0 += lv[L.AT_BALL]
     r0 += lv[L.AT_BALL + 1]
     per_i, per_o = lv[L.PRESS + L.PRESS_SOFT], lv[L.PRESS + L.PRESS_SIZE + L.PRESS_SOFT]
@@ -138,8 +130,8 @@ def find_away(p, lv, w):
     ui, uo, ci, cout, si_, sout = splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for j in range(0, int(p[P.LANES]), FOUR):
         co, si = load(w, T.COS + j), load(w, T.SIN + j)
-        x = load(w, T.X + j) - x0 - (xr * co - xi * si)
-        r = load(w, T.R + j) - r0 - (rr * co - ri * si)
+        x = load(w, T.X + j) - x0 - (x1.real * co - x1.imag * si)
+        r = load(w, T.R + j) - r0 - (r1.real * co - r1.imag * si)
         far = x * (xx * x + xr2 * r) + rr2 * r * r
         inner, outer = moved_load(w, T.CONTACT, j), moved_load(w, T.CONTACT_OUTER, j)
         loaded = per * inner * outer
@@ -150,8 +142,8 @@ def find_away(p, lv, w):
         ux, ur = ux + x, ur + r
         cx, cr = cx + co * x, cr + co * r
         sx, sr = sx - si * x, sr - si * r
-        x = held * (per_i * inner - i0 - (ir * co - ii * si))
-        r = held * (per_o * outer - o0 - (outr * co - outi * si))
+        x = held * (per_i * inner - i0 - (i1.real * co - i1.imag * si))
+        r = held * (per_o * outer - o0 - (o1.real * co - o1.imag * si))
         ui, uo = ui + x, uo + r
         ci, cout = ci + co * x, cout + co * r
         si_, sout = si_ - si * x, sout - si * r

@@ -58,26 +58,25 @@ def by_members(x, at, row, column, family, a, b):
 
     Entry (i, k) is at ``at + i row + k column``; the mean of both planes.
     """
+    i, k = member(family, 0, a), member(family, 0, b)
     if family == 0:
-        return x[at + member(0, 0, a) * row + member(0, 0, b) * column], 0.0
-    i, k = member(1, 0, a), member(1, 0, b)
+        return complex(x[at + i * row + k * column], 0.0)
     m, n = member(1, 1, a), member(1, 1, b)
     sa, sb = side(1, a), side(1, b)
     along = 0.5 * (x[at + i * row + k * column] + sa * sb * x[at + m * row + n * column])
     across = 0.5 * (sa * x[at + m * row + k * column] - sb * x[at + i * row + n * column])
-    return along, across
+    return complex(along, across)
 
 
 @kernel
-def add_members(re, im, factor, x, at, row, column, family, a, b):
-    """Add ``factor`` times the complex number (``re``, ``im``) to real derivatives, in both planes."""
+def add_members(z, x, at, row, column, family, a, b):
+    """Add a complex number to real derivatives, in both planes."""
+    i, k = member(family, 0, a), member(family, 0, b)
+    x[at + i * row + k * column] += z.real
     if family == 0:
-        x[at + member(0, 0, a) * row + member(0, 0, b) * column] += factor * re
         return
-    i, k = member(1, 0, a), member(1, 0, b)
     m, n = member(1, 1, a), member(1, 1, b)
     sa, sb = side(1, a), side(1, b)
-    x[at + i * row + k * column] += factor * re
-    x[at + m * row + n * column] += factor * sa * sb * re
-    x[at + m * row + k * column] += factor * sa * im
-    x[at + i * row + n * column] -= factor * sb * im
+    x[at + m * row + n * column] += sa * sb * z.real
+    x[at + m * row + k * column] += sa * z.imag
+    x[at + i * row + n * column] -= sb * z.imag

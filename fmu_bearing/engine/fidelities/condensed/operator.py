@@ -22,6 +22,7 @@ falls with sliding drives a ball. That motion is bounded by what is not linear.
 
 import math
 
+from fmu_bearing.engine.complex_numbers import complex_at, over, real_times, square
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_complex
 from fmu_bearing.engine.eigen import eigen
@@ -70,13 +71,12 @@ def ball_by(jac, i, family, b):
     A ball feels U exp(i phi) as the real part of (C_0 - i C_1) times it.
     """
     at = J.C + i * J.BODIES * STRIDE
-    k = member(family, 0, b)
-    by_place, by_rate = jac[at + k * STRIDE], jac[at + (k + Q.SIZE) * STRIDE]
+    k = at + member(family, 0, b) * STRIDE
     if family == 0:
-        return by_place, 0.0, by_rate, 0.0
-    m = member(1, 1, b)
+        return complex(jac[k], 0.0), complex(jac[k + Q.SIZE * STRIDE], 0.0)
+    m = at + member(1, 1, b) * STRIDE
     s = -side(1, b)
-    return by_place, s * jac[at + m * STRIDE], by_rate, s * jac[at + (m + Q.SIZE) * STRIDE]
+    return complex(jac[k], s * jac[m]), complex(jac[k + Q.SIZE * STRIDE], s * jac[m + Q.SIZE * STRIDE])
 
 
 @kernel
@@ -85,19 +85,19 @@ def by_ball(p, jac, family, a, k):
     many = acting(p, family)
     re = many * jac[J.D + (member(family, 0, a) * J.STATES + k) * STRIDE]
     if family == 0:
-        return re, 0.0
-    return re, many * side(1, a) * jac[J.D + (member(1, 1, a) * J.STATES + k) * STRIDE]
+        return complex(re, 0.0)
+    return complex(re, many * side(1, a) * jac[J.D + (member(1, 1, a) * J.STATES + k) * STRIDE])
 
 
 @kernel
-def hold_loosely(re, at):
+def hold_loosely(a, at):
     """Damp the rate of a place that nothing drags: place and rate would share one mode."""
-    if abs(re[at]) < _SLOW:
-        re[at] -= _SLOW
+    if abs(a[at].real) < _SLOW:
+        a[at] -= _SLOW
 
 
 @kernel
-def add_springs(p, radius, re, im, n):
+def add_springs(p, radius, x, n):
     """Add to A of family 1 the springs between neighbouring balls, which are slack where these lie evenly.
 
     One stretches by sin(D/2) (r + r') + R cos(D/2) (a' - a) between radii r, r' and angles a, a' of balls D
@@ -110,11 +110,11 @@ def add_springs(p, radius, re, im, n):
     for rate in range(2):
         strength = (p[P.SPRINGS] if rate == 0 else p[P.SPRING_DAMPING]) / p[P.BALL_MASS]
         across, along = (J.PLACED + r) * n + rate * J.PLACED, (J.PLACED + a) * n + rate * J.PLACED
-        both = 2.0 * strength * sin * cos * math.sin(apart)
-        re[across + r] -= 2.0 * strength * sin * sin * (1.0 + math.cos(apart))
-        im[across + a] -= both * radius
-        im[along + r] += both / radius
-        re[along + a] -= 2.0 * strength * cos * cos * (1.0 - math.cos(apart))
+        both = complex(0.0, 2.0 * strength * sin * cos * math.sin(apart))
+        x[across + r] -= 2.0 * strength * sin * sin * (1.0 + math.cos(apart))
+        x[across + a] -= both * radius
+        x[along + r] += both * (1.0 / radius)
+        x[along + a] -= 2.0 * strength * cos * cos * (1.0 - math.cos(apart))
 
 
 @kernel
@@ -123,59 +123,47 @@ def gather_states(p, jac, orbit, radius, family, n, w):
 
     ``orbit``: of the balls (rad/s), on a circle of ``radius`` (m).
     """
-    re = w[T.STATES : T.STATES + 2 * n * n]
-    im = w[T.STATES + 2 * L.INTERNAL * L.INTERNAL : T.STATES + 2 * L.INTERNAL * L.INTERNAL + 2 * n * n]
-    for i in range(2 * n * n):
-        re[i] = 0.0
-        im[i] = 0.0
+    x = complex_at(w, T.STATES, n * n)
+    by_rings = complex_at(w, T.BY_RINGS, 2 * n * L.FAMILY_RINGS)
+    for i in range(n * n):
+        x[i] = 0.0
+    for i in range(2 * n * L.FAMILY_RINGS):
+        by_rings[i] = 0.0
     rings = family_size(family)
     cage = rings  # coordinates of a family: the cage's behind the rings'
     for i in range(_BALL_ROWS):
-        im[i * n + i] = -family * orbit
+        x[i * n + i] = complex(0.0, -family * orbit)
     for i in range(J.PLACED):
-        re[i * n + J.PLACED + i] = 1.0
+        x[i * n + J.PLACED + i] = 1.0
     for i in range(J.BALL):
         row = (J.PLACED + i) * n
         for k in range(J.STATES):
-            re[row + k] = jac[J.B + (i * J.STATES + k) * STRIDE]
+            x[row + k] += jac[J.B + (i * J.STATES + k) * STRIDE]
         for k in range((n - _BALL_ROWS) // 2):
-            pr, pi, vr, vi = ball_by(jac, i, family, cage + k)
-            re[row + _BALL_ROWS + k] = pr
-            im[row + _BALL_ROWS + k] = pi
-            re[row + _BALL_ROWS + 2 + k] = vr
-            im[row + _BALL_ROWS + 2 + k] = vi
+            x[row + _BALL_ROWS + k], x[row + _BALL_ROWS + 2 + k] = ball_by(jac, i, family, cage + k)
+        for b in range(rings):
+            at = 2 * ((J.PLACED + i) * L.FAMILY_RINGS + b)
+            by_rings[at], by_rings[at + 1] = ball_by(jac, i, family, b)
     for a in range((n - _BALL_ROWS) // 2):
-        re[(_BALL_ROWS + a) * n + _BALL_ROWS + 2 + a] = 1.0
+        x[(_BALL_ROWS + a) * n + _BALL_ROWS + 2 + a] = 1.0
         row = (_BALL_ROWS + 2 + a) * n
         for k in range(J.STATES):
-            re[row + k], im[row + k] = by_ball(p, jac, family, cage + a, k)
-        for k in range(2):
-            pr, pi = by_members(jac, J.E, J.BODIES, 1, family, cage + a, cage + k)
-            vr, vi = by_members(jac, J.E + Q.SIZE, J.BODIES, 1, family, cage + a, cage + k)
-            re[row + _BALL_ROWS + k] = pr
-            im[row + _BALL_ROWS + k] = pi
-            re[row + _BALL_ROWS + 2 + k] = vr
-            im[row + _BALL_ROWS + 2 + k] = vi
-        hold_loosely(re, row + _BALL_ROWS + 2 + a)
+            x[row + k] = by_ball(p, jac, family, cage + a, k)
+        for rate in range(2):
+            first = J.E + rate * Q.SIZE
+            for k in range(2):
+                by = by_members(jac, first, J.BODIES, 1, family, cage + a, cage + k)
+                x[row + _BALL_ROWS + 2 * rate + k] = by
+            for b in range(rings):
+                at = 2 * ((_BALL_ROWS + 2 + a) * L.FAMILY_RINGS + b) + rate
+                by_rings[at] = by_members(jac, first, J.BODIES, 1, family, cage + a, b)
+        hold_loosely(x, row + _BALL_ROWS + 2 + a)
     if family == 1:
-        add_springs(p, radius, re, im, n)
-    hold_loosely(re, (J.BALL - 1) * n + J.BALL - 1)
+        add_springs(p, radius, x, n)
+    hold_loosely(x, (J.BALL - 1) * n + J.BALL - 1)
     for i in range(n):
         for k in range(n):
-            share = own_scale(p, k) / own_scale(p, i)
-            re[i * n + k] *= share
-            im[i * n + k] *= share
-    for b in range(rings):
-        for i in range(n):
-            at = T.BY_RINGS + T.PER_RING * (i * L.FAMILY_RINGS + b)
-            for k in range(T.PER_RING):
-                w[at + k] = 0.0
-            if J.PLACED <= i < _BALL_ROWS:
-                w[at], w[at + 1], w[at + 2], w[at + 2 + 1] = ball_by(jac, i - J.PLACED, family, b)
-            elif i >= _BALL_ROWS + 2:
-                a = cage + i - _BALL_ROWS - 2
-                w[at], w[at + 1] = by_members(jac, J.E, J.BODIES, 1, family, a, b)
-                w[at + 2], w[at + 2 + 1] = by_members(jac, J.E + Q.SIZE, J.BODIES, 1, family, a, b)
+            x[i * n + k] = real_times(own_scale(p, k) / own_scale(p, i), x[i * n + k])
 
 
 @kernel
@@ -190,41 +178,50 @@ def ring_by(p, jac, family, a, i):
 
 @kernel
 def find_modes(p, n, w):
-    """Modes of ``T.STATES`` and their inverse; False where there are none to work with."""
-    inner = 2 * L.INTERNAL * L.INTERNAL
-    re, im = w[T.STATES : T.STATES + inner], w[T.STATES + inner : T.STATES + 2 * inner]
-    half = L.INTERNAL * L.INTERNAL
-    vr, vi = w[T.VECTORS : T.VECTORS + half], w[T.VECTORS + half : T.VECTORS + 2 * half]
-    if not eigen(re, im, w[T.TURNS : T.TURNS + half], w[T.TURNS + half : T.TURNS + 2 * half], vr, vi, n):
+    """Modes of ``T.STATES`` and their inverse, no longer scaled; False where there are none to work with."""
+    vectors = complex_at(w, T.VECTORS, n * n)
+    if not eigen(complex_at(w, T.STATES, 2 * n * n), complex_at(w, T.TURNS, n * n), vectors, n):
         return False
     width = 2 * n
-    ar, ai = w[T.INVERSE_RE : T.INVERSE_RE + n * width], w[T.INVERSE_IM : T.INVERSE_IM + n * width]
+    inverse = complex_at(w, T.MODES_INVERSE, n * width)
     for i in range(n):
         for k in range(n):
-            ar[i * width + k] = vr[i * n + k]
-            ai[i * width + k] = vi[i * n + k]
-            ar[i * width + n + k] = 1.0 if i == k else 0.0
-            ai[i * width + n + k] = 0.0
-    return solve_complex(ar, ai, n, width)
+            inverse[i * width + k] = vectors[i * n + k]
+            inverse[i * width + n + k] = 1.0 if i == k else 0.0
+    if not solve_complex(inverse, n, width):
+        return False
+    for i in range(n):
+        scale = own_scale(p, i)
+        for m in range(n):
+            vectors[i * n + m] = real_times(scale, vectors[i * n + m])
+            inverse[m * width + n + i] = real_times(1.0 / scale, inverse[m * width + n + i])
+    return True
 
 
 @kernel
-def put(lv, row, mode, re, im):
+def put(lv, row, mode, z):
     """Write a complex number of ``mode`` into a row."""
-    lv[row + mode] = re
-    lv[row + L.MODES + mode] = im
+    lv[row + mode] = z.real
+    lv[row + L.MODES + mode] = z.imag
 
 
 @kernel
-def counts(family, n, mode, w):
-    """How often the real part of a mode found counts: of family 0 twice for one of a pair; 0: left out."""
-    half = L.INTERNAL * L.INTERNAL
-    re, im = w[T.STATES + mode * n + mode], w[T.STATES + 2 * half + mode * n + mode]
-    if re > _GROWS:
+def mode_of(x, row, mode):
+    """Complex number of ``mode`` in a row."""
+    return complex(x[row + mode], x[row + L.MODES + mode])
+
+
+@kernel
+def counts(family, value):
+    """How often the real part of a mode counts, by its eigenvalue; 0: left out.
+
+    Of family 0 twice for one of a pair.
+    """
+    if value.real > _GROWS:
         return 0.0
-    if family == 1 or abs(im) <= _REAL * abs(re):
+    if family == 1 or abs(value.imag) <= _REAL * abs(value.real):
         return 1.0
-    return 2.0 if im > 0.0 else 0.0
+    return 2.0 if value.imag > 0.0 else 0.0
 
 
 @kernel
@@ -232,55 +229,39 @@ def keep_modes(p, lv, jac, family, n, w):
     """Write the modes found; their number."""
     f = L.FAMILY + family * L.FAMILY_SIZE
     rings = family_size(family)
-    half = L.INTERNAL * L.INTERNAL
     width = 2 * n
+    states, vectors = complex_at(w, T.STATES, n * n), complex_at(w, T.VECTORS, n * n)
+    by_rings = complex_at(w, T.BY_RINGS, 2 * n * L.FAMILY_RINGS)
     into = 0
     for m in range(n):
-        twice = counts(family, n, m, w)
+        value = states[m * n + m]
+        twice = counts(family, value)
         if twice == 0.0:
             continue
-        vr, vi = w[T.STATES + m * n + m], w[T.STATES + 2 * half + m * n + m]
-        put(lv, f + L.VALUE, into, vr, vi)
+        inverse = complex_at(w, T.MODES_INVERSE + 2 * (m * width + n), n)
+        put(lv, f + L.VALUE, into, value)
         for b in range(rings):
-            sums_pr, sums_pi, sums_vr, sums_vi = 0.0, 0.0, 0.0, 0.0
+            by_place, by_rate = 0j, 0j
             for i in range(n):
-                xr = w[T.INVERSE_RE + m * width + n + i] / own_scale(p, i)
-                xi = w[T.INVERSE_IM + m * width + n + i] / own_scale(p, i)
-                at = T.BY_RINGS + T.PER_RING * (i * L.FAMILY_RINGS + b)
-                sums_pr += xr * w[at] - xi * w[at + 1]
-                sums_pi += xr * w[at + 1] + xi * w[at]
-                sums_vr += xr * w[at + 2] - xi * w[at + 2 + 1]
-                sums_vi += xr * w[at + 2 + 1] + xi * w[at + 2]
-            put(lv, f + L.IN_PLACE + b * L.COMPLEX, into, sums_pr, sums_pi)
-            put(lv, f + L.IN_RATE + b * L.COMPLEX, into, sums_vr, sums_vi)
-            sums_pr, sums_pi = sums_pr + vr * sums_vr - vi * sums_vi, sums_pi + vr * sums_vi + vi * sums_vr
-            put(lv, f + L.IN_WHOLE + b * L.COMPLEX, into, sums_pr, sums_pi)
+                at = 2 * (i * L.FAMILY_RINGS + b)
+                by_place += inverse[i] * by_rings[at]
+                by_rate += inverse[i] * by_rings[at + 1]
+            put(lv, f + L.IN_PLACE + b * L.COMPLEX, into, by_place)
+            put(lv, f + L.IN_RATE + b * L.COMPLEX, into, by_rate)
+            put(lv, f + L.IN_WHOLE + b * L.COMPLEX, into, by_place + value * by_rate)
         for k in range(L.AWAYS):
-            sums_pr, sums_pi = 0.0, 0.0
+            total = 0j
             for i in range(J.BALL):
                 # contacts push a ball towards its place of rest
-                stiff = w[T.HOLDS + L.AWAYS * i + k]
-                scale = own_scale(p, J.PLACED + i)
-                sums_pr += w[T.INVERSE_RE + m * width + n + J.PLACED + i] / scale * stiff
-                sums_pi += w[T.INVERSE_IM + m * width + n + J.PLACED + i] / scale * stiff
-            put(lv, f + L.IN_AWAY + k * L.COMPLEX, into, sums_pr, sums_pi)
+                total += real_times(w[T.HOLDS + L.AWAYS * i + k], inverse[J.PLACED + i])
+            put(lv, f + L.IN_AWAY + k * L.COMPLEX, into, total)
         for a in range(rings):
-            sums_pr, sums_pi = 0.0, 0.0
+            total = 0j
             for i in range(n):
-                dr, di = ring_by(p, jac, family, a, i)
-                xr, xi = (
-                    own_scale(p, i) * w[T.VECTORS + i * n + m],
-                    own_scale(p, i) * w[T.VECTORS + half + i * n + m],
-                )
-                sums_pr += dr * xr - di * xi
-                sums_pi += dr * xi + di * xr
-            put(lv, f + L.OUT + a * L.COMPLEX, into, twice * sums_pr, twice * sums_pi)
+                total += ring_by(p, jac, family, a, i) * vectors[i * n + m]
+            put(lv, f + L.OUT + a * L.COMPLEX, into, twice * total)
         for i in range(n):
-            xr, xi = (
-                own_scale(p, i) * w[T.VECTORS + i * n + m],
-                own_scale(p, i) * w[T.VECTORS + half + i * n + m],
-            )
-            put(lv, f + L.SHAPE + i * L.COMPLEX, into, twice * xr, twice * xi)
+            put(lv, f + L.SHAPE + i * L.COMPLEX, into, twice * vectors[i * n + m])
         into += 1
     return into
 
@@ -310,12 +291,12 @@ def find_beside(p, lv, jac, w):
     for family in range(2):
         for a in range(family_size(family)):
             for b in range(family_size(family)):
-                re, im = by_members(jac, J.E, J.BODIES, 1, family, a, b)
-                now_re, now_im = by_members(lv, L.JX, 1, L.COLUMN, family, a, b)
-                add_members(re - now_re, im - now_im, 1.0, lv, L.BESIDE_PLACE, 1, L.COLUMN, family, a, b)
-                re, im = by_members(jac, J.E + Q.SIZE, J.BODIES, 1, family, a, b)
-                now_re, now_im = by_members(lv, L.JV, 1, L.COLUMN, family, a, b)
-                add_members(re - now_re, im - now_im, 1.0, lv, L.BESIDE_RATE, 1, L.COLUMN, family, a, b)
+                by = by_members(jac, J.E, J.BODIES, 1, family, a, b)
+                by -= by_members(lv, L.JX, 1, L.COLUMN, family, a, b)
+                add_members(by, lv, L.BESIDE_PLACE, 1, L.COLUMN, family, a, b)
+                by = by_members(jac, J.E + Q.SIZE, J.BODIES, 1, family, a, b)
+                by -= by_members(lv, L.JV, 1, L.COLUMN, family, a, b)
+                add_members(by, lv, L.BESIDE_RATE, 1, L.COLUMN, family, a, b)
 
 
 @kernel
@@ -329,58 +310,47 @@ def clear_operator(lv):
 @kernel
 def keep_states(lv, w):
     """Put the states of balls and cage away from where their drive would hold them to ``T.KEPT``."""
-    for i in range(2 * L.COMPLEX):
-        w[T.KEPT + i] = 0.0
-    if lv[L.OPERATOR] + lv[L.OPERATOR + 1] == 0.0:
-        return
+    kept = complex_at(w, T.KEPT, 2 * L.INTERNAL)
+    for i in range(2 * L.INTERNAL):
+        kept[i] = 0.0
     for family in range(2):
-        f = L.FAMILY + family * L.FAMILY_SIZE
-        z = L.MODES_NOW + family * L.COMPLEX
+        shape = L.FAMILY + family * L.FAMILY_SIZE + L.SHAPE
         for m in range(int(lv[L.OPERATOR + family])):
-            re, im = held_by(lv, family, m, lv, L.MODES_DRIVEN)
-            re, im = lv[z + m] - re, lv[z + L.MODES + m] - im
+            away = mode_of(lv, L.MODES_NOW + family * L.COMPLEX, m)
+            away -= held_by(lv, family, m, lv, L.MODES_DRIVEN)
             for i in range(L.INTERNAL):
-                shape = f + L.SHAPE + i * L.COMPLEX + m
-                xr, xi = lv[shape], lv[shape + L.MODES]
-                w[T.KEPT + family * L.COMPLEX + i] += xr * re - xi * im
-                w[T.KEPT + family * L.COMPLEX + L.MODES + i] += xr * im + xi * re
+                kept[family * L.INTERNAL + i] += mode_of(lv, shape + i * L.COMPLEX, m) * away
 
 
 @kernel
 def held_by(lv, family, m, x, drives):
     """Where the drives of rings at rest at ``x[drives:]`` would hold mode ``m`` of a family: complex."""
-    value = L.FAMILY + family * L.FAMILY_SIZE + L.VALUE + m
-    re, im = lv[value], lv[value + L.MODES]
-    size = re * re + im * im
-    if size < 1.0:
-        return 0.0, 0.0
-    at = drives + family * L.COMPLEX + m
-    gr = x[at + L.BY_PLACE * L.BOTH] + x[at + L.BY_AWAY * L.BOTH]
-    gi = x[at + L.BY_PLACE * L.BOTH + L.MODES] + x[at + L.BY_AWAY * L.BOTH + L.MODES]
-    qr, qi = x[at + L.BY_RATE * L.BOTH], x[at + L.BY_RATE * L.BOTH + L.MODES]
-    gr -= re * qr - im * qi
-    gi -= re * qi + im * qr
-    return -(gr * re + gi * im) / size, -(gi * re - gr * im) / size
+    value = mode_of(lv, L.FAMILY + family * L.FAMILY_SIZE + L.VALUE, m)
+    if square(value) < 1.0:
+        return 0j
+    at = drives + family * L.COMPLEX
+    drive = mode_of(x, at + L.BY_PLACE * L.BOTH, m) + mode_of(x, at + L.BY_AWAY * L.BOTH, m)
+    return over(value * mode_of(x, at + L.BY_RATE * L.BOTH, m) - drive, value)
 
 
 @kernel
-def put_states(p, lv, family, n, w):
+def put_states(lv, family, n, w):
     """Put the states ``T.KEPT`` to the modes just found, as distances from where their drive holds them."""
     z = L.MODES_NOW + family * L.COMPLEX
-    width = 2 * n
+    kept = complex_at(w, T.KEPT + 2 * family * L.INTERNAL, n)
+    states = complex_at(w, T.STATES, n * n)
     into = 0
     for i in range(L.COMPLEX):
         lv[z + i] = 0.0
     for m in range(n):
-        if counts(family, n, m, w) == 0.0:
+        if counts(family, states[m * n + m]) == 0.0:
             continue
+        inverse = complex_at(w, T.MODES_INVERSE + 2 * (2 * m + 1) * n, n)
+        total = 0j
         for i in range(n):
-            xr = w[T.INVERSE_RE + m * width + n + i] / own_scale(p, i)
-            xi = w[T.INVERSE_IM + m * width + n + i] / own_scale(p, i)
-            kr = w[T.KEPT + family * L.COMPLEX + i]
-            ki = w[T.KEPT + family * L.COMPLEX + L.MODES + i] if family == 1 else 0.0
-            lv[z + into] += xr * kr - xi * ki
-            lv[z + L.MODES + into] += xr * ki + xi * kr
+            # of family 0 the real part counts
+            total += inverse[i] * (kept[i] if family == 1 else kept[i].real)
+        put(lv, z, into, total)
         into += 1
 
 
@@ -404,7 +374,7 @@ def find_operator(p, lv, jac, orbit, w):
             clear_operator(lv)
             return
         lv[L.OPERATOR + family] = keep_modes(p, lv, jac, family, n, w)
-        put_states(p, lv, family, n, w)
+        put_states(lv, family, n, w)
         find_follow(lv, family, w)
         for i in range(T.PUSHED // 2):
             lv[L.FAMILY + family * L.FAMILY_SIZE + L.PUSH + i] = w[T.PUSHES + family * (T.PUSHED // 2) + i]

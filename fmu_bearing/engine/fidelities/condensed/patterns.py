@@ -7,7 +7,9 @@ through its last values. With b q' integrated by parts q counts by a + lambda b.
 the step is that of the trial state.
 """
 
+from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times, square
 from fmu_bearing.engine.dense import times
+from fmu_bearing.engine.fidelities.condensed.beside import by_modes
 from fmu_bearing.engine.fidelities.condensed.drives import (
     active,
     add_input,
@@ -21,10 +23,10 @@ from fmu_bearing.engine.fidelities.condensed.drives import (
     show_linear,
 )
 from fmu_bearing.engine.fidelities.condensed.families import add_members, family_size, member, side
-from fmu_bearing.engine.fidelities.condensed.operator import held_by
+from fmu_bearing.engine.fidelities.condensed.operator import held_by, mode_of, put
 from fmu_bearing.engine.fidelities.condensed.phi import moments, weigh
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import load, splat, store, sum_four
+from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, F, L, T, W, Y
 
 # Radians per step of a mode beyond which it follows its drive: there a polynomial through five places of rest
@@ -40,43 +42,31 @@ _COMES_IN = 2e-3
 
 
 @kernel
-def pair(w, row, k):
-    """Return the number of pair ``k`` in a row of pairs, ``row``: of the first or second numbers."""
-    return w[row + 2 * k]
-
-
-@kernel
 def prepare_step(lv, h, w):
     """Fill what is left of the modes after a step ``h`` (s), and what the drives add, where that changes."""
-    known = lv[L.KNOWN] if lv[L.KNOWN] < 3.0 else 3.0
+    known = min(lv[L.KNOWN], 3.0)
     # equal steps of a communication step differ by rounding
     same = abs(h - lv[L.MODES_STEP]) <= _SAME * h and known == lv[L.MODES_KNOWN]
     if same or not active(lv):
         return
     lv[L.MODES_STEP] = h
     lv[L.MODES_KNOWN] = known
-    at = T.KEPT
+    found = complex_at(w, T.KEPT, 6)
     for family in range(2):
         value = L.FAMILY + family * L.FAMILY_SIZE + L.VALUE
-        first = family * L.COMPLEX
+        gain = L.MODES_GAIN + family * L.COMPLEX
         for m in range(modes_of(lv, family)):
-            xr, xi = h * lv[value + m], h * lv[value + L.MODES + m]
-            moments(xr, xi, w, at)
-            stiff = xr * xr + xi * xi > _STIFF * _STIFF
-            for part in range(2):
-                to = first + part * L.MODES + m
-                lv[L.MODES_STAY + to] = w[at + part]
-                row = at + 2 + part
-                m0, m1, m2 = pair(w, row, 0), pair(w, row, 1), pair(w, row, 2)
-                m3, m4 = pair(w, row, 3), pair(w, row, 4)
-                gain = L.MODES_GAIN + to
-                lv[gain + L.GAIN_PLACE] = h * (3.0 * m2 - 2.0 * m3)
-                lv[gain + L.GAIN_SLOPE] = h * h * (m3 - m2)
-                lv[gain + L.GAIN_FROM_PLACE] = h * (m0 - 3.0 * m2 + 2.0 * m3)
-                lv[gain + L.GAIN_FROM_SLOPE] = h * h * (m1 - 2.0 * m2 + m3)
-                weights = weigh(m0, m1, m2, m3, m4, known, stiff)
-                for k in range(L.HISTORY):
-                    lv[gain + L.GAIN_AWAY + k * L.BOTH] = h * weights[k]
+            x = real_times(h, mode_of(lv, value, m))
+            moments(x, found)
+            m0, m1, m2, m3, m4 = found[1], found[2], found[3], found[4], found[5]
+            put(lv, L.MODES_STAY + family * L.COMPLEX, m, found[0])
+            put(lv, gain + L.GAIN_PLACE, m, h * (3.0 * m2 - 2.0 * m3))
+            put(lv, gain + L.GAIN_SLOPE, m, h * h * (m3 - m2))
+            put(lv, gain + L.GAIN_FROM_PLACE, m, h * (m0 - 3.0 * m2 + 2.0 * m3))
+            put(lv, gain + L.GAIN_FROM_SLOPE, m, h * h * (m1 - 2.0 * m2 + m3))
+            weights = weigh(m0, m1, m2, m3, m4, known, square(x) > _STIFF * _STIFF)
+            for k in range(L.HISTORY):
+                put(lv, gain + L.GAIN_AWAY + k * L.BOTH, m, h * weights[k])
 
 
 @kernel
@@ -141,24 +131,14 @@ def push_rings(lv, x, z, w):
     share = lv[L.SHARE]
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
-        first = z + family * L.COMPLEX
         for a in range(family_size(family)):
-            re, im = splat(0.0), splat(0.0)
-            row = f + L.OUT + a * L.COMPLEX
-            for m in range(0, groups(lv, family), FOUR):
-                br, bi = load(x, first + m), load(x, first + L.MODES + m)
-                ar, ai = load(lv, row + m), load(lv, row + L.MODES + m)
-                re += ar * br - ai * bi
-                im += ar * bi + ai * br
-            pr, pi = sum_four(re), sum_four(im)
+            pushed = by_modes(lv, family, f + L.OUT + a * L.COMPLEX, z + family * L.COMPLEX, x)
             for k in range(L.AWAYS):
-                at = f + L.PUSH + 2 * (L.AWAYS * a + k)
-                away = T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k
-                pr -= lv[at] * w[away] - lv[at + 1] * w[away + 1]
-                pi -= lv[at] * w[away + 1] + lv[at + 1] * w[away]
-            w[T.ADDED + member(family, 0, a)] += share * pr
+                away = pair(w, T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k)
+                pushed -= pair(lv, f + L.PUSH + 2 * (L.AWAYS * a + k)) * away
+            w[T.ADDED + member(family, 0, a)] += share * pushed.real
             if family == 1:
-                w[T.ADDED + member(1, 1, a)] += share * side(1, a) * pi
+                w[T.ADDED + member(1, 1, a)] += share * side(1, a) * pushed.imag
     times(lv, L.BESIDE_PLACE, w, T.LINEAR, w, T.V)
     times(lv, L.BESIDE_RATE, w, W.STAGE + Y.V0, w, T.D)
     for i in range(L.N):
@@ -208,10 +188,8 @@ def correct_patterns(lv, h, counts, w):
             re, im = splat(0.0), splat(0.0)
             rr, ri = splat(0.0), splat(0.0)
             for b in range(family_size(family)):
-                xr, xi = (
-                    w[T.PLACES + T.FAMILY_PLACES * family + 2 * b],
-                    w[T.PLACES + T.FAMILY_PLACES * family + 2 * b + 1],
-                )
+                here = T.PLACES + T.FAMILY_PLACES * family + 2 * b
+                xr, xi = w[here], w[here + 1]
                 re, im = add_input(lv, f + L.IN_WHOLE + b * L.COMPLEX, xr, xi, m, re, im)
                 rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, xr, xi, m, rr, ri)
             move_drive(w, into + L.BY_PLACE * L.BOTH + m, by_place, re, im)
@@ -281,18 +259,13 @@ def carry_modes(p, lv, w):
     for family in range(2):
         first = family * L.COMPLEX
         for m in range(modes_of(lv, family)):
-            now = L.MODES_NOW + first + m
+            now = mode_of(lv, L.MODES_NOW + first, m)
             if lv[L.MODES_NEW] == 0.0:
-                re, im = held_by(lv, family, m, lv, L.MODES_DRIVEN)
-                lv[now] -= re
-                lv[now + L.MODES] -= im
-            re, im = held_by(lv, family, m, w, T.MODES_DRIVEN)
-            lv[now] += re
-            lv[now + L.MODES] += im
+                now -= held_by(lv, family, m, lv, L.MODES_DRIVEN)
+            put(lv, L.MODES_NOW + first, m, now + held_by(lv, family, m, w, T.MODES_DRIVEN))
             for k in range(4):
-                row = k * L.BOTH + first + m
-                lv[L.MODES_DRIVEN + row] = w[T.MODES_DRIVEN + row]
-                lv[L.MODES_DRIVEN + row + L.MODES] = w[T.MODES_DRIVEN + row + L.MODES]
+                row = k * L.BOTH + first
+                put(lv, L.MODES_DRIVEN + row, m, mode_of(w, T.MODES_DRIVEN + row, m))
     lv[L.SHARE] = share_held(p, lv, w)
     push_rings(lv, lv, L.MODES_NOW, w)
 
@@ -313,19 +286,14 @@ def add_step(lv, cv, cx, x, at, row, column):
             x[at + i * row + k * column] -= share * own
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
+        gains = L.MODES_GAIN + family * L.COMPLEX
         for a in range(family_size(family)):
-            out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
-                whole, by_rate = f + L.IN_WHOLE + b * L.COMPLEX, f + L.IN_RATE + b * L.COMPLEX
-                re, im = 0.0, 0.0
+                total = 0j
                 for m in range(modes_of(lv, family)):
-                    gain = L.MODES_GAIN + family * L.COMPLEX + m
-                    gr = cx * lv[gain] + cv * lv[gain + L.GAIN_SLOPE]
-                    gi = cx * lv[gain + L.MODES] + cv * lv[gain + L.GAIN_SLOPE + L.MODES]
-                    ur, ui = lv[whole + m], lv[whole + L.MODES + m]
-                    br = gr * ur - gi * ui + cx * lv[by_rate + m]
-                    bi = gr * ui + gi * ur + cx * lv[by_rate + L.MODES + m]
-                    ur, ui = lv[out + m], lv[out + L.MODES + m]
-                    re += ur * br - ui * bi
-                    im += ur * bi + ui * br
-                add_members(re, im, -share, x, at, row, column, family, a, b)
+                    gain = real_times(cx, mode_of(lv, gains + L.GAIN_PLACE, m))
+                    gain += real_times(cv, mode_of(lv, gains + L.GAIN_SLOPE, m))
+                    by = gain * mode_of(lv, f + L.IN_WHOLE + b * L.COMPLEX, m)
+                    by += real_times(cx, mode_of(lv, f + L.IN_RATE + b * L.COMPLEX, m))
+                    total += mode_of(lv, f + L.OUT + a * L.COMPLEX, m) * by
+                add_members(real_times(-share, total), x, at, row, column, family, a, b)

@@ -6,6 +6,7 @@ The phi functions of exponential integrators (Hochbruck and Ostermann 2010): phi
 
 import math
 
+from fmu_bearing.engine.complex_numbers import over, real_times, square
 from fmu_bearing.engine.jit import kernel
 
 _TERMS = 24  # of the series of phi for small arguments: 2^24/24! is rounding
@@ -13,62 +14,47 @@ _ORDERS = 5
 
 
 @kernel
-def next_phi(re, im, less, xr, xi):
-    """Return phi_{k+1} = (phi_k - 1/k!) / x."""
-    ar, ai = re - less, im
-    size = xr * xr + xi * xi
-    return (ar * xr + ai * xi) / size, (ai * xr - ar * xi) / size
-
-
-@kernel
-def last_phi(xr, xi):
+def last_phi(x):
     """Series of phi_5(x) = sum x^j / (j + 5)!."""
-    re, im = 0.0, 0.0
-    term_r, term_i = 1.0 / 120.0, 0.0
+    total, term = 0j, complex(1.0 / 120.0, 0.0)
     for j in range(_TERMS):
-        re += term_r
-        im += term_i
-        per = 1.0 / (j + 1.0 + _ORDERS)
-        term_r, term_i = per * (term_r * xr - term_i * xi), per * (term_r * xi + term_i * xr)
-    return re, im
+        total += term
+        term = real_times(1.0 / (j + 1.0 + _ORDERS), term * x)
+    return total
 
 
 @kernel
-def moments(xr, xi, w, at):
-    """Put exp(x) and m! phi_{m+1}(x), m = 0 .. 4, to ``w[at:]``: pairs of real and imaginary part.
+def moments(x, m):
+    """Put the complex exp(x) and k! phi_{k+1}(x), k = 0 .. 4, to ``m``.
 
-    The second is the integral over a step of exp(x (1 - s)) s^m.
+    The second is the integral over a step of exp(x (1 - s)) s^k.
     """
-    decay = math.exp(xr)
-    w[at] = decay * math.cos(xi)
-    w[at + 1] = decay * math.sin(xi)
-    if xr * xr + xi * xi < 4.0:
-        re, im = last_phi(xr, xi)
+    m[0] = real_times(math.exp(x.real), complex(math.cos(x.imag), math.sin(x.imag)))
+    if square(x) < 4.0:
+        phi = last_phi(x)
         factorial = 24.0
-        for k in range(_ORDERS - 1, -1, -1):
-            # phi_{k+1} is known; it counts k! in the moments, and phi_k = x phi_{k+1} + 1/k!
-            w[at + 2 + 2 * k] = factorial * re
-            w[at + 2 + 2 * k + 1] = factorial * im
-            per = 1.0 / factorial
-            re, im = xr * re - xi * im + per, xr * im + xi * re
-            factorial /= max(k, 1.0)
+        for k in range(_ORDERS, 0, -1):
+            # phi_k is known, and phi_{k-1} = x phi_k + 1/(k - 1)!
+            m[k] = real_times(factorial, phi)
+            phi = x * phi + 1.0 / factorial
+            factorial /= max(k - 1.0, 1.0)
         return
-    re, im = w[at], w[at + 1]
+    phi = m[0]
     factorial = 1.0
-    for k in range(_ORDERS):
-        re, im = next_phi(re, im, 1.0 / factorial, xr, xi)
-        w[at + 2 + 2 * k] = factorial * re
-        w[at + 2 + 2 * k + 1] = factorial * im
-        factorial *= k + 1.0
+    for k in range(1, _ORDERS + 1):
+        phi = over(phi - 1.0 / factorial, x)
+        m[k] = real_times(factorial, phi)
+        factorial *= k
 
 
 @kernel
 def weigh(m0, m1, m2, m3, m4, known, stiff):
     """Weights of the drives at the end, now and at three steps before, from the moments of a step."""
+    none = 0.0 * m0
     if known < 1.0:
-        return m1, m0 - m1, 0.0, 0.0, 0.0
+        return m1, m0 - m1, none, none, none
     if known < 3.0 or stiff:
-        return 0.5 * (m1 + m2), m0 - m2, 0.5 * (m2 - m1), 0.0, 0.0
+        return 0.5 * (m1 + m2), m0 - m2, 0.5 * (m2 - m1), none, none
     per = 1.0 / 24.0
     return (
         per * (6.0 * m1 + 11.0 * m2 + 6.0 * m3 + m4),

@@ -15,9 +15,10 @@ So waves that move no ring sound too. ``x``: scratch of the lines, see `layout.l
 """
 
 from fmu_bearing.engine.choices import CONTACTS
+from fmu_bearing.engine.complex_numbers import pair
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer
 from fmu_bearing.engine.fidelities.response.lines import form_sums, orders, size_sums, wave_of
-from fmu_bearing.engine.fidelities.response.samples import order_of
+from fmu_bearing.engine.fidelities.response.samples import order_of, signed
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, LN, SD, C, L, P, Q
 from fmu_bearing.engine.mechanics.triples import added, scaled
@@ -49,9 +50,9 @@ def reach_of_heights(x):
     for order in range(LN.REACH + 1):
         found = 0.0
         for race in range(2):
-            at = order_of(LN.BY_HEIGHT + race, order) + LN.PLACES
-            for i in range(LN.COMPONENTS - LN.PLACES):
-                found = max(found, max(abs(x[at + i]), abs(x[at + LN.IMAGINARY + i])))
+            orders = order_of(x, LN.BY_HEIGHT + race, order)
+            for i in range(LN.PLACES, LN.COMPONENTS):
+                found = max(found, max(abs(orders[i].real), abs(orders[i].imag)))
         largest = max(largest, found)
         if found > _SMALL * largest:
             highest = order
@@ -163,13 +164,12 @@ def follow_rings(p, lv, x, ps, ws, q, re, im, omega, speed, shift):
         mu = int(shift * balls) - order
         if abs(mu) > highest:
             continue
-        sign = 1.0 if order >= 0 else -1.0  # order -l is the conjugate of order l
         along, out = 0j, 0j
         for i in range(L.N):
             at = LN.FOLLOW + (abs(order) * L.N + i) * FOUR
             moved = complex(q[re + i], q[im + i])
-            along += complex(x[at], sign * x[at + 1]) * moved
-            out += complex(x[at + 2], sign * x[at + FOUR - 1]) * moved
+            along += signed(pair(x, at), order) * moved
+            out += signed(pair(x, at + 2), order) * moved
         place = with_across(lv, balls * along, balls * out)
         rolled = rolled_by_rings(lv, order, balls, q, re, im, omega)
         add_ball_motion(p, lv, ps, ws, mu, turned, speed, place, rolled)
@@ -192,19 +192,9 @@ def rolled_by_rings(lv, order, balls, q, re, im, omega):
 @kernel
 def place_by(lv, x, kind, order):
     """How a ball's place of rest answers one kind of excitation through ``order``: complex x, r, across."""
-    at = order_of(kind, abs(order))
-    to = at + LN.IMAGINARY
-    sign = 1.0 if order >= 0 else -1.0
-    _, _, across = with_across(
-        lv,
-        complex(x[at + LN.AWAY], sign * x[to + LN.AWAY]),
-        complex(x[at + LN.AWAY + 1], sign * x[to + LN.AWAY + 1]),
-    )
-    return (
-        complex(x[at + LN.PLACES], sign * x[to + LN.PLACES]),
-        complex(x[at + LN.PLACES + 1], sign * x[to + LN.PLACES + 1]),
-        across,
-    )
+    found = order_of(x, kind, abs(order))
+    _, _, across = with_across(lv, signed(found[LN.AWAY], order), signed(found[LN.AWAY + 1], order))
+    return signed(found[LN.PLACES], order), signed(found[LN.PLACES + 1], order), across
 
 
 @kernel
@@ -249,8 +239,7 @@ def drive_by_orbit(p, c, lv, x, ps, ws, a, reach, speed):
 def rest_of_orbit(lv, x, order):
     """Order of the balls' places as their loads leave them; the real part counts both its signs."""
     at = LN.REST + FOUR * abs(order)
-    sign = 1.0 if order >= 0 else -1.0
-    return with_across(lv, complex(x[at], sign * x[at + 1]), complex(x[at + 2], sign * x[at + FOUR - 1]))
+    return with_across(lv, signed(pair(x, at), order), signed(pair(x, at + 2), order))
 
 
 @kernel

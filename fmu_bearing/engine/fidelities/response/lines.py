@@ -18,19 +18,21 @@ combinations that add up to multiples of their number Z:
 
 import math
 
+from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_places, beside_rings
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
 from fmu_bearing.engine.fidelities.response.samples import (
-    coefficients,
     highest_order,
     keep_places,
     kinds_of_sample,
     order_of,
     parts_of_spacing,
+    place_of,
     sample_orbit,
+    signed,
     transform,
 )
 from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
@@ -78,10 +80,10 @@ def line_side(p, lv, w, re, im):
     """Put ``T.LINE_FORCE`` as accelerations of the rings to the right side, after `beside.answer_at`."""
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
-        at = T.LINE_FORCE + component(i)
+        at = T.LINE_FORCE + 2 * component(i)
         per = 1.0 / inertia(p, i) if moves else 0.0
         re[T.LINE_SIDE + i] = w[at] * per if moves else 0.0
-        im[T.LINE_SIDE + i] = w[at + LN.IMAGINARY] * per if moves else 0.0
+        im[T.LINE_SIDE + i] = w[at + 1] * per if moves else 0.0
     beside_places(p, lv, w, re, im)
     re[T.LINE_SIDE + L.N] = 0.0
     im[T.LINE_SIDE + L.N] = 0.0
@@ -146,16 +148,16 @@ def counts_by(omega):
 def wave_of(p, race, n, factor):
     """Wave ``n`` of a race (m) times ``factor``: complex."""
     at = int(p[P.AT_ORDERS]) + race * 2 * int(p[P.WAVE_ORDERS]) + 2 * (n - 1)
-    return complex(factor * p[at], factor * p[at + 1])
+    return real_times(factor, pair(p, at))
 
 
 @kernel
-def add_force(by, w):
-    """Add the complex number ``by`` times what ``T.BY_HEIGHT`` holds to ``T.LINE_FORCE``."""
+def add_order(x, kind, order, by, w):
+    """Add ``by`` times an order, of either sign, of one kind of sample to ``T.LINE_FORCE``; complex."""
+    found = order_of(x, kind, abs(order))
+    force = complex_at(w, T.LINE_FORCE, LN.COMPONENTS)
     for i in range(LN.COMPONENTS):
-        force = complex(w[T.BY_HEIGHT + i], w[T.BY_HEIGHT + LN.IMAGINARY + i]) * by
-        w[T.LINE_FORCE + i] += force.real
-        w[T.LINE_FORCE + LN.IMAGINARY + i] += force.imag
+        force[i] += signed(found[i], order) * by
 
 
 @kernel
@@ -164,8 +166,8 @@ def add_wave(p, x, race, n, order, factor, rate, tau, w):
 
     ``rate``: of the balls against the race (rad/s); contact damping adds ``tau`` times the height's rate.
     """
-    coefficients(x, LN.BY_HEIGHT + race, order, T.BY_HEIGHT, w)
-    add_force(complex(1.0, n * rate * tau) * wave_of(p, race, n, factor), w)
+    by = complex(1.0, n * rate * tau) * wave_of(p, race, n, factor)
+    add_order(x, LN.BY_HEIGHT + race, order, by, w)
 
 
 @kernel
@@ -227,8 +229,8 @@ def steady_lines(p, c, lv, lines, alone, x, orbit, first, many, w):
         if a <= LN.REACH:
             sizes = size_sums(p, a, scale)
             for race in range(2):
-                coefficients(x, LN.BY_HEIGHT + race, a, T.BY_HEIGHT, w)
-                add_force(sizes, w)  # half a diameter under either race, and both signs of the order
+                # half a diameter under either race, and both signs of the order
+                add_order(x, LN.BY_HEIGHT + race, a, sizes, w)
         keep(p, lv, lines, alone, a, 0.0, 0.0, a * orbit, w)
     return seen
 
@@ -244,8 +246,8 @@ def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
             w[T.LINE_FORCE + i] = 0.0
         push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
         # (0, -sin, cos) of the shaft's angle
-        w[T.LINE_FORCE + LN.IMAGINARY + Q.Y] = push
-        w[T.LINE_FORCE + Q.Z] = push
+        w[T.LINE_FORCE + 2 * Q.Y + 1] = push
+        w[T.LINE_FORCE + 2 * Q.Z] = push
         keep(p, lv, lines, alone, 0.0, 1.0, 0.0, speed, w)
     seen = 1
     for n in range(1, orders(p) + 1):
@@ -259,17 +261,6 @@ def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
             add_wave(p, x, 0, n, k * balls - n, balls * scale, orbit - speed, tau, w)
             keep(p, lv, lines, alone, k * balls, -1.0 * n, 0.0, k * balls * orbit - n * speed, w)
     return seen
-
-
-@kernel
-def add_form(x, kind, order, sums, rate, tau, w):
-    """Add what one form of the balls, complex ``sums`` over all of them, excites through ``order``.
-
-    ``rate``: of its phase (rad/s); contact damping by ``tau`` (s) acts on heights alone, see
-    ``condensed.ball_form``.
-    """
-    coefficients(x, kind, order, T.BY_HEIGHT, w)
-    add_force(complex(1.0, rate * tau if kind < LN.BY_LEAN else 0.0) * sums, w)
 
 
 @kernel
@@ -294,7 +285,9 @@ def form_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
             for form in range(LN.FORMS):
                 sums = form_sums(p, x, form, m, a, double)
                 kind = LN.BY_HEIGHT + form if form < 2 else LN.BY_LEAN + form - 2
-                add_form(x, kind, a, sums, m * rate, p[P.CONTACT_DAMPING], w)
+                # contact damping acts on heights alone, see `condensed.ball_form`
+                ahead = m * rate * p[P.CONTACT_DAMPING] if kind < LN.BY_LEAN else 0.0
+                add_order(x, kind, a, complex(1.0, ahead) * sums, w)
             keep(p, lv, lines, alone, a, 0.0, m, a * orbit + m * rate, w)
     return seen
 
@@ -317,7 +310,7 @@ def begin_lines(p, s, speed, w):
         x[LN.BALL_SIN + j] = math.sin(2.0 * PI * j / int(p[P.BALLS]))
     for kind in range(LN.BY_HEIGHT, kinds_of_sample(p)):
         for order in range(LN.REACH + 1):
-            transform(x, kind, order, count, order_of(kind, order))
+            transform(x, kind, order, count, place_of(kind, order))
     if p[P.SOUND_SIZE] != 0.0:
         keep_places(p, x, count, w)
     lv[L.COUNT] = 0.0

@@ -4,6 +4,7 @@ One ball's forces on the rings, and its place between them, at azimuths round th
 height under it and slope across its track. See `lines` for what they are for.
 """
 
+from fmu_bearing.engine.complex_numbers import complex_at
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
 from fmu_bearing.engine.fidelities.condensed.drives import moved_load
@@ -100,32 +101,33 @@ def show_away(lv, lanes, w):
 @kernel
 def transform(x, kind, order, count, out):
     """Circumferential order of one kind of sample into the complex vector ``x[out:]``."""
-    for i in range(LN.COMPLEX):
-        x[out + i] = 0.0
+    found = complex_at(x, out, LN.COMPONENTS)
+    for i in range(LN.COMPONENTS):
+        found[i] = 0.0
     for m in range(count):
         place = (order * m) % count
-        co = x[LN.COS + place] / count
-        si = x[LN.SIN + place] / count
+        co, si = x[LN.COS + place] / count, x[LN.SIN + place] / count
         for i in range(LN.COMPONENTS):
             value = x[LN.SAMPLES + (kind * LN.COMPONENTS + i) * LN.AZIMUTHS + m]
-            x[out + i] += value * co
-            x[out + LN.IMAGINARY + i] -= value * si
+            found[i] += complex(value * co, -value * si)
 
 
 @kernel
-def order_of(kind, order):
-    """Place in ``x`` of ``order`` (0 .. ``LN.REACH``) of one kind of sample from ``LN.BY_HEIGHT`` on."""
+def order_of(x, kind, order):
+    """Complex vector in ``x`` of ``order`` (0 .. ``LN.REACH``) of one kind from ``LN.BY_HEIGHT`` on."""
+    return complex_at(x, place_of(kind, order), LN.COMPONENTS)
+
+
+@kernel
+def place_of(kind, order):
+    """Place of `order_of` in ``x``."""
     return LN.TABLE + ((kind - LN.BY_HEIGHT) * (LN.REACH + 1) + order) * LN.COMPLEX
 
 
 @kernel
-def coefficients(x, kind, order, target, w):
-    """Complex vector of any order in the table, of either sign, into ``w[target:]``."""
-    at = order_of(kind, abs(order))
-    sign = 1.0 if order >= 0 else -1.0
-    for i in range(LN.COMPONENTS):
-        w[target + i] = x[at + i]
-        w[target + LN.IMAGINARY + i] = sign * x[at + LN.IMAGINARY + i]
+def signed(z, order):
+    """Coefficient of an order of either sign, by that of its size."""
+    return z if order >= 0 else z.conjugate()
 
 
 @kernel
@@ -135,25 +137,23 @@ def keep_places(p, x, count, w):
     From the samples and from ``T.FOLLOW``; orders that so few balls cannot tell apart are left out.
     """
     balls = int(p[P.BALLS])
+    force = complex_at(x, LN.FORCE_ORDER, LN.COMPONENTS)
     for order in range(LN.REACH + 1):
         transform(x, LN.FORCE, order, count, LN.FORCE_ORDER)
         if order == 0:
-            x[LN.FORCE_ORDER + LN.PLACES + 1] += p[P.PITCH_RADIUS]
+            force[LN.PLACES + 1] += p[P.PITCH_RADIUS]
+        rest = complex_at(x, LN.REST + FOUR * order, 2)
         for k in range(2):
-            at = LN.FORCE_ORDER + LN.PLACES + k
-            x[LN.REST + FOUR * order + 2 * k] = x[at]
-            x[LN.REST + FOUR * order + 2 * k + 1] = x[at + LN.IMAGINARY]
+            rest[k] = force[LN.PLACES + k]
         for i in range(L.N):
+            follow = complex_at(x, LN.FOLLOW + (order * L.N + i) * FOUR, 2)
             for k in range(2):
-                re = 0.0
-                im = 0.0
+                total = 0j
                 for j in range(balls if 2 * order < balls else 0):
                     value = w[T.FOLLOW + i * T.FOLLOW_SIZE + k * STRIDE + j] / balls
-                    re += value * x[LN.BALL_COS + (order * j) % balls]
-                    im -= value * x[LN.BALL_SIN + (order * j) % balls]
-                at = LN.FOLLOW + (order * L.N + i) * FOUR + 2 * k
-                x[at] = re
-                x[at + 1] = im
+                    place = (order * j) % balls
+                    total += complex(value * x[LN.BALL_COS + place], -value * x[LN.BALL_SIN + place])
+                follow[k] = total
 
 
 @kernel
@@ -164,7 +164,7 @@ def highest_order(x, kind):
     for order in range(LN.REACH + 1):
         size = 0.0
         for i in range(LN.COMPLEX):
-            size = max(size, abs(x[order_of(kind, order) + i]))
+            size = max(size, abs(x[place_of(kind, order) + i]))
         if size > _SMALL * largest:
             highest = order
         largest = max(largest, size)

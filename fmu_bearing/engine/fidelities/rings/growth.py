@@ -13,6 +13,7 @@ The search follows each renewal of what is held, one round after the other, besi
 
 import math
 
+from fmu_bearing.engine.complex_numbers import complex_at, real_times, square
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
 from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_rings
@@ -100,14 +101,20 @@ def add_motion(p, ws, own, scale):
     re = members.matrix(p)
     im, _ = members.complex_matrix(p)
     side = n * lanes
-    xr = members.history(p) + H.GROWING * lanes
-    xi = members.history(p) + H.GROWING_IM * lanes
+    x = motion(p, own)
     for k in range(n):
-        ar, ai = scale * own[xr + k], scale * own[xi + k]
+        a = real_times(scale, x[k])
         for i in range(n):
             at = k * lanes + i
-            ws[re + side + i] += ws[re + at] * ar - ws[im + at] * ai
-            ws[im + side + i] += ws[re + at] * ai + ws[im + at] * ar
+            ws[re + side + i] += ws[re + at] * a.real - ws[im + at] * a.imag
+            ws[im + side + i] += ws[re + at] * a.imag + ws[im + at] * a.real
+
+
+@kernel
+def motion(p, own):
+    """Complex coordinates of the motion that may grow (m, rad)."""
+    lanes = members.padded_size(p)
+    return complex_at(own, members.history(p) + H.GROWING * lanes, lanes)
 
 
 @kernel
@@ -137,29 +144,25 @@ def improve(p, s, w):
     if not solve_columns(ws[re:im], ws[im:free], n, lanes):
         return -1.0
     levers = members.history(p) + H.LEVERS * lanes
-    xr = members.history(p) + H.GROWING * lanes
-    xi = members.history(p) + H.GROWING_IM * lanes
-    square, by_re, by_im = 0.0, 0.0, 0.0
+    x = motion(p, own)
+    total, by = 0.0, 0j
     for i in range(n):
         lever = own[levers + i] * own[levers + i]
-        yr, yi = ws[re + side + i], ws[im + side + i]
-        square += lever * (yr * yr + yi * yi)
-        by_re += lever * (yr * own[xr + i] + yi * own[xi + i])
-        by_im += lever * (yr * own[xi + i] - yi * own[xr + i])
-    if not (0.0 < square < math.inf):
+        y = complex(ws[re + side + i], ws[im + side + i])
+        total += lever * square(y)
+        by += real_times(lever, y.conjugate() * x[i])
+    if not (0.0 < total < math.inf):
         return -1.0
-    per = 1.0 / math.sqrt(square)
+    per = 1.0 / math.sqrt(total)
     for i in range(n):
-        own[xr + i] = per * ws[re + side + i]
-        own[xi + i] = per * ws[im + side + i]
+        x[i] = complex(per * ws[re + side + i], per * ws[im + side + i])
     if own[members.march(p) + SP.ROUND] == 0.0:
         return 1.0
-    by_re /= square
-    by_im /= square
-    change = math.hypot(by_re, by_im) / size
+    by = real_times(1.0 / total, by)
+    change = math.hypot(by.real, by.imag) / size
     short = min(1.0, _STEP / (change + 1e-300))
-    own[at] = growth - short * by_re
-    own[at + 1] = omega - short * by_im
+    own[at] = growth - short * by.real
+    own[at + 1] = omega - short * by.imag
     return change
 
 
@@ -184,13 +187,13 @@ def begin_from(p, s, start):
         own[at + SP.RATE_NOW] = _GROWING * omega
         own[at + SP.RATE_NOW + 1] = omega
     lanes = members.padded_size(p)
-    vectors = members.history(p)
+    levers = members.history(p) + H.LEVERS * lanes
+    x = motion(p, own)
     turning = 1.0 if start % 2.0 == 0.0 else -1.0
     for i in range(members.coordinates(p)):
         # a bit of everything, by as much at the pitch circle, forward and backward by turns
-        per = 1.0 / own[vectors + H.LEVERS * lanes + i]
-        own[vectors + H.GROWING * lanes + i] = per * math.cos(i)
-        own[vectors + H.GROWING_IM * lanes + i] = turning * per * math.sin(3.0 * i)
+        per = 1.0 / own[levers + i]
+        x[i] = complex(per * math.cos(i), turning * per * math.sin(3.0 * i))
 
 
 @kernel

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from examples.papers.assembly.basis import ring_basis, wall_limit
 from examples.papers.assembly.conditions import BONDED, Condition, ContactModes, bodies, contact_modes
+from examples.papers.assembly.free import free_modes
 from examples.papers.assembly.patch import normal_stiffness
 from examples.papers.chance import best_of, chance
 from examples.papers.impact.chain import Sphere
@@ -31,7 +32,7 @@ from examples.papers.impact.lamb import spheroidal_frequencies, torsional_freque
 from examples.papers.impact.row import row_modes
 from fmu_bearing import Scene, read_scene
 from fmu_bearing.cli.base import refusals
-from fmu_bearing.elastic.modes import elastic, free_modes
+from fmu_bearing.elastic.modes import elastic
 from fmu_bearing.elastic.section import INNER, OUTER, RACES, ring_section
 from fmu_bearing.extras import need
 from fmu_bearing.results.picture_parts import empty

@@ -29,7 +29,6 @@ _COMPONENTS = 3
 _SHIFT = 1e-3
 #: Rigid motion comes out at less than this share of the same scale (rounding), elastic modes well above it.
 _RIGID = 1e-7
-_FIRST = 6  # modes of one order sought at first; twice as many until the highest lies beyond the limit
 
 
 @dataclass(frozen=True)
@@ -107,18 +106,6 @@ class Solid:
             shapes = np.zeros((len(start), count))
             shapes[moving] = found[:, ascending]
         return np.sqrt(values) / (2.0 * np.pi), shapes
-
-    def modes_below(
-        self, order: int, highest: float, held: bool = False
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """All modes of one harmonic up to a frequency (Hz), as `modes` gives them."""
-        count = _FIRST
-        frequencies, shapes = self.modes(order, count, held)
-        while frequencies[-1] <= highest:
-            count *= 2
-            frequencies, shapes = self.modes(order, count, held)
-        below = frequencies <= highest
-        return frequencies[below], shapes[:, below]
 
 
 def solid(grid: Grid, material: Elastic) -> Solid:

@@ -1,9 +1,7 @@
 """Flexural modes of a scene's rings, as the equations of motion and the sound need them."""
 
-import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +20,6 @@ _SEARCHED = 6  # modes of one order among which the first in-plane one is; it is
 _TILT_REACH = np.deg2rad(15.0)
 #: Spacing of points on the skin, m: 57 to a wavelength of 17 mm in air at 20 kHz.
 _SKIN_SPACING = 0.3e-3
-_PER_WAVE = 6  # quadratic elements to the shortest wave that `free_modes` lists
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,15 +75,6 @@ class RingMode:
     seat: float
     skin_points: Array
     skin_shape: Array
-
-
-class FreeMode(NamedTuple):
-    """A mode of a free ring: circumferential order, family, frequency in Hz, g (see `RingMode`)."""
-
-    order: int
-    family: str
-    frequency: float
-    gyroscopic: float
 
 
 def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
@@ -162,56 +150,6 @@ def in_plane_mode(section: Section, material: Elastic, order: int, fineness: int
         skin_points=_fixed(points),
         skin_shape=_fixed(skin),
     )
-
-
-@lru_cache(maxsize=64)
-def free_modes(section: Section, material: Elastic, highest: float) -> tuple[FreeMode, ...]:
-    """All modes of a free ring up to a frequency (Hz), by frequency, the rigid ones first.
-
-    Families: ``rigid``; of order 0 ``breathing`` (radial), ``roll`` (the section turns) and ``torsion``
-    (about the axis); of higher orders ``in-plane`` and ``out-of-plane``. Families of order 1 and above have
-    two modes of the same frequency, listed once.
-
-    Raises
-    ------
-    ValueError
-        When the frequency is beyond the mesh's reach.
-    """
-    check_reach(section, material, highest)
-    ring = meshed(section, material, FINENESS)
-    found: list[FreeMode] = []
-    order, below = 0, True
-    # every order's lowest elastic mode is higher than that of the order before, from 2 on
-    while below or order <= 2:
-        frequencies, shapes = ring.modes_below(order, highest)
-        below = bool(frequencies.size)
-        for frequency, shape in zip(frequencies, shapes.T, strict=True):
-            kind = "rigid" if frequency == 0.0 else family(ring, order, shape)
-            found.append(FreeMode(order, kind, float(frequency), gyroscopic(ring, shape)))
-        order += 1
-    return tuple(sorted(found, key=lambda mode: (mode.frequency, mode.order)))
-
-
-def check_reach(section: Section, material: Elastic, highest: float) -> None:
-    """Refuse a frequency (Hz) whose shear wave the section's mesh does not resolve.
-
-    Raises
-    ------
-    ValueError
-        When it is beyond the mesh's reach.
-    """
-    element = max(section.width, section.high - section.low) / FINENESS
-    reach = math.sqrt(material.shear_modulus / material.density) / (_PER_WAVE * element)
-    if not 0.0 < highest <= reach:
-        raise ValueError(
-            f"highest = {highest:g} Hz is refused; allowed: above 0 to {reach:.3g} Hz, where the mesh of the "
-            f"section still has {_PER_WAVE} elements to a shear wave"
-        )
-
-
-def coordinates(modes: tuple[FreeMode, ...]) -> int:
-    """Count the coordinates of elastic modes: two per family of order 1 and above, one of order 0."""
-    return sum(2 if mode.order else 1 for mode in modes if mode.frequency > 0.0)
 
 
 def gyroscopic(ring: Solid, shape: Array) -> float:

@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from fmu_bearing.elastic.modes import coordinates, elastic, free_modes, in_plane_mode, ring_modes
+from examples.papers.assembly.free import free_modes
+from fmu_bearing.elastic.modes import elastic, in_plane_mode, ring_modes
 from fmu_bearing.elastic.section import INNER, OUTER, Section
 from tests.elastic.rings import RINGS, STEEL, THIN, bent, curved_beam, ring, solid_of
 
@@ -40,7 +41,8 @@ def test_free_rings_beside_the_prototype(name, body):
     table += [lowest(2, "out-of-plane"), lowest(0, "roll"), lowest(0, "breathing")]
     assert table == pytest.approx(expected, rel=0.0105)
     for limit, count in ((25e3, below_25), (60e3, below_60)):
-        assert coordinates(tuple(mode for mode in found if mode.frequency <= limit)) == count
+        # two coordinates per family of order 1 and above, one of order 0
+        assert sum(2 if mode.order else 1 for mode in found if 0.0 < mode.frequency <= limit) == count
     assert sum(2 if mode.order else 1 for mode in found if mode.family == "rigid") == 6
 
 

@@ -2,6 +2,7 @@
 
 ==============  ======================================================================
 ``patch``       springs of a contact patch: stiffness, and where they act
+``free``        all modes of a free ring up to a frequency
 ``basis``       motions of a ring, free or held, and what they do at a contact
 ``conditions``  contact conditions C1 to C4: matrices, modes, what moves
 ==============  ======================================================================

@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from examples.papers.assembly.free import check_reach, modes_below
 from fmu_bearing.elastic.fourier import Elastic, Solid
-from fmu_bearing.elastic.modes import check_reach, family, meshed
+from fmu_bearing.elastic.modes import family, meshed
 from fmu_bearing.elastic.section import OUTER, RACES, Section
 
 Array = NDArray[np.float64]
@@ -157,7 +158,7 @@ def ring_basis(
 
 def _columns(ring: Solid, order: int, highest: float, held: bool) -> tuple[Array, Array]:
     """Elastic modes of one order: frequencies, and shapes in rows."""
-    frequencies, shapes = ring.modes_below(order, highest, held)
+    frequencies, shapes = modes_below(ring, order, highest, held)
     elastic = frequencies > 0.0
     return frequencies[elastic], shapes.T[elastic]
 

@@ -15,6 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
 from fmu_bearing.elastic.shaft.sections import Section
 
@@ -66,18 +67,7 @@ class Beam:
     def free_frequency(self) -> float:
         """Return the lowest bending frequency without supports, rad/s."""
         # two motions of a rigid body come first
-        return math.sqrt(float(eigen(self.stiffness, self.mass)[0][2]))
-
-
-def eigen(
-    stiffness: NDArray[np.float64], mass: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return squared frequencies (rad2/s2), rising, and modes of unit modal mass as columns."""
-    lower = np.linalg.cholesky(mass)
-    half = np.linalg.solve(lower, stiffness)
-    whole = np.linalg.solve(lower, half.T)
-    squared, vectors = np.linalg.eigh(0.5 * (whole + whole.T))
-    return squared, np.linalg.solve(lower.T, vectors)
+        return math.sqrt(float(eigh(self.stiffness, self.mass, eigvals_only=True)[2]))
 
 
 def beam(sections: Sequence[Section], planes: Sequence[float] = (), finer: int = 1) -> Beam:

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
-from fmu_bearing.elastic.shaft.beam import Beam, beam, eigen
+from fmu_bearing.elastic.shaft.beam import Beam, beam
 from fmu_bearing.elastic.shaft.model import FREEDOMS, ShaftModel
 from fmu_bearing.elastic.shaft.sections import Section
 from fmu_bearing.threads import one_thread
@@ -86,7 +87,7 @@ def reduction(whole: Beam, planes: Sequence[int], modes: int) -> NDArray[np.floa
     basis = np.zeros((len(whole.mass), len(held) + modes))
     basis[held, np.arange(len(held))] = 1.0
     basis[free, : len(held)] = -np.linalg.solve(inner, whole.stiffness[np.ix_(free, held)])
-    basis[free, len(held) :] = eigen(inner, whole.mass[np.ix_(free, free)])[1][:, :modes]
+    basis[free, len(held) :] = eigh(inner, whole.mass[np.ix_(free, free)])[1][:, :modes]
     for k in range(len(held), len(held) + modes):
         deflection = basis[::2, k]
         basis[:, k] /= deflection[np.argmax(np.abs(deflection))]

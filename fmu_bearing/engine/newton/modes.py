@@ -43,7 +43,7 @@ def local_column(jac, first, column, c, s, axis, j):
 
 
 @kernel
-def answers(p, jac, race, c, s, cv, cx, j, factors):
+def answers(jac, race, c, s, cv, cx, j, factors):
     """Ball ``j``'s rows of the Newton matrix for motion of the groove under it, into ``factors``.
 
     The groove's motion along itself presses nothing: its place has no effect, only its velocity.
@@ -85,7 +85,7 @@ def ring_answers(p, jac, fac, y, turned, race, cv, cx, factors, row):
         angle = y[Y.TH + j] - turned
         c = math.cos(angle)
         s = math.sin(angle)
-        answers(p, jac, race, c, s, cv, cx, j, factors)
+        answers(jac, race, c, s, cv, cx, j, factors)
         returns(p, jac, fac, race, c, s, cv, cx, j, factors, row)
 
 

@@ -15,7 +15,7 @@ a ball is shown where it was found tau before.
 Balls are marched only where they sound. Elsewhere they are shown where they rest.
 """
 
-from fmu_bearing.engine.fidelities.condensed.transverse import continued, free_motion, moved_on
+from fmu_bearing.engine.fidelities.condensed.transverse import continued, free_motion, guided, moved_on
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, select, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, F, L, P, T, Y
@@ -77,15 +77,17 @@ def weigh_drives(lv, h):
 
 
 @kernel
-def move_balls(p, lv, h, uniform, with_cosine, with_sine, w):
+def move_balls(p, lv, h, x, rates, w):
     """Move the balls across their tracks over a step ``h`` (s) to the places of rest of the last sweep.
 
-    ``uniform``, ``with_cosine``, ``with_sine``: friction's drive by the rings' rolling at its end (m/s2), in
-    the three patterns.
+    ``x[rates:]``: velocities of the rings at its end, by which rolling drives the balls in three patterns.
     """
     square, rate = lv[L.SIDE_SQUARE], lv[L.SIDE_RATE]
     if square == 0.0:
         return
+    # friction's drive (m/s2)
+    uniform, with_cosine = rate * guided(lv, 0, x, rates), rate * guided(lv, 1, x, rates)
+    with_sine = rate * guided(lv, 2, x, rates)
     # whatever else changes the weights makes the march forget its steps
     if lv[L.KNOWN] <= _STEADY or h != lv[L.OWN_STEP]:
         weigh_drives(lv, h)

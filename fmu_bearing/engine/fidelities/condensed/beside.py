@@ -6,7 +6,7 @@ and backward: with U = u_0 + i u_1, u_0 gives half of either, u_1 half of either
 """
 
 from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
-from fmu_bearing.engine.fidelities.condensed.drives import active, groups
+from fmu_bearing.engine.fidelities.condensed.drives import active, add_product, groups
 from fmu_bearing.engine.fidelities.condensed.families import family_size, member, planes, side
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four
@@ -55,21 +55,14 @@ def by_modes(lv, family, out, driven, x):
     """Return what modes of a family at ``x[driven:]`` do, by the row ``lv[out:]``; complex."""
     re, im = splat(0.0), splat(0.0)
     for m in range(0, groups(lv, family), FOUR):
-        ar, ai = load(x, driven + m), load(x, driven + L.MODES + m)
-        ur, ui = load(lv, out + m), load(lv, out + L.MODES + m)
-        re += ur * ar - ui * ai
-        im += ur * ai + ui * ar
+        re, im = add_product(lv, out + m, x, driven + m, re, im)
     return complex(sum_four(re), sum_four(im))
 
 
 @kernel
-def both_whirls(lv, family, out, forward, backward, w):
-    """Return what a plane does in itself and a quarter turn on, by modes of a forward and a backward whirl.
-
-    Complex, by the row ``lv[out:]``; the modes are at ``w[forward:]`` and ``w[backward:]``.
-    """
-    one = real_times(0.5, by_modes(lv, family, out, forward, w))
-    other = real_times(0.5, by_modes(lv, family, out, backward, w)).conjugate()
+def both_whirls(forward, backward):
+    """Complex motion of a plane in itself and a quarter turn on, by a forward and a backward whirl."""
+    one, other = real_times(0.5, forward), real_times(0.5, backward).conjugate()
     return one + other, one - other
 
 
@@ -102,8 +95,9 @@ def beside_rings(lv, growth, omega, w):
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
-                forward, backward = T.DRIVEN + b * L.COMPLEX, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX
-                own, turned = both_whirls(lv, family, out, forward, backward, w)
+                forward = by_modes(lv, family, out, T.DRIVEN + b * L.COMPLEX, w)
+                backward = by_modes(lv, family, out, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX, w)
+                own, turned = both_whirls(forward, backward)
                 for plane in range(planes(family)):
                     sign = side(plane, a) * side(plane, b)
                     add_beside(w, member(family, plane, a), member(family, plane, b), sign, own)
@@ -132,8 +126,9 @@ def beside_places(p, lv, w, re, im):
             out = f + L.OUT + a * L.COMPLEX
             i, j = T.LINE_SIDE + member(family, 0, a), T.LINE_SIDE + member(1, 1, a)
             for k in range(L.AWAYS):
-                forward, backward = T.DRIVEN + k * L.COMPLEX, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX
-                own, turned = both_whirls(lv, family, out, forward, backward, w)
+                forward = by_modes(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
+                backward = by_modes(lv, family, out, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX, w)
+                own, turned = both_whirls(forward, backward)
                 # contacts with balls at rest have pushed already
                 push = pair(lv, f + L.PUSH + 2 * (L.AWAYS * a + k))
                 own, turned = own - push.real, turned - complex(0.0, push.imag)

@@ -6,6 +6,7 @@ change. With low preload friction is 2 % of the load, and contacts at small angl
 13 % more for it. Surfaces do not move along the track.
 """
 
+from fmu_bearing.engine.complex_numbers import complex_at, real_times
 from fmu_bearing.engine.fidelities.condensed.families import acting, member
 from fmu_bearing.engine.fidelities.condensed.transverse import held_in_plane
 from fmu_bearing.engine.jit import kernel
@@ -66,17 +67,19 @@ def find_pushes(p, lv, speed, w):
         at = T.CONTACT if ring == 0 else T.CONTACT_OUTER
         pair = lv[L.PAIR_INNER + ring] * speed * speed
         for k in range(2):
-            fx, fy, fz, my, mz = pushed_by(w, at, pair, k)
-            to = T.PUSHES + 2 * (L.AWAYS * ring + k)
-            w[to] = acting(p, 0) * fx / inertia(p, member(0, 0, ring))
-            to = T.PUSHES + T.PUSHED // 2 + 2 * (L.AWAYS * 2 * ring + k)
-            per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring))
-            w[to] = per * fz
-            w[to + 1] = per * fy
-            to += 2 * L.AWAYS
-            per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring + 1))
-            w[to] = per * my
-            w[to + 1] = -per * mz
+            add_push(p, ring, k, pushed_by(w, at, pair, k), w)
+
+
+@kernel
+def add_push(p, ring, k, pushed, w):
+    """Add to ``T.PUSHES``, for ``k`` of ``L.AWAYS``, forces x, y, z and moments y, z of ball 0 on a ring."""
+    fx, fy, fz, my, mz = pushed
+    pushes = complex_at(w, T.PUSHES, T.PUSHED // 2)
+    pushes[L.AWAYS * ring + k] += acting(p, 0) * fx / inertia(p, member(0, 0, ring))
+    at = L.AWAYS * (L.FAMILY_RINGS + 2 * ring) + k
+    pushes[at] += real_times(acting(p, 1) / inertia(p, member(1, 0, 2 * ring)), complex(fz, fy))
+    per = acting(p, 1) / inertia(p, member(1, 0, 2 * ring + 1))
+    pushes[at + L.AWAYS] += real_times(per, complex(my, -mz))
 
 
 @kernel
@@ -125,17 +128,7 @@ def press_rings(p, race, k, towards, push, w):
     at = T.PRESSED + race * T.PRESSED_SIZE
     fx, fr, ft = -push[0] * towards, -push[1] * towards, -push[2] * towards
     qx, qr, qt = w[at + T.TOUCHED_X], w[at + T.TOUCHED_R], w[at + T.TOUCHED_T]
-    gr, gt = qt * fx - qx * ft, qx * fr - qr * fx
-    to = T.PUSHES + 2 * (L.AWAYS * race + k)
-    w[to] += acting(p, 0) * fx / inertia(p, member(0, 0, race))
-    to = T.PUSHES + T.PUSHED // 2 + 2 * (L.AWAYS * 2 * race + k)
-    per = acting(p, 1) / inertia(p, member(1, 0, 2 * race))
-    w[to] += per * fr
-    w[to + 1] -= per * ft
-    to += 2 * L.AWAYS
-    per = acting(p, 1) / inertia(p, member(1, 0, 2 * race + 1))
-    w[to] -= per * gt
-    w[to + 1] -= per * gr
+    add_push(p, race, k, (fx, -ft, fr, qr * fx - qx * fr, qt * fx - qx * ft), w)
 
 
 @kernel

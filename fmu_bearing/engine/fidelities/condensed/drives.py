@@ -3,7 +3,7 @@
 See `operator`; `patterns` steps them.
 """
 
-from fmu_bearing.engine.complex_numbers import pair, real_times
+from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
 from fmu_bearing.engine.fidelities.condensed.balls import between
 from fmu_bearing.engine.fidelities.condensed.families import family_size
 from fmu_bearing.engine.jit import kernel
@@ -40,24 +40,13 @@ def active(lv):
 
 
 @kernel
-def put_pair(w, to, k, re, im):
-    """Write complex number ``k`` of a row of pairs."""
-    w[to + 2 * k] = re
-    w[to + 2 * k + 1] = im
-
-
-@kernel
 def by_families(x, at, to, w):
     """Put the rings' numbers ``x[at:]`` by families to ``w[to:]``: four complex ones each, see `families`."""
-    put_pair(w, to, 0, x[at + Q.X], 0.0)
-    put_pair(w, to, 1, x[at + Q.OUTER + Q.X], 0.0)
-    put_pair(w, to, 2, x[at + Q.OUTER + Q.TURN], 0.0)
-    put_pair(w, to, 3, 0.0, 0.0)
-    one = to + T.FAMILY_PLACES
-    put_pair(w, one, 0, x[at + Q.Z], x[at + Q.Y])
-    put_pair(w, one, 1, x[at + Q.INNER_BY], -x[at + Q.INNER_BZ])
-    put_pair(w, one, 2, x[at + Q.OUTER + Q.Z], x[at + Q.OUTER + Q.Y])
-    put_pair(w, one, 3, x[at + Q.OUTER + Q.BY], -x[at + Q.OUTER + Q.BZ])
+    one, two = complex_at(w, to, L.FAMILY_RINGS), complex_at(w, to + T.FAMILY_PLACES, L.FAMILY_RINGS)
+    outer = at + Q.OUTER
+    one[0], one[1], one[2], one[3] = x[at + Q.X], x[outer + Q.X], x[outer + Q.TURN], 0.0
+    two[0], two[1] = complex(x[at + Q.Z], x[at + Q.Y]), complex(x[at + Q.INNER_BY], -x[at + Q.INNER_BZ])
+    two[2], two[3] = complex(x[outer + Q.Z], x[outer + Q.Y]), complex(x[outer + Q.BY], -x[outer + Q.BZ])
 
 
 @kernel
@@ -148,23 +137,29 @@ def find_away(p, lv, w):
         ci, cout = ci + co * x, cout + co * r
         si_, sout = si_ - si * x, sout - si * r
     per = 1.0 / p[P.BALLS]
-    put_pair(w, T.AWAY_NOW, 0, per * sum_four(ux), 0.0)
-    put_pair(w, T.AWAY_NOW, 1, per * sum_four(ur), 0.0)
-    put_pair(w, T.AWAY_NOW, 2, per * sum_four(ui), 0.0)
-    put_pair(w, T.AWAY_NOW, 3, per * sum_four(uo), 0.0)
+    one, two = complex_at(w, T.AWAY_NOW, L.AWAYS), complex_at(w, T.AWAY_NOW + T.FAMILY_AWAY, L.AWAYS)
+    one[0], one[1] = per * sum_four(ux), per * sum_four(ur)
+    one[2], one[3] = per * sum_four(ui), per * sum_four(uo)
     per *= 2.0
-    one = T.AWAY_NOW + T.FAMILY_AWAY
-    put_pair(w, one, 0, per * sum_four(cx), per * sum_four(sx))
-    put_pair(w, one, 1, per * sum_four(cr), per * sum_four(sr))
-    put_pair(w, one, 2, per * sum_four(ci), per * sum_four(si_))
-    put_pair(w, one, 3, per * sum_four(cout), per * sum_four(sout))
+    two[0] = complex(per * sum_four(cx), per * sum_four(sx))
+    two[1] = complex(per * sum_four(cr), per * sum_four(sr))
+    two[2] = complex(per * sum_four(ci), per * sum_four(si_))
+    two[3] = complex(per * sum_four(cout), per * sum_four(sout))
 
 
 @kernel
-def add_input(lv, row, xr, xi, m, re, im):
+def add_input(lv, row, z, m, re, im):
     """Return (``re``, ``im``) plus the row of four modes at ``lv[row + m:]`` times a complex number."""
     ar, ai = load(lv, row + m), load(lv, row + L.MODES + m)
-    return re + (ar * xr - ai * xi), im + (ar * xi + ai * xr)
+    return re + (ar * z.real - ai * z.imag), im + (ar * z.imag + ai * z.real)
+
+
+@kernel
+def add_product(x, a, y, b, re, im):
+    """Return (``re``, ``im``) plus the complex product of the rows ``x[a:]`` and ``y[b:]``, four modes."""
+    ar, ai = load(x, a), load(x, a + L.MODES)
+    br, bi = load(y, b), load(y, b + L.MODES)
+    return re + (ar * br - ai * bi), im + (ar * bi + ai * br)
 
 
 @kernel
@@ -180,18 +175,17 @@ def find_drive(lv, w):
             for b in range(family_size(family)):
                 whole = f + L.IN_WHOLE + b * L.COMPLEX
                 here = T.FAMILY_PLACES * family + 2 * b
-                xr, xi = w[T.PLACES + here], w[T.PLACES + here + 1]
-                re, im = add_input(lv, whole, xr, xi, m, re, im)
-                rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, xr, xi, m, rr, ri)
-                xr, xi = w[T.RATES + here], w[T.RATES + here + 1]
-                sr, si = add_input(lv, whole, xr, xi, m, sr, si)
+                place = pair(w, T.PLACES + here)
+                re, im = add_input(lv, whole, place, m, re, im)
+                rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, place, m, rr, ri)
+                sr, si = add_input(lv, whole, pair(w, T.RATES + here), m, sr, si)
             keep_drive(w, into + L.BY_PLACE * L.BOTH + m, re, im)
             keep_drive(w, into + L.BY_SLOPE * L.BOTH + m, sr, si)
             keep_drive(w, into + L.BY_RATE * L.BOTH + m, rr, ri)
             re, im = splat(0.0), splat(0.0)
             for k in range(L.AWAYS):
-                at = T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k
-                re, im = add_input(lv, f + L.IN_AWAY + k * L.COMPLEX, w[at], w[at + 1], m, re, im)
+                away = pair(w, T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k)
+                re, im = add_input(lv, f + L.IN_AWAY + k * L.COMPLEX, away, m, re, im)
             keep_drive(w, into + L.BY_AWAY * L.BOTH + m, re, im)
 
 

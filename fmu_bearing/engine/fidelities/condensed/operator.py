@@ -282,7 +282,7 @@ def find_follow(lv, family, w):
 
 
 @kernel
-def find_beside(p, lv, jac, w):
+def find_beside(lv, jac):
     """Write the rings' own derivatives that `full` has beside those with balls at rest.
 
     By families: differences couple them a little, the more aside the rings are, and not in the mirror image
@@ -378,7 +378,7 @@ def find_operator(p, lv, jac, orbit, w):
         find_follow(lv, family, w)
         for i in range(T.PUSHED // 2):
             lv[L.FAMILY + family * L.FAMILY_SIZE + L.PUSH + i] = w[T.PUSHES + family * (T.PUSHED // 2) + i]
-    find_beside(p, lv, jac, w)
+    find_beside(lv, jac)
     for i in range(L.N):
         lv[L.AT_RINGS + i] = lv[L.Y0 + Y.Q0 + i]
     lv[L.AT_BALL] = lv[L.Y0 + Y.X]

@@ -13,6 +13,7 @@ from fmu_bearing.engine.fidelities.condensed.beside import by_modes
 from fmu_bearing.engine.fidelities.condensed.drives import (
     active,
     add_input,
+    add_product,
     by_families,
     find_away,
     find_drive,
@@ -70,14 +71,6 @@ def prepare_step(lv, h, w):
 
 
 @kernel
-def add_product(lv, a, b, re, im):
-    """Return (``re``, ``im``) plus the complex product of the rows ``lv[a:]`` and ``lv[b:]``, four modes."""
-    ar, ai = load(lv, a), load(lv, a + L.MODES)
-    br, bi = load(lv, b), load(lv, b + L.MODES)
-    return re + (ar * br - ai * bi), im + (ar * bi + ai * br)
-
-
-@kernel
 def begin_step(lv, w):
     """Write what the modes do in a step whose drives at the end are zero to ``T.MODES_FREE``."""
     if not active(lv):
@@ -93,13 +86,12 @@ def begin_step(lv, w):
             sr, si = load(lv, L.MODES_STAY + m), load(lv, L.MODES_STAY + L.MODES + m)
             re, im = sr * zr - si * zi, sr * zi + si * zr
             gain = L.MODES_GAIN + m
-            re, im = add_product(lv, gain + L.GAIN_FROM_PLACE, by_place + m, re, im)
-            re, im = add_product(lv, gain + L.GAIN_FROM_SLOPE, by_slope + m, re, im)
+            re, im = add_product(lv, gain + L.GAIN_FROM_PLACE, lv, by_place + m, re, im)
+            re, im = add_product(lv, gain + L.GAIN_FROM_SLOPE, lv, by_slope + m, re, im)
             for k in range(L.HISTORY - 1):
                 gain = L.MODES_GAIN + L.GAIN_AWAY + (1 + k) * L.BOTH
-                re, im = add_product(lv, gain + m, by_away + k * L.BOTH + m, re, im)
-            store(w, T.MODES_FREE + m, re)
-            store(w, T.MODES_FREE + L.MODES + m, im)
+                re, im = add_product(lv, gain + m, lv, by_away + k * L.BOTH + m, re, im)
+            keep_drive(w, T.MODES_FREE + m, re, im)
 
 
 @kernel
@@ -109,17 +101,9 @@ def at_end(lv, w, m):
     re = load(w, T.MODES_FREE + m) + load(w, driven + L.BY_RATE * L.BOTH)
     im = load(w, T.MODES_FREE + L.MODES + m) + load(w, driven + L.BY_RATE * L.BOTH + L.MODES)
     gain = L.MODES_GAIN + m
-    re, im = add_driven(lv, gain + L.GAIN_PLACE, w, driven + L.BY_PLACE * L.BOTH, re, im)
-    re, im = add_driven(lv, gain + L.GAIN_SLOPE, w, driven + L.BY_SLOPE * L.BOTH, re, im)
-    return add_driven(lv, gain + L.GAIN_AWAY, w, driven + L.BY_AWAY * L.BOTH, re, im)
-
-
-@kernel
-def add_driven(lv, gain, w, drive, re, im):
-    """Return (``re``, ``im``) plus the complex product of gains and trial drives, of four modes."""
-    gr, gi = load(lv, gain), load(lv, gain + L.MODES)
-    dr, di = load(w, drive), load(w, drive + L.MODES)
-    return re + (gr * dr - gi * di), im + (gr * di + gi * dr)
+    re, im = add_product(lv, gain + L.GAIN_PLACE, w, driven + L.BY_PLACE * L.BOTH, re, im)
+    re, im = add_product(lv, gain + L.GAIN_SLOPE, w, driven + L.BY_SLOPE * L.BOTH, re, im)
+    return add_product(lv, gain + L.GAIN_AWAY, w, driven + L.BY_AWAY * L.BOTH, re, im)
 
 
 @kernel
@@ -188,10 +172,9 @@ def correct_patterns(lv, h, counts, w):
             re, im = splat(0.0), splat(0.0)
             rr, ri = splat(0.0), splat(0.0)
             for b in range(family_size(family)):
-                here = T.PLACES + T.FAMILY_PLACES * family + 2 * b
-                xr, xi = w[here], w[here + 1]
-                re, im = add_input(lv, f + L.IN_WHOLE + b * L.COMPLEX, xr, xi, m, re, im)
-                rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, xr, xi, m, rr, ri)
+                change = pair(w, T.PLACES + T.FAMILY_PLACES * family + 2 * b)
+                re, im = add_input(lv, f + L.IN_WHOLE + b * L.COMPLEX, change, m, re, im)
+                rr, ri = add_input(lv, f + L.IN_RATE + b * L.COMPLEX, change, m, rr, ri)
             move_drive(w, into + L.BY_PLACE * L.BOTH + m, by_place, re, im)
             move_drive(w, into + L.BY_SLOPE * L.BOTH + m, by_velocity, re, im)
             move_drive(w, into + L.BY_RATE * L.BOTH + m, by_place, rr, ri)
@@ -219,8 +202,7 @@ def keep_patterns(p, lv, h, w):
         first = family * L.COMPLEX
         for m in range(first, first + groups(lv, family), FOUR):
             re, im = at_end(lv, w, m)
-            store(lv, L.MODES_NOW + m, re)
-            store(lv, L.MODES_NOW + L.MODES + m, im)
+            keep_drive(lv, L.MODES_NOW + m, re, im)
             for part in range(m, m + 2 * L.MODES, L.MODES):
                 for k in range(3, 0, -1):
                     store(lv, away + k * L.BOTH + part, load(lv, away + (k - 1) * L.BOTH + part))

@@ -19,24 +19,6 @@ _PER_RING = 10.0
 
 
 @kernel
-def publish_rings(lv, y, f):
-    """Displacements, velocities and accelerations of the rings."""
-    for i in range(L.N):
-        y[Y.Q0 + i] = lv[L.Q0 + i]
-        y[Y.V0 + i] = lv[L.V0 + i]
-        f[F.BODY + i] = lv[L.A0 + i]
-
-
-@kernel
-def publish_cage(p, lv, speed, speed_rate, y, f):
-    """Turn the cage with the balls about the place it had at the start."""
-    k = Q.CAGE + Q.TURN
-    y[Y.Q0 + k] = wrap(lv[L.THETA])
-    y[Y.V0 + k] = lv[L.RATIO] * speed if p[P.CAGE] != 0.0 else 0.0
-    f[F.BODY + k] = lv[L.RATIO] * speed_rate if p[P.CAGE] != 0.0 else 0.0
-
-
-@kernel
 def fastest_ball(p, speed, y):
     """Bound (m/s) on what differences of the balls' places may show: see above."""
     most = 0.0
@@ -59,15 +41,6 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
 
 
 @kernel
-def publish_angles(p, lv, y):
-    """Angles of the balls, evenly spaced."""
-    balls = p[P.BALLS]
-    for j in range(int(p[P.LANES])):
-        place = j if j < balls else 0
-        y[Y.TH + j] = wrap(lv[L.THETA] + 2.0 * PI * place / balls)
-
-
-@kernel
 def held_heat(lv):
     """Sum (W) of the heats held from the operating point."""
     return lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
@@ -83,8 +56,20 @@ def held_torque(lv, speed):
 
 
 @kernel
-def publish_losses(lv, speed, f):
-    """Heats held from the operating point, and the torque that puts them in at ``speed``."""
+def publish_moving(p, lv, speed, speed_rate, y, f):
+    """Write ``y`` and ``f`` as `publish` does, but for the balls' angles.
+
+    The cage turns with the balls about the place it had at the start.
+    """
+    for i in range(L.N):
+        y[Y.Q0 + i] = lv[L.Q0 + i]
+        y[Y.V0 + i] = lv[L.V0 + i]
+        f[F.BODY + i] = lv[L.A0 + i]
+    turn = Q.CAGE + Q.TURN
+    y[Y.Q0 + turn] = wrap(lv[L.THETA])
+    y[Y.V0 + turn] = lv[L.RATIO] * speed if p[P.CAGE] != 0.0 else 0.0
+    f[F.BODY + turn] = lv[L.RATIO] * speed_rate if p[P.CAGE] != 0.0 else 0.0
+    publish_balls(p, lv, speed, speed_rate, y, f)
     f[F.WORK] = held_heat(lv)
     f[F.TORQUE] = held_torque(lv, speed)
     for i in range(3):
@@ -92,19 +77,12 @@ def publish_losses(lv, speed, f):
 
 
 @kernel
-def publish_moving(p, lv, speed, speed_rate, y, f):
-    """Write ``y`` and ``f`` as `publish` does, but for the balls' angles."""
-    publish_rings(lv, y, f)
-    publish_cage(p, lv, speed, speed_rate, y, f)
-    publish_balls(p, lv, speed, speed_rate, y, f)
-    publish_losses(lv, speed, f)
-
-
-@kernel
 def publish(p, lv, speed, speed_rate, y, f):
     """Write the whole state ``y`` and its right-hand side ``f`` (of fidelity full: see the layout)."""
     publish_moving(p, lv, speed, speed_rate, y, f)
-    publish_angles(p, lv, y)
+    for j in range(int(p[P.LANES])):
+        place = j if j < p[P.BALLS] else 0
+        y[Y.TH + j] = wrap(lv[L.THETA] + 2.0 * PI * place / p[P.BALLS])
 
 
 @kernel

@@ -53,6 +53,16 @@ def from_equilibrium(p, lv, theta, w):
 def turn_balls(s, h):
     """Orbit and own turning after the time ``h`` (s), within one turn, where their rounding does not grow."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    mean = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
-    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * h * mean)
-    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * h * mean)
+    theta, rolled, _, _ = angles_at(s, h)
+    lv[L.THETA] = wrap(theta)
+    lv[L.ROLLED] = wrap(rolled)
+
+
+@kernel
+def angles_at(s, ahead):
+    """Angles (rad) of ball 0, of the balls' turning and of the shaft at ``ahead`` (s), and its speed."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
+    theta = lv[L.THETA] + lv[L.RATIO] * turned
+    rolled = lv[L.ROLLED] + lv[L.ROLL] * turned
+    return theta, rolled, s[S.ANGLE] + turned, s[S.SPEED] + ahead * s[S.SPEED_RATE]

@@ -127,7 +127,7 @@ def hold_operator(p, s, w):
         return
     find_presses(p, c, y, speed, w)
     jacobian_with_cage(p, c, lv, speed, w, jac)
-    find_friction(p, lv, jac)
+    find_friction(lv, jac)
     find_operator(p, lv, jac, lv[L.Y0 + Y.OM], w)
 
 

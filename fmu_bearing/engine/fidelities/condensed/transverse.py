@@ -13,6 +13,7 @@ through its last values, stable however stiff. What the rings feel of all balls 
 
 import math
 
+from fmu_bearing.engine.complex_numbers import over
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, Y
 from fmu_bearing.engine.mechanics.contact import in_plane
@@ -106,7 +107,7 @@ def find_transverse(p, c, lv, speed, w):
 
 
 @kernel
-def find_friction(p, lv, jac):
+def find_friction(lv, jac):
     """Friction across the track from the full Jacobian of ball 0, whose spin yields."""
     if lv[L.SIDE_SQUARE] == 0.0:
         return
@@ -189,18 +190,15 @@ def continued(lv, h, end, now, before, earlier, earliest):
 
 
 @kernel
-def guided(lv, k, y):
-    """Velocity (m/s) that rolling alone gives pattern ``k``, the rings' velocities at ``y[Y.V0:]``."""
+def guided(lv, k, x, rates):
+    """Velocity (m/s) that rolling alone gives pattern ``k``, the rings' velocities at ``x[rates:]``."""
     total = 0.0
     for i in range(L.N):
-        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * y[Y.V0 + i]
+        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * x[rates + i]
     return total
 
 
 @kernel
 def pattern_answer(lv, omega):
     """Place of a pattern at ``omega`` (rad/s) by what drives it: complex (s2)."""
-    re = lv[L.SIDE_SQUARE] - omega * omega
-    im = omega * lv[L.SIDE_RATE]
-    per = 1.0 / (re * re + im * im)
-    return complex(re * per, -im * per)
+    return over(complex(1.0, 0.0), complex(lv[L.SIDE_SQUARE] - omega * omega, omega * lv[L.SIDE_RATE]))

@@ -18,7 +18,7 @@ from fmu_bearing.engine.choices import CONTACTS
 from fmu_bearing.engine.complex_numbers import pair
 from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer
 from fmu_bearing.engine.fidelities.response.lines import form_sums, orders, size_sums, wave_of
-from fmu_bearing.engine.fidelities.response.samples import order_of, signed
+from fmu_bearing.engine.fidelities.response.samples import largest_of, order_of, place_of, signed
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import FOUR, LN, SD, C, L, P, Q
 from fmu_bearing.engine.mechanics.triples import added, scaled
@@ -33,9 +33,7 @@ def reach_of_rings(x):
     largest = 0.0
     highest = 0
     for order in range(LN.REACH + 1):
-        found = 0.0
-        for i in range(L.N * FOUR):
-            found = max(found, abs(x[LN.FOLLOW + order * L.N * FOUR + i]))
+        found = largest_of(x, LN.FOLLOW + order * L.N * FOUR, L.N * FOUR)
         largest = max(largest, found)
         if found > _SMALL * largest:
             highest = order
@@ -50,9 +48,8 @@ def reach_of_heights(x):
     for order in range(LN.REACH + 1):
         found = 0.0
         for race in range(2):
-            orders = order_of(x, LN.BY_HEIGHT + race, order)
-            for i in range(LN.PLACES, LN.COMPONENTS):
-                found = max(found, max(abs(orders[i].real), abs(orders[i].imag)))
+            places = place_of(LN.BY_HEIGHT + race, order) + 2 * LN.PLACES
+            found = max(found, largest_of(x, places, LN.COMPLEX - 2 * LN.PLACES))
         largest = max(largest, found)
         if found > _SMALL * largest:
             highest = order

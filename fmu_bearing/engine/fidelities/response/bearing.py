@@ -3,7 +3,12 @@
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls
 from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
-from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls, show_balls
+from fmu_bearing.engine.fidelities.condensed.rows import (
+    angles_at,
+    from_equilibrium,
+    keep_balls,
+    show_balls,
+)
 from fmu_bearing.engine.fidelities.condensed.shared import flat
 from fmu_bearing.engine.fidelities.response.lines import begin_lines
 from fmu_bearing.engine.jit import kernel
@@ -143,16 +148,6 @@ def find_places(p, c, lv, theta, speed, near, q, w):
 
 
 @kernel
-def angles_at(s, ahead):
-    """Angles (rad) of ball 0, of the balls' turning and of the shaft at ``ahead`` (s), and its speed."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    turned = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
-    theta = lv[L.THETA] + lv[L.RATIO] * turned
-    rolled = lv[L.ROLLED] + lv[L.ROLL] * turned
-    return theta, rolled, s[S.ANGLE] + turned, s[S.SPEED] + ahead * s[S.SPEED_RATE]
-
-
-@kernel
 def settle(p, s, ahead, near, w):
     """Places of rest of the balls between the rings as they are in ``lv``; arguments: see `march.place`."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
@@ -194,18 +189,8 @@ def begin_spacing(s, step):
 def follow_balls(p, s, step, w):
     """Move the balls across their tracks over a ``step`` (s) to where rings and places of rest now are."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    rate = lv[L.SIDE_RATE]
-    move_balls(p, lv, step, rate * rolling(lv, 0), rate * rolling(lv, 1), rate * rolling(lv, 2), w)
+    move_balls(p, lv, step, lv, L.V0, w)
     lv[L.KNOWN] += 1.0
-
-
-@kernel
-def rolling(lv, k):
-    """Velocity (m/s) that rolling alone gives pattern ``k``."""
-    total = 0.0
-    for i in range(L.N):
-        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * lv[L.V0 + i]
-    return total
 
 
 @kernel

@@ -10,7 +10,8 @@ are those of now.
 Arguments: see `spindle.members`.
 """
 
-from fmu_bearing.engine.fidelities.response.bearing import angles_at, sum_lines
+from fmu_bearing.engine.fidelities.condensed.rows import angles_at
+from fmu_bearing.engine.fidelities.response.bearing import sum_lines
 from fmu_bearing.engine.fidelities.response.coupled_lines import sum_set_lines
 from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.jit import kernel

@@ -162,10 +162,17 @@ def highest_order(x, kind):
     largest = 0.0
     highest = 0
     for order in range(LN.REACH + 1):
-        size = 0.0
-        for i in range(LN.COMPLEX):
-            size = max(size, abs(x[place_of(kind, order) + i]))
+        size = largest_of(x, place_of(kind, order), LN.COMPLEX)
         if size > _SMALL * largest:
             highest = order
         largest = max(largest, size)
     return highest
+
+
+@kernel
+def largest_of(x, at, count):
+    """Largest size of ``count`` numbers at ``x[at:]``."""
+    size = 0.0
+    for i in range(at, at + count):
+        size = max(size, abs(x[i]))
+    return size

@@ -8,6 +8,7 @@ import math
 
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
 from fmu_bearing.engine.fidelities.condensed.patterns import add_patterns, begin_step, correct_patterns
+from fmu_bearing.engine.fidelities.condensed.rows import angles_at
 from fmu_bearing.engine.fidelities.rings import equations, predictor
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -21,13 +22,9 @@ _ITERATIONS = 6
 @kernel
 def set_angles_ahead(p, s, h, w):
     """Put balls and race heights to the end of a step ``h`` (s), with the rings at their trial places."""
-    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    speed = s[S.SPEED] + h * s[S.SPEED_RATE]
-    turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
-    set_angles(
-        p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA] + lv[L.RATIO] * turned,
-        lv[L.ROLLED] + lv[L.ROLL] * turned, s[S.ANGLE] + turned, w[W.STAGE + Y.Q0 + L.TURN], speed, w,
-    )  # fmt: skip
+    theta, rolled, angle, speed = angles_at(s, h)
+    outer = w[W.STAGE + Y.Q0 + L.TURN]
+    set_angles(p, s[S.C : S.C + C.SIZE], members.condensed(s), theta, rolled, angle, outer, speed, w)
 
 
 @kernel
@@ -129,8 +126,7 @@ def true_rates(p, own, ws, vectors, n, lanes, h):
 def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
     """Put what is out of balance at the trial state to ``SP.RESIDUAL``; False where balls find no rest."""
     rate = s[S.SPEED_RATE]
-    speed = s[S.SPEED] + h * rate
-    angle = s[S.ANGLE] + h * (s[S.SPEED] + 0.5 * h * rate)
+    _, _, angle, speed = angles_at(s, h)
     acc = members.vector_at(lanes, SP.ACCELERATION)
     residual = members.vector_at(lanes, SP.RESIDUAL)
     together = members.has_shaft(p)

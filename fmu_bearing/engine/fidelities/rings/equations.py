@@ -34,7 +34,7 @@ def bends(p):
 
 
 @kernel
-def show(p, s, w):
+def show(p, s):
     """Copy the march's places, true rates and accelerations to the set's and to its bearings' rings."""
     own = members.set_state(p, s)
     lanes = members.padded_size(p)
@@ -76,7 +76,7 @@ def share_march(p, s):
 @kernel
 def publish_all(p, s, w):
     """Write the states of all bearings and of the set that outputs are made of."""
-    show(p, s, w)
+    show(p, s)
     publish_rings(p, s)
 
 
@@ -296,7 +296,7 @@ def renew(p, s, w):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    show(p, s, w)
+    show(p, s)
     at = members.matrix(p)
     for b in range(members.count(p)):
         if not differentiate(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)):

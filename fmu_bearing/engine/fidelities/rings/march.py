@@ -17,15 +17,14 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
 from fmu_bearing.engine.fidelities.condensed.patterns import keep_patterns, prepare_step
+from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_operator, keep_end, show_end
-from fmu_bearing.engine.fidelities.condensed.transverse import guided
 from fmu_bearing.engine.fidelities.rings import equations, growth, held, predictor
 from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
-from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import grow
 from fmu_bearing.engine.spindle.sound import emit
@@ -78,22 +77,10 @@ def accept_balls(p, s, h, w):
         for j in range(row, row + lanes, FOUR):
             store(lv, L.X + j, load(w, T.X + j))
     if p[P.SOUND_SIZE] != 0.0:
-        rate = lv[L.SIDE_RATE]
-        y = w[W.STAGE : W.STAGE + Y.SIZE]
-        move_balls(p, lv, h, rate * guided(lv, 0, y), rate * guided(lv, 1, y), rate * guided(lv, 2, y), w)
+        move_balls(p, lv, h, w, W.STAGE + Y.V0, w)
     keep_patterns(p, lv, h, w)
     count_settled(lv, lanes, w)
-    turned = h * (s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE])
-    lv[L.THETA] = wrap(lv[L.THETA] + lv[L.RATIO] * turned)
-    lv[L.ROLLED] = wrap(lv[L.ROLLED] + lv[L.ROLL] * turned)
-
-
-@kernel
-def count_step(x, numbers):
-    """Note a step made; ``numbers``: of the march in ``x``."""
-    x[numbers + H.KNOWN] += 1.0
-    x[numbers + H.CALM] += 1.0
-    x[numbers + H.FRESH] = 0.0
+    turn_balls(s, h)
 
 
 @kernel
@@ -134,7 +121,7 @@ def try_step(p, s, w, h, tolerance):
 @kernel
 def emit_rings(p, s, w, h):
     """Sound samples of the step ``h`` (s) just made; publish its end."""
-    equations.show(p, s, w)
+    equations.show(p, s)
     emit_shown(p, s, w, h)
 
 
@@ -158,7 +145,10 @@ def accept(p, s, w, h):
         own, vectors, lanes, members.set_work(p, w), members.vector_at(lanes, SP.ACCELERATION),
         members.vector_at(lanes, SP.PLACE), members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
-    count_step(own, vectors - SP.MARCHED)
+    numbers = members.march(p)
+    own[numbers + H.KNOWN] += 1.0
+    own[numbers + H.CALM] += 1.0
+    own[numbers + H.FRESH] = 0.0
     for b in range(members.count(p)):
         accept_balls(members.parameters(p, b), members.state(p, s, b), h, members.work(p, w, b))
         bearing_at = members.per_bearing(p, b)

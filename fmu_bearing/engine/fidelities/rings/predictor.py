@@ -81,21 +81,14 @@ def guess(x, numbers, vectors, lanes, h, w, a, d, q, v):
     The places lack what :func:`displaced` adds.
     """
     c0, c1, c2, c3, c4 = weights(min(x[numbers + H.DEGREE], x[numbers + H.KNOWN]))
-    a0 = vectors + H.A0 * lanes
-    a1 = vectors + H.A1 * lanes
-    a2 = vectors + H.A2 * lanes
-    a3 = vectors + H.A3 * lanes
-    a4 = vectors + H.A4 * lanes
-    q0 = vectors + H.Q0 * lanes
-    v0 = vectors + H.V0 * lanes
     for i in range(0, lanes, FOUR):
-        now = load(x, a0 + i)
-        rate = load(x, v0 + i)
-        ahead = c0 * now + c1 * load(x, a1 + i) + c2 * load(x, a2 + i)
-        ahead = ahead + c3 * load(x, a3 + i) + c4 * load(x, a4 + i)
+        now = load(x, vectors + H.A0 * lanes + i)
+        rate = load(x, vectors + H.V0 * lanes + i)
+        ahead = c0 * now + c1 * load(x, vectors + H.A1 * lanes + i) + c2 * load(x, vectors + H.A2 * lanes + i)
+        ahead += c3 * load(x, vectors + H.A3 * lanes + i) + c4 * load(x, vectors + H.A4 * lanes + i)
         store(w, a + i, ahead)
         store(w, d + i, ahead - now)
-        store(w, q + i, load(x, q0 + i) + h * (rate + 0.5 * h * now))
+        store(w, q + i, load(x, vectors + H.Q0 * lanes + i) + h * (rate + 0.5 * h * now))
         store(w, v + i, rate + 0.5 * h * (now + ahead))
 
 
@@ -139,21 +132,12 @@ def last_counts(known):
 @kernel
 def move_on(x, vectors, lanes, w, a, q, v):
     """Make trial accelerations, places and velocities (``w[a:]``, ``w[q:]``, ``w[v:]``) the present ones."""
-    a0 = vectors + H.A0 * lanes
-    a1 = vectors + H.A1 * lanes
-    a2 = vectors + H.A2 * lanes
-    a3 = vectors + H.A3 * lanes
-    a4 = vectors + H.A4 * lanes
-    q0 = vectors + H.Q0 * lanes
-    v0 = vectors + H.V0 * lanes
-    for i in range(0, lanes, FOUR):
-        store(x, a4 + i, load(x, a3 + i))
-        store(x, a3 + i, load(x, a2 + i))
-        store(x, a2 + i, load(x, a1 + i))
-        store(x, a1 + i, load(x, a0 + i))
-        store(x, a0 + i, load(w, a + i))
-        store(x, q0 + i, load(w, q + i))
-        store(x, v0 + i, load(w, v + i))
+    for i in range(vectors, vectors + lanes, FOUR):
+        for k in range(H.A4, H.A0, -1):
+            store(x, k * lanes + i, load(x, (k - 1) * lanes + i))
+        store(x, H.A0 * lanes + i, load(w, a + i - vectors))
+        store(x, H.Q0 * lanes + i, load(w, q + i - vectors))
+        store(x, H.V0 * lanes + i, load(w, v + i - vectors))
 
 
 @kernel

@@ -25,14 +25,6 @@ _TRIES = 3  # times to begin again within a communication step, before the rings
 
 
 @kernel
-def forget_motion(lv):
-    """Forget how balls and cage have moved."""
-    for i in range(L.MODES_NOW, L.MODES_STAY):
-        lv[i] = 0.0
-    forget_balls(lv)
-
-
-@kernel
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
     own = members.set_state(p, s)
@@ -42,7 +34,10 @@ def begin_again(p, u, s, w):
     predictor.forget(own, members.march(p), members.history(p), members.padded_size(p))
     equations.share_march(p, s)
     for b in range(members.count(p)):
-        forget_motion(members.condensed(members.state(p, s, b)))
+        lv = members.condensed(members.state(p, s, b))
+        for i in range(L.MODES_NOW, L.MODES_STAY):
+            lv[i] = 0.0
+        forget_balls(lv)
     begin_at_rest(p, s, w)
     return OK
 

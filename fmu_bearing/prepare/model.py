@@ -274,16 +274,8 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     mounting = si(scene.mounted)
     inner = bodies.inner_ring(scene) + bodies.rotor(scene)
     outer = bodies.outer_ring(scene) + bodies.housing(scene)
-    p[P.INNER_MASS], p[P.INNER_TRANSVERSE], p[P.INNER_POLAR] = (
-        inner.mass,
-        inner.transverse,
-        inner.polar,
-    )
-    p[P.OUTER_MASS], p[P.OUTER_TRANSVERSE], p[P.OUTER_POLAR] = (
-        outer.mass,
-        outer.transverse,
-        outer.polar,
-    )
+    p[P.INNER_MASS], p[P.INNER_TRANSVERSE], p[P.INNER_POLAR] = inner.mass, inner.transverse, inner.polar
+    p[P.OUTER_MASS], p[P.OUTER_TRANSVERSE], p[P.OUTER_POLAR] = outer.mass, outer.transverse, outer.polar
     p[P.RIGID] = scene.mounted.preload_mode == "rigid"
     p[P.MISALIGNMENT_Y] = mounting.misalignment_y
     p[P.MISALIGNMENT_Z] = mounting.misalignment_z

@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import sosfilt
 
-from fmu_bearing.acoustics.analysis.field import Channels, Circle, circles
+from fmu_bearing.acoustics.analysis.field import Channels, Circle, joined
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, level
 from fmu_bearing.acoustics.radiation.compact import Path
+from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sources import rooms_digest
@@ -126,9 +127,8 @@ def _kept_paths(
         fcntl.flock(lock, fcntl.LOCK_EX)  # other workers want the same paths: one makes them
         if not path.exists():
             modes = ring_modes(scene) if radiation_model != "paper" else ()
-            made = list(
-                circles(radiation_model, radiators_of(scene), air_of(scene), places, harmonics, modes=modes)
-            )
+            radiation = Radiation(radiation_model, radiators_of(scene), air_of(scene), harmonics, modes)
+            made = list(joined([(radiation, places)]))
             write_whole(path, pickle.dumps(made))
     return _read(path)
 

@@ -3,8 +3,10 @@
 import numpy as np
 from scipy.signal import butter, freqz, lfilter
 
+from fmu_bearing.acoustics.filters.design import block_of
 from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.radiation.radiators import Housing, Radiators, Ring
+from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import MO, SD, STRIDE, Z
 
@@ -26,6 +28,15 @@ HOUSED = Radiators(
 )
 PAPER_POINTS = [(0.0, 0.105, 0.0), (0.0, 0.150, 0.0), (0.0, 0.0, 0.105), (-0.0805, 0.0, 0.0)]
 PLACE = {name: i for i, name in enumerate(Z.MIC_OUTPUTS)}
+
+
+def build(
+    model, radiators, air, microphones, harmonics=4, *, modes=(), plane=None, table=None, details=True,
+    thirds=False, lengths=None,
+):  # fmt: skip
+    """Sound block from plain numbers, microphones at places (x, y, z) in m."""
+    radiation = Radiation(model, radiators, air, harmonics, tuple(modes), plane, table)
+    return block_of(radiation, microphones, details=details, thirds=thirds, lengths=lengths)
 
 
 class Player:

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from fmu_bearing.acoustics.filters import blocks
-from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.fir import decimator_response, delay_of, fit
 from fmu_bearing.acoustics.radiation.circle import translation_paths
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies
 from fmu_bearing.acoustics.radiation.radiators import OUTER, Air
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound import transform
-from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, chain, lines, raw_time, still
+from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, build, chain, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
 LENGTHS = [(16,), (64,), (256,), (16, 128), (32, 512)]

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import sosfilt, upfirdn
 
-from fmu_bearing.acoustics.analysis.field import TAIL, Channels, circles
-from fmu_bearing.acoustics.filters.design import build
+from fmu_bearing.acoustics.analysis.field import TAIL, Channels, joined
 from fmu_bearing.acoustics.filters.fir import (
     band_limit,
     decimator,
@@ -17,6 +16,7 @@ from fmu_bearing.acoustics.filters.weighting import FAST, a_weighting_sections, 
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.effective import ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air
+from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.engine.layout import MO, SD, STRIDE, Z
 from fmu_bearing.engine.sound import radiate
 from tests.acoustics.playback import (
@@ -26,6 +26,7 @@ from tests.acoustics.playback import (
     C,
     Player,
     ball,
+    build,
     chain,
     low_limit,
     raw_time,
@@ -167,7 +168,7 @@ def test_meters_and_recordings_hear_the_same(model, kind):
     history = rows_of(player, motion, samples)
     last = len(history) - TAIL
     received = np.zeros((len(PAPER_POINTS), len(history)))
-    for circle in circles(model, SMALL, Air(), PAPER_POINTS, 4):
+    for circle in joined([(Radiation(model, SMALL, Air(), 4), PAPER_POINTS)]):
         received[list(circle.members)] = Channels(history).pressures(circle)[""]
     again = Player(ps, metering_start=begin / SD.RATE)
     again.play(motion, 4 * (last + SD.LATENCY))

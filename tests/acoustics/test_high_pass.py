@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from fmu_bearing import record
-from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.weighting import high_pass_gains
 from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.engine.sound.high_pass import high_pass
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
-from tests.acoustics.playback import PAPER_POINTS, SMALL, low_limit
+from tests.acoustics.playback import PAPER_POINTS, SMALL, build, low_limit
 
 
 def filtered(signals):

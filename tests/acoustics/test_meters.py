@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from scipy.signal import sosfreqz
 
-from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.filters.weighting import band_centre, band_sections
 from fmu_bearing.acoustics.radiation.compact import Air
 from fmu_bearing.engine.layout import MO, SD, Z
 from fmu_bearing.engine.sound import meter
-from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, lines, raw_time, still
+from tests.acoustics.playback import LARGE, PAPER_POINTS, SMALL, Player, build, lines, raw_time, still
 
 PERIOD = 2048  # raw samples: 100 Hz
 QUIET = 10 * np.log10(1e-20 / 4e-10)

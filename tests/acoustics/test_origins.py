@@ -8,9 +8,7 @@ from fmu_bearing.acoustics.analysis.origins import (
     BALL_SIZES,
     INNER,
     OUTER,
-    SHAFT,
     bearing_origins,
-    origins,
 )
 from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies
 
@@ -40,13 +38,6 @@ def test_orders_and_sources_of_one_bearing():
     orders = [one.order for one in bearing_origins(RATES, 20.0)]
     assert orders == sorted(orders)
     assert 0.0 < orders[0] < orders[-1] <= 20.0
-
-
-def test_a_set_has_the_shaft_once_and_each_bearing():
-    lines = origins([RATES, RATES], 12.5)
-    assert [one.name for one in lines if one.source == SHAFT] == ["f_r", *(f"{n} f_r" for n in range(2, 13))]
-    assert {one.bearing for one in lines} == {0, 1, 2}
-    assert len({(one.name, one.bearing) for one in lines}) == len(lines)
 
 
 def test_a_shaft_at_rest_has_no_orders():

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics.filters.design import build, filter_errors
+from fmu_bearing.acoustics.filters.design import filter_errors
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
 from fmu_bearing.acoustics.radiation.compact import compact_paths
@@ -18,7 +18,19 @@ from fmu_bearing.acoustics.registry import RECIPES, Radiation
 from fmu_bearing.engine.choices import RADIATION_MODELS
 from fmu_bearing.engine.layout import MO, SD, STRIDE
 from fmu_bearing.engine.sound.channels import keep
-from tests.acoustics.playback import PAPER_POINTS, RHO, SMALL, C, Player, ball, chain, lines, raw_time, still
+from tests.acoustics.playback import (
+    PAPER_POINTS,
+    RHO,
+    SMALL,
+    C,
+    Player,
+    ball,
+    build,
+    chain,
+    lines,
+    raw_time,
+    still,
+)
 from tests.oracles import radiation
 
 PERIOD = 2048  # raw samples: 100 Hz

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from fmu_bearing.acoustics.filters.design import build
 from fmu_bearing.acoustics.radiation import sources
 from fmu_bearing.acoustics.radiation.effective import ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air
@@ -17,6 +16,7 @@ from tests.acoustics.playback import (
     C,
     Player,
     ball,
+    build,
     chain,
     lines,
     raw_time,

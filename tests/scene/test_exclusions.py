@@ -21,10 +21,9 @@ from fmu_bearing import (
 )
 from fmu_bearing.accuracy.sensitivity import sensitivity
 from fmu_bearing.accuracy.tradeoff import tradeoff
-from fmu_bearing.acoustics.analysis.field import circles
-from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cli import app
 from fmu_bearing.engine.choices import FIDELITIES
+from fmu_bearing.recording.channels.sources import sources_of
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.reports import make
 from fmu_bearing.run.settings import Setting
@@ -106,7 +105,7 @@ DOORS = (
     (with_fidelity(SINGLE, model="rings"), SINGLE, {"vibration test": lambda scene, folder: rig(scene)}),
     (sounding("compact"), sounding("bem"), {"plane": {"sound.reflecting_plane_mm": -50.0}}),
     (sounding("table", table_file="a.npz"), sounding("compact"), {
-        "channels": lambda scene, folder: list(circles("table", None, Air(), [(0.0, 1.0, 0.0)], 4)),
+        "channels": lambda scene, folder: sources_of(scene, "table", [(0.0, 1.0, 0.0)], 4),
     }),
     (sounding("paper"), sounding("compact"), {
         "short runs": lambda scene, folder: LevelEstimator([(0.0, 1.0, 0.0)], "paper", "A"),

@@ -9,7 +9,7 @@ import pytest
 
 from fmu_bearing import Bearing, Scene, sweep
 from fmu_bearing.acoustics.filters.bearings import housing_of_set
-from fmu_bearing.acoustics.filters.design import build, radiators_of, silent_parameters
+from fmu_bearing.acoustics.filters.design import radiators_of, silent_parameters
 from fmu_bearing.acoustics.radiation.bem import task
 from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
@@ -29,7 +29,7 @@ from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.housing import middle_mm
 from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Housing as Mounted, Mounting, Rotor
-from tests.acoustics.playback import HOUSED, Player, still
+from tests.acoustics.playback import HOUSED, Player, build, still
 from tests.spindle.test_sound import DIAMETER, LENGTH, RPM, MicrophoneSignals, mute, sound, sounding
 
 HOUSING = {

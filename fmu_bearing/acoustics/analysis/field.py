@@ -9,21 +9,18 @@ between its tabulated frequencies.
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
-from scipy.interpolate import CubicSpline
 
 from fmu_bearing.acoustics.filters.fir import band_limit, decimator_response
-from fmu_bearing.acoustics.radiation.frequencies import STOP, fit_frequencies
-from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
+from fmu_bearing.acoustics.radiation.frequencies import STOP, fit_frequencies, spline_of
+from fmu_bearing.acoustics.radiation.radiators import Path
 from fmu_bearing.acoustics.registry import Radiation, recipe_of
 from fmu_bearing.engine.choices import ChannelForm
 from fmu_bearing.engine.layout import SD
-from fmu_bearing.scene.exclusions import TABLE_CHANNELS
 
 Position = tuple[float, float, float]
 _Responses = Callable[[NDArray[np.float64]], dict[tuple[int, float], NDArray[np.complex128]]]
@@ -40,37 +37,6 @@ class Circle:
 
     members: tuple[int, ...]
     paths: tuple[Path, ...]
-
-
-def circles(
-    model: str,
-    radiators: Radiators,
-    air: Air,
-    positions: Sequence[Position],
-    harmonics: int,
-    **options: Any,
-) -> Iterator[Circle]:
-    """Yield the paths from channels to microphones, circle by circle.
-
-    Parameters
-    ----------
-    model : str
-        Radiation model, any but ``"table"``, which knows its own microphones only.
-    positions : sequence of (x, y, z)
-        Places in m, bearing centre at the origin.
-    harmonics : int
-        Highest circumferential order of the balls among the channels.
-    options
-        Fields of `Radiation` beyond these: reflecting plane, flexural modes.
-
-    Raises
-    ------
-    ValueError
-        On the radiation model ``table``, an unknown one, or a microphone inside a body.
-    """
-    if model == "table":
-        raise ValueError(f'sound.radiation_model = "table" {TABLE_CHANNELS.words()}')
-    yield from joined([(Radiation(model, radiators, air, harmonics, **options), positions)])
 
 
 def joined(sources: Sequence[tuple[Radiation, Sequence[Position]]]) -> Iterator[Circle]:
@@ -256,18 +222,12 @@ def _key(path: Path) -> tuple[int, float]:
 def _interpolated(paths: Sequence[Path]) -> _Responses:
     """Return a function that gives the responses of all paths at frequencies, by `_key` in the paths' order.
 
-    One cubic spline through the responses without their flight times, conjugate at negative frequencies.
     Beyond the last tabulated frequency, where everything fades, the value there is held.
     """
     f = fit_frequencies()
     distinct = {_key(path): path for path in paths}
     flights = np.array([path.flight for path in distinct.values()])
-    still = np.array([path.response for path in distinct.values()]) * np.exp(
-        2j * np.pi * np.outer(flights, f)
-    )
-    spline = CubicSpline(
-        np.concatenate([-f[::-1], f]), np.concatenate([still[:, ::-1].conj(), still], axis=1), axis=1
-    )
+    spline = spline_of(f, np.array([path.response for path in distinct.values()]), flights[:, None])
 
     def evaluate(frequency: NDArray[np.float64]) -> dict[tuple[int, float], NDArray[np.complex128]]:
         found = spline(np.minimum(frequency, f[-1]))

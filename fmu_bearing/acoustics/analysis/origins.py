@@ -15,7 +15,7 @@ q f_b, q f_b +- f_c  form of the balls: axial, and radial with tilt
 k f_o alone is also what balls make that pass the place of a radial load (varying compliance).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fmu_bearing.acoustics.analysis.lines import combination
@@ -106,16 +106,6 @@ def bearing_origins(
         for carrier, modulator, source, n, m in _combinations(frequencies, highest, sidebands, ball_sidebands)
     )  # fmt: skip
     return sorted((one for one in found if 0.0 < one.order <= highest), key=lambda one: one.order)
-
-
-def origins(
-    bearings: Sequence[KinematicFrequencies], highest: float, sidebands: int = _SIDEBANDS
-) -> list[Origin]:
-    """Return the lines of a shaft and its bearings up to the order ``highest``, by order."""
-    found = shaft_origins(highest)
-    for number, frequencies in enumerate(bearings, start=1):
-        found += bearing_origins(frequencies, highest, number, sidebands)
-    return sorted(found, key=lambda one: (one.order, one.bearing))
 
 
 def _wave(carrier: str, n: int, m: int, balls: int) -> int:

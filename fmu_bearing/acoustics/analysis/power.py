@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
+from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.acoustics.radiation.effective import cylinder_volumes, ring_volumes
 from fmu_bearing.acoustics.radiation.radiators import Air, Radiators
 from fmu_bearing.engine.layout import SD
@@ -87,9 +87,8 @@ def power_from_pressure(mean_squares: ArrayLike, radius: float, air: Air, hemisp
         raise ValueError(f"power needs points on a sphere of positive radius, not {squares.size=}, {radius=}")
     area = (2.0 if hemisphere else 4.0) * np.pi * radius**2
     watts = float(squares.mean()) * area / (air.density * air.sound_speed)
-    levels = 10.0 * np.log10((squares + 1e-20) / REFERENCE_PRESSURE**2)
-    mean = 10.0 * np.log10((squares.mean() + 1e-20) / REFERENCE_PRESSURE**2)
-    return Power(watts, float(power_level(watts)), float(mean), float(np.ptp(levels)))
+    spread = float(np.ptp(level(squares)))
+    return Power(watts, float(power_level(watts)), float(level(squares.mean())), spread)
 
 
 def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64]]:
@@ -114,11 +113,9 @@ def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64
     first = SD.C_HARMONICS  # of order 1
     balls[0, SD.C_BALLS + SD.MEAN_X] = 1.0
     if channels >= first + SD.HARMONIC_SIZE:
-        balls[1, [first + SD.HARMONIC_R_SIN, first + SD.HARMONIC_T_COS]] = -1.0  # a_y = -a_r sin - a_t cos
-        balls[2, first + SD.HARMONIC_R_COS], balls[2, first + SD.HARMONIC_T_SIN] = (
-            1.0,
-            -1.0,
-        )  # a_z = a_r cos - a_t sin
+        # a_y = -a_r sin - a_t cos, a_z = a_r cos - a_t sin
+        balls[1, [first + SD.HARMONIC_R_SIN, first + SD.HARMONIC_T_COS]] = -1.0
+        balls[2, [first + SD.HARMONIC_R_COS, first + SD.HARMONIC_T_SIN]] = 1.0, -1.0
     found["balls"] = balls * (2.0 * np.pi * (radiators.ball_diameter / 2.0) ** 3)
     return found
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.filters.blocks import Wire
 from fmu_bearing.acoustics.filters.fir import band_limit, delay_of, fit
-from fmu_bearing.acoustics.filters.pack import Lines, Ray, pack
+from fmu_bearing.acoustics.filters.pack import Group, Lines, Ray, pack
 from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies, spline_of
 from fmu_bearing.acoustics.radiation.radiators import Air, Housing, Path, Radiators, Ring
 from fmu_bearing.acoustics.radiation.table import Table, read_table, select
@@ -20,7 +20,7 @@ from fmu_bearing.scene import Scene, si
 
 __all__ = [
     "FilterError",
-    "build",
+    "block_of",
     "filter_errors",
     "line_parameters",
     "radiation_of",
@@ -64,15 +64,6 @@ class FilterError:
     error: float
 
 
-@dataclass(frozen=True)
-class Group:
-    """Microphones that share filters: weights (output, microphone) of the outputs from ``first`` on."""
-
-    members: tuple[int, ...]
-    first: int
-    weights: NDArray[np.float64]
-
-
 class Circle(NamedTuple):
     """Microphones that share filters: paths to them, the output and factor of each path."""
 
@@ -107,7 +98,7 @@ def sound_parameters(
         return np.zeros(0)
     positions = [position for _, position in scene.microphones]
     radiation = radiation_of(scene, modes, radiators, table)
-    return _block(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
+    return block_of(radiation, positions, details=scene.sound.details, thirds=scene.sound.third_octaves)
 
 
 def line_parameters(
@@ -266,51 +257,7 @@ def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:
     )
 
 
-def build(
-    model: str,
-    radiators: Radiators,
-    air: Air,
-    microphones: Sequence[Position],
-    harmonics: int = 4,
-    *,
-    modes: Sequence[Any] = (),
-    plane: float | None = None,
-    table: Table | None = None,
-    details: bool = True,
-    thirds: bool = False,
-    lengths: Sequence[int] | None = None,
-) -> NDArray[np.float64]:
-    """Sound block from plain numbers.
-
-    Parameters
-    ----------
-    model
-        Radiation model, see `registry`.
-    microphones
-        Places (x, y, z) in m, bearing centre at the origin.
-    harmonics
-        Highest circumferential order of the balls' sound.
-    modes, plane, table
-        See `registry.Radiation`.
-    details
-        Whether Fast, Slow, energy sum and levels per source type are metered.
-    thirds
-        Whether third octaves are.
-    lengths
-        Block lengths of the convolution (powers of two from 8 to 512, ascending); empty: direct form;
-        default: the cheapest.
-
-    Raises
-    ------
-    ValueError
-        On another radiation model, a microphone inside a body, a block length that is not possible, or a
-        filter that misses its transfer function by more than -30 dB.
-    """
-    radiation = Radiation(model, radiators, air, harmonics, tuple(modes), plane, table)
-    return _block(radiation, microphones, details=details, thirds=thirds, lengths=lengths)
-
-
-def _block(
+def block_of(
     radiation: Radiation,
     microphones: Sequence[Position],
     *,
@@ -318,6 +265,13 @@ def _block(
     thirds: bool,
     lengths: Sequence[int] | None = None,
 ) -> NDArray[np.float64]:
+    """Sound block of what radiates, for samples; parameters and errors: see `pack.pack`.
+
+    Raises
+    ------
+    ValueError
+        Also where a microphone lies inside a body or a filter misses its transfer function by over -30 dB.
+    """
     wires, groups, sources = _design(radiation, microphones, [])
     return pack(radiation, wires, groups, sources, details=details, thirds=thirds, lengths=lengths)
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,20 +36,13 @@ MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement micro
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
 
 
-class Members(Protocol):
-    """Microphones that share filters, see `design.Group`."""
+@dataclass(frozen=True)
+class Group:
+    """Microphones that share filters: weights (output, microphone) of the outputs from ``first`` on."""
 
-    @property
-    def members(self) -> tuple[int, ...]:
-        """Indices of the microphones."""
-
-    @property
-    def first(self) -> int:
-        """First output."""
-
-    @property
-    def weights(self) -> NDArray[np.float64]:
-        """Weights, shape (outputs, microphones)."""
+    members: tuple[int, ...]
+    first: int
+    weights: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -101,7 +94,7 @@ class _Block:
 def pack(
     radiation: Radiation,
     wires: Sequence[Wire],
-    groups: Sequence[Members],
+    groups: Sequence[Group],
     sources: Sequence[tuple[int, int]],
     *,
     details: bool,
@@ -205,7 +198,7 @@ def _put_sources(block: _Block, sources: Sequence[tuple[int, int]]) -> None:
     block.head[SD.H_AT_OUTPUTS] = block.put([kinds.index(source) for source in sources])
 
 
-def _put_groups(block: _Block, groups: Sequence[Members], lines: Lines | None) -> None:
+def _put_groups(block: _Block, groups: Sequence[Group], lines: Lines | None) -> None:
     rows = []
     tables: dict[int, int] = {}
     lane = 0
@@ -320,7 +313,7 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
     found[SD.H_STATE] = end
 
 
-def _bounds(groups: Sequence[Members], lines: Lines, channels: int) -> NDArray[np.float64]:
+def _bounds(groups: Sequence[Group], lines: Lines, channels: int) -> NDArray[np.float64]:
     """Root of the microphones' summed squared pressures per channel, the largest over each run of nodes.
 
     Shape (runs, channels). A tenth more covers what a cubic does between nodes.

@@ -15,15 +15,17 @@ def fit_frequencies() -> NDArray[np.float64]:
     )
 
 
-def spline_of(frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float) -> CubicSpline:
-    """Cubic spline of a transfer function whose flight time (s) is taken out.
+def spline_of(
+    frequency: NDArray[np.float64], response: NDArray[np.complex128], flight: float | NDArray[np.float64]
+) -> CubicSpline:
+    """Cubic spline of transfer functions (..., frequencies) whose flight times (s) are taken out.
 
     Towards zero frequency it knows that negative frequencies carry the conjugate.
     """
     still = response * np.exp(2j * np.pi * frequency * flight)
     low = frequency > 0.0
     ends = np.concatenate([-frequency[low][::-1], frequency])
-    return CubicSpline(ends, np.concatenate([still[low][::-1].conj(), still]))
+    return CubicSpline(ends, np.concatenate([still[..., low][..., ::-1].conj(), still], axis=-1), axis=-1)
 
 
 def between(

@@ -88,22 +88,8 @@ def _families(radiators: Radiators) -> list[_Family]:
     out, inwards = (sine, cosine, 0.0), (-sine, -cosine, 0.0)
     # the normal of a ring's channel points from the inner race to the outer; the outer race looks inwards
     families = [
-        _Family(
-            SD.FAMILY_INNER,
-            INNER,
-            inner,
-            share * inner * radiators.inner_ring.width,
-            (sine, cosine, 0.0),
-            1.0,
-        ),
-        _Family(
-            SD.FAMILY_OUTER,
-            OUTER,
-            outer,
-            share * outer * radiators.outer_ring.width,
-            (-sine, -cosine, 0.0),
-            -1.0,
-        ),
+        _Family(SD.FAMILY_INNER, INNER, inner, share * inner * radiators.inner_ring.width, out, 1.0),
+        _Family(SD.FAMILY_OUTER, OUTER, outer, share * outer * radiators.outer_ring.width, inwards, -1.0),
         _Family(SD.FAMILY_BALLS, BALLS, outer, half, out, 1.0),
         _Family(SD.FAMILY_BALLS, BALLS, inner, half, inwards, -1.0),
     ]

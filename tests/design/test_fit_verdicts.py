@@ -90,6 +90,11 @@ def test_rings_without_strength_and_rings_of_steel_are_not_judged(ceramic, steel
     (point,) = steel.bearings
     hard = found(point)["hoop_inner"]
     assert hard.judgement == NONE and "no limit of hardened steel rings was read" in hard.source
+    # of the interference taken, not of the largest of the class: cold and warm at rest, warm at speed
+    own = mounted(point.scene)
+    hoops = [own.at("inner", speed, warm).hoop for speed, warm in ((0.0, 0.0), (0.0, 1.0), (own.speed, 1.0))]
+    assert hard.value == pytest.approx(GROOVE * max(hoops), rel=1e-12)
+    assert f"{1e-6 * hard.value:.0f} MPa" in hard.text
 
 
 @pytest.mark.parametrize(

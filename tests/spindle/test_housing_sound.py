@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Bearing, Scene, sweep
-from fmu_bearing.acoustics.filters.bearings import housing_of_set
-from fmu_bearing.acoustics.filters.design import radiators_of, silent_parameters
+from fmu_bearing.acoustics.filters.bearings import front_of_set, housing_of_set
+from fmu_bearing.acoustics.filters.design import build, radiators_of, silent_parameters
 from fmu_bearing.acoustics.radiation.bem import task
 from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of
@@ -228,6 +228,13 @@ def test_the_slot_of_a_set_is_open_ahead_whichever_way_its_first_bearing_carries
     assert along[order] == pytest.approx(1e-3 * np.array(wanted), abs=1e-12)
     ring, shaft = 0.5 * given.bearing.outside_diameter_mm, 8.5
     assert body.contour[order, 1][[1, 7, 8, 9]] == pytest.approx(1e-3 * np.array([shaft, ring, ring, 50.0]))
+
+
+@pytest.mark.parametrize(("signs", "turned"), [("+-", False), ("-+", True)])
+def test_a_plane_shows_the_faces_of_the_first_bearing(signs, turned):
+    """Ahead of the plane is -X of the shaft: +X in the axes of a bearing that carries towards -X."""
+    shown = front_of_set(housed(signs, model="bem", sound_keys={"radiator": "baffle"}))
+    assert shown.baffle and shown.turned == turned
 
 
 def test_the_front_of_a_turned_housing_looks_the_other_way():

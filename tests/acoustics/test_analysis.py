@@ -172,6 +172,15 @@ def test_order_map_and_waterfall_of_a_run_up():
     assert peak == pytest.approx(20 + 50 * fall.time[late], abs=20)
 
 
+def test_blocks_have_the_constant_speed_of_their_shaft():
+    """Between the first and the last sample of a block, which are one less than the samples apart."""
+    t = np.arange(round(RATE)) / RATE
+    angle = 2.0 * np.pi * 50.0 * t
+    for found in (order_map(np.sin(angle), angle, RATE, 12.0), waterfall(np.sin(angle), angle, RATE, 4000.0)):
+        # angles of 300 rad between samples at 48 kHz: rounding of 1e-11 over a block
+        assert found.speed == pytest.approx(np.full(len(found.speed), 100.0 * np.pi), rel=1e-9)
+
+
 def test_backward_turns_count_too_and_a_stop_is_refused():
     _, angle, signal, _ = run_up(0.5)
     assert on_angle(signal, -angle, 20.0)[0] == pytest.approx(on_angle(signal, angle, 20.0)[0])

@@ -1,5 +1,7 @@
 """Lines by least squares: against NumPy's solution of the whole equations, and the near-integer trap."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -81,3 +83,13 @@ def test_a_line_beside_a_whole_order_lets_noise_grow():
     # 5 f_r beside f_o at a tenth of 1/20; others stand apart, at less than 30 % more than alone
     assert growth[4] > 3.0
     assert growth[[0, 1, 2]] == pytest.approx(1.0, abs=0.3)
+
+
+def test_lines_at_one_order_share_by_the_squares_of_their_terms():
+    """What nothing parts is shared so that the pull is least: terms 1 and 3 get 9 to 1."""
+    lines = [replace(bearing_origins(RATES, 6.0)[0], order=CAGE, terms=terms) for terms in (1, 3)]
+    fit = LineFit(lines, 20, POINTS)
+    one, other = fit.amplitudes(np.cos(CAGE * angles(20))[:, None])[1:, 0]
+    # the pull takes a millionth of the sum; equations this near to singular leave 1e-9
+    assert one / other == pytest.approx(9.0, rel=1e-5)
+    assert one + other == pytest.approx(1.0, abs=1e-5)

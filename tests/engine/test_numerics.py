@@ -125,6 +125,30 @@ def test_land_is_isotropic_in_its_middle():
     np.testing.assert_allclose(forces, straight, rtol=0.0, atol=2e-4 * np.abs(still).max())
 
 
+@pytest.mark.parametrize(("journal_speed", "sleeve"), [(2094.0, 880.0), (880.0, 2094.0), (-2094.0, -880.0)])
+def test_the_dry_stop_drags_the_cage_along_and_brakes_the_ring(journal_speed, sleeve):
+    """Coulomb's law at the place behind the ring's centre where both surfaces touch; no oil."""
+    p = np.zeros(P.TABLES)
+    clearance, radius, share, stiffness, mu, slip = 4e-5, 11.66e-3, 0.96, 5e6, 0.05, 0.1
+    p[P.LAND_CLEARANCE], p[P.LAND_RADIUS], p[P.LAND_LENGTH] = clearance, radius, 2.25e-3
+    p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_STIFFNESS] = share, stiffness
+    p[P.LAND_STOP_FRICTION], p[P.LAND_STOP_SLIP] = mu, slip
+    way, apart = np.array([0.6, -0.8]), 3.9e-5
+    *force, on_ring, on_cage, energy, lost = land(p, 0.0, *(apart * way), 0.0, 0.0, journal_speed, sleeve)
+    push = apart - share * clearance
+    # both touch at -way; a spin about x moves a point at r by spin x r
+    ahead = np.array([way[1], -way[0]])
+    sliding = radius * journal_speed - (radius + apart) * sleeve
+    drag = mu * stiffness * push * sliding / math.hypot(sliding, slip)
+    np.testing.assert_allclose(force, -stiffness * push * way + drag * ahead, rtol=1e-12)
+    assert on_ring == pytest.approx(-radius * drag, rel=1e-12)
+    # about the ring's centre nothing is left over; what rubs is lost
+    moment = apart * (way[0] * force[1] - way[1] * force[0])
+    assert on_ring + on_cage + moment == pytest.approx(0.0, abs=1e-12 * abs(on_ring))
+    assert energy == pytest.approx(0.5 * stiffness * push**2, rel=1e-9)
+    assert lost == pytest.approx(drag * sliding, rel=1e-9) and lost > 0.0
+
+
 def random_blocks(rng, p, lanes, balls):
     jac = np.zeros(J.SIZE)
     jac[: J.E] = rng.normal(size=J.E)

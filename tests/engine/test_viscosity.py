@@ -12,6 +12,7 @@ from fmu_bearing.engine.layout import P
 from fmu_bearing.engine.mechanics.conditions import (
     rolling_reduction,
     sheared_viscosity,
+    thickest_useful,
     thinning,
     viscosity,
 )
@@ -160,3 +161,20 @@ def test_held_starvation_at_standstill_and_without_any():
         assert reduction(p, 1e9, 0.0) == pytest.approx(1.0, abs=1e-3)
     p[P.STARVATION] = 0.0
     assert 0.0 < reduction(p, 1e3, 2000.0) < 0.1  # inlet shear heating alone
+
+
+@pytest.mark.parametrize("power", [0.66, 0.75])
+@pytest.mark.parametrize("heated", [1e-6, 1e-2, 1.0])
+@pytest.mark.parametrize("starved", [1e-5, 1e-3])
+def test_the_thickest_useful_oil_has_the_largest_resistance(power, heated, starved):
+    """Of nu^power exp(-starved nu)/(1 + heated nu^0.64), among viscosities beside it; thinner oil stays."""
+
+    def logarithm(nu):
+        return power * math.log(nu) - starved * nu - math.log1p(heated * nu**0.64)
+
+    largest = thickest_useful(power, heated, starved, 1e9)
+    assert all(logarithm(largest) > logarithm(largest * share) for share in (0.5, 0.999, 1.001, 2.0))
+    # where the slope of the logarithm vanishes
+    x = heated * largest**0.64
+    assert starved * largest + 0.64 * x / (1.0 + x) == pytest.approx(power, rel=1e-9)
+    assert thickest_useful(power, heated, starved, 0.9 * largest) == 0.9 * largest

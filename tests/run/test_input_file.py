@@ -46,6 +46,12 @@ def test_units_separators_and_decimal_commas(tmp_path, text):
     np.testing.assert_array_equal(table["radial_load.z"], [-1.5, 2.5])
 
 
+def test_values_at_both_bounds_are_taken(tmp_path):
+    table = read(tmp_path, "time,preload,oil_temperature_degC\n0,0,-40.15\n1,10000,199.85\n")
+    np.testing.assert_allclose(table["preload"], [0.0, 1e4], rtol=1e-15)
+    np.testing.assert_allclose(table["oil_temperature"], [233.0, 473.0], rtol=1e-15)
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

@@ -8,7 +8,7 @@ import pytest
 from fmu_bearing import with_fidelity
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
-from fmu_bearing.run.paces import Paces, motions, paces
+from fmu_bearing.run.paces import Paces, motions, paces, speed
 from tests.conftest import ROOT
 
 
@@ -64,3 +64,17 @@ def test_a_bearing_stays_where_it_is_timed():
     np.testing.assert_array_equal(one.u, inputs)
     assert found.slowest == min(found.constant, found.ramp, found.warming, found.ripple) > 0.0
     assert math.isnan(Paces().slowest)
+
+
+def test_inputs_move_with_the_time_that_is_simulated():
+    """Two steps to see how long one takes, then as many as the longest time has, from the begin again."""
+    times = []
+
+    class Stub:
+        s, u = np.zeros(1), np.zeros(1)
+
+        def step(self, h):
+            sum(range(30_000))  # its time must not be nothing
+
+    speed(Stub(), 1.0, 1, 0.01, motion=lambda u, time: times.append(time))
+    np.testing.assert_allclose(times, [1e-3, 2e-3, *(1e-3 * np.arange(1, 11))], rtol=1e-12)

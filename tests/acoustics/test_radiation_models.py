@@ -275,6 +275,39 @@ def test_normal_velocities_at_orbiting_contacts_change_as_motion_in_vectors_says
     assert found[:, SD.FAMILY_RATE] == pytest.approx(rate, abs=1e-2)
 
 
+def test_scalars_of_the_paper_are_rates_of_magnitudes():
+    """Eqs. 16, 19, 28 and 41 by a difference: |v| across the axis, |2 w_x, w_y, w_z| times half the radius."""
+    rng, number, h = np.random.default_rng(4), SMALL.ball_count, 1e-6
+    places = [MO.PER_BODY * body + first for body in range(3) for first in (MO.VELOCITY, MO.SPIN)]
+    places += [ball(j, first) for first in (MO.BALL_VELOCITY, MO.BALL_SPIN) for j in range(number)]
+    steps = [1] * 6 + [STRIDE] * 2 * number
+    behind = [MO.ACCELERATION - MO.VELOCITY] * 6 + [MO.BALL_ACCELERATION - MO.BALL_VELOCITY] * 2 * number
+    values, rates = rng.normal(size=(2, len(places), 3))
+    motion = np.zeros(MO.SIZE)
+    for at, step, rate_at, value, rate in zip(places, steps, behind, values, rates, strict=True):
+        motion[at : at + 3 * step : step], motion[at + rate_at : at + rate_at + 3 * step : step] = value, rate
+    ps = build("paper", SMALL, Air(), [(0.0, 0.15, 0.0)])
+    row = np.zeros(int(ps[SD.H_RAW]))
+    keep(ps, motion, row)
+    before, after = (values + way * h * rates for way in (-1.0, 1.0))
+
+    def rate_of(rows, weights):
+        sizes = [np.linalg.norm(one[rows] * weights, axis=1) for one in (before, after)]
+        return (sizes[1] - sizes[0]) / (2.0 * h)
+
+    bodies, balls = slice(0, 6), slice(6, None)
+    outer = np.array([SMALL.inner_ring.outer, SMALL.outer_ring.outer, SMALL.cage.outer])
+    across, turning = rate_of(bodies, [0.0, 1.0, 1.0])[::2], rate_of(bodies, [2.0, 1.0, 1.0])[1::2]
+    # of 1 m/s2: the difference errs by h squared, and by rounding of 1e-16 over h
+    assert row[SD.C_CYLINDERS : SD.C_CYLINDERS + 3] == pytest.approx(across, abs=1e-8)
+    assert row[SD.C_POINTS : SD.C_POINTS + 3] == pytest.approx(0.25 * outer * turning, abs=1e-8)
+    assert row[SD.C_PISTONS : SD.C_PISTONS + 3] == pytest.approx(rates[bodies][::2, 0], rel=1e-15)
+    own = row[SD.C_PAPER_BALLS :][: SD.PAPER_BALL * number].reshape(number, SD.PAPER_BALL).T
+    moving, spinning = rate_of(balls, [1.0, 1.0, 1.0]).reshape(2, number)
+    assert own[0] == pytest.approx(moving, abs=1e-8)
+    assert own[1] == pytest.approx(0.25 * SMALL.ball_diameter * spinning, abs=1e-8)
+
+
 def test_contact_paths_need_a_place_outside():
     with pytest.raises(ValueError, match="inside the bearing"):
         contact_paths(SMALL, Air(), MicrophoneCircle(0.01, 0.0, [0.0]), 4)

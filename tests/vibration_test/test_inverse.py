@@ -1,5 +1,7 @@
 """Surfaces from measured bands and lines: draws against closed forms and grids, round trips, refusals."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import log_ndtr
@@ -11,9 +13,10 @@ from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.scene.surface import Surface
-from fmu_bearing.vibration_test.inverse.energies import Energies, line_window
+from fmu_bearing.vibration_test.inverse.energies import Energies, band_windows, energies, line_window
 from fmu_bearing.vibration_test.inverse.posterior import Prior, Value, posterior
-from fmu_bearing.vibration_test.inverse.runs import BALL_EXPONENTS, BENT_AT, EXPONENT
+from fmu_bearing.vibration_test.inverse.runs import AMPLITUDE_UM, BALL_EXPONENTS, BENT_AT, EXPONENT
+from fmu_bearing.vibration_test.lines import frequencies
 from fmu_bearing.vibration_test.reading import Reading, reading, share
 from fmu_bearing.vibration_test.rig import bands, rig
 from tests.conftest import EXAMPLES
@@ -122,6 +125,21 @@ def test_form_of_the_balls_is_that_of_a_grid():
         assert np.quantile(values_of, QUANTILES) == pytest.approx(expected, rel=0.08)
 
 
+def test_form_of_the_balls_between_its_exponents():
+    """A logarithm of second order in the exponent is met everywhere, for each draw and each of bending."""
+    low, middle, high = BALL_EXPONENTS
+    assert high - middle == pytest.approx(middle - low)
+    rng = np.random.default_rng(6)
+    first, second, third = rng.normal(size=(3, 2, 4))  # windows, draws
+    balls = np.exp([first + x * second + x**2 * third for x in (-1.0, 0.0, 1.0)]).transpose(1, 0, 2)
+    nothing, bending = np.zeros((2, 1)), rng.uniform(1.0, 2.0, (2, 3))
+    found = Energies(("L", "H"), np.array([12]), np.array([900]), nothing, nothing, balls, bending)
+    assert found.seeds == 4
+    x, draw, bent = np.array([-1.2, 0.3, 0.8]), np.array([0, 3, 1]), np.array([2, 0, 1])
+    wanted = np.exp(first[:, draw] + x * second[:, draw] + x**2 * third[:, draw]) * bending[:, bent]
+    assert found.forms(middle + x * (high - middle), draw, bent) == pytest.approx(wanted.T, rel=1e-12)
+
+
 def test_a_limit_cuts_one_side():
     """Oracle: the evenly spread bounds, times the chance to lie below the limit; one band beside a value."""
     prior = Prior((0.05, 1.0), (10.0, 160.0), (1.35, 1.3501))
@@ -151,6 +169,40 @@ def test_energies_of_a_law_are_sums_over_orders():
     assert strong.inner_orders.size < 0.3 * found.inner_orders.size
     # what is left out is interpolated over the exponent, by steps of 0.05
     assert strong.races(exponent) == pytest.approx(found.races(exponent), rel=1e-3)
+
+
+def test_energy_of_a_bin_belongs_to_the_order_whose_line_is_nearest():
+    """Inner race: waves 11 at f_i - f_r, 24 at 2 f_i; outer of residues 1, -1: 25 at 2 f_o, 35 at 3 f_o."""
+    given = known.stub()
+    width, bins = given.frequency[1], given.frequency.size
+    rates = frequencies(given.scene, Reading(given.frequency, given.inner, 0.0, given.orbit))
+
+    def spectrum(**energies_at):
+        found = np.zeros(bins)
+        for name, energy in energies_at.items():
+            found[round(places[name] / width)] = energy
+        return found
+
+    places = {"wave_11": rates.f_i - rates.f_r, "wave_24": 2.0 * rates.f_i, "low": 200.0}
+    places |= {"wave_25": 2.0 * rates.f_o, "wave_35": 3.0 * rates.f_o}
+    made = replace(
+        given, inner=spectrum(wave_11=3.0, wave_24=5.0), residues=np.array([1, 11]),
+        outer=np.array([spectrum(wave_25=7.0), spectrum(wave_35=11.0)]),
+        rigid=np.tile(spectrum(low=4.0), (3, 2, 1)), bent=spectrum(low=6.0)[None],
+    )  # fmt: skip
+    windows = band_windows(given.scene)
+    found = energies(made, windows)
+    for orders, rows, wanted in (
+        (found.inner_orders, found.inner, {11: 3.0, 24: 5.0}),
+        (found.outer_orders, found.outer, {25: 7.0, 35: 11.0}),
+    ):
+        sums = dict(zip(orders.tolist(), AMPLITUDE_UM**2 * rows.sum(axis=0), strict=True))
+        assert {order: energy for order, energy in sums.items() if energy} == pytest.approx(wanted)
+    low = next(k for k, one in enumerate(windows) if one.low < 200.0 < one.high)
+    balls = np.zeros((len(windows), 3, 2))
+    balls[low] = 4.0 / given.form_nm**2
+    assert found.balls == pytest.approx(balls)
+    assert found.bending[low] == pytest.approx([1.5])
 
 
 # --- the public function ---------------------------------------------------------------------------

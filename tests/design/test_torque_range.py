@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -12,6 +13,7 @@ from fmu_bearing.design.heat import heat_table
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.torque_range import End, Input, TorqueRange, torque_range
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
 from fmu_bearing.scene import SceneError, read_scene
 from tests.conftest import EXAMPLES
@@ -241,3 +243,14 @@ def test_info_shows_it_beside_the_torque(file):
     assert data["torque_range"]["friction_torque_N_m"] == pytest.approx(list(ranges.total))
     low, high = data["torque_range"]["heat_W"]
     assert low < data["heat_W"]["total"] < high
+
+
+def test_ends_of_the_supply_are_named():
+    """Starved with the makers' constant for oil-air and flooded with the one for oil baths, both by name."""
+    scene = read_scene(EXAMPLES / "7003C-bare.toml")
+    p = np.zeros(P.TABLES)
+    assert module._supply(scene, p) is None  # no rolling resistance of the oil
+    p[P.ROLLING] = 1.0
+    keys = ("lubricant.rolling_law", "lubricant.replenishment_constant")
+    starved, flooded = (dict(zip(keys, one, strict=True)) for one in (("starved", 6e-8), ("flooded", 3e-8)))
+    assert module._supply(scene, p) == (("starved", starved), ("flooded", flooded))

@@ -71,7 +71,7 @@ def test_each_bearing_has_its_part(made):
 
 
 def test_explained_is_a_share_of_energy(made):
-    """Noise of the root mean square of a bearing's line beside it: a half, and what the fit takes of noise."""
+    """Noise with the root mean square of a bearing's line: a half, and what the fit takes of noise."""
     found = made({CAGE: 3.0, 2.0: 7.0}, noise=3.0 / np.sqrt(2.0))
     lines = [line.origin for line in found.lines]
     taken, whole = (2.0 * sum(pick(one) for one in lines) / (TURNS * PER_REVOLUTION)

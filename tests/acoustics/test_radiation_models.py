@@ -276,7 +276,7 @@ def test_normal_velocities_at_orbiting_contacts_change_as_motion_in_vectors_says
 
 
 def test_scalars_of_the_paper_are_rates_of_magnitudes():
-    """Eqs. 16, 19, 28 and 41 by a difference: |v| across the axis, |2 w_x, w_y, w_z| times half the radius."""
+    """Eqs. 16, 19, 28 and 41 by a difference: |v| across the axis, |2 w_x, w_y, w_z| times half a radius."""
     rng, number, h = np.random.default_rng(4), SMALL.ball_count, 1e-6
     places = [MO.PER_BODY * body + first for body in range(3) for first in (MO.VELOCITY, MO.SPIN)]
     places += [ball(j, first) for first in (MO.BALL_VELOCITY, MO.BALL_SPIN) for j in range(number)]
@@ -285,7 +285,8 @@ def test_scalars_of_the_paper_are_rates_of_magnitudes():
     values, rates = rng.normal(size=(2, len(places), 3))
     motion = np.zeros(MO.SIZE)
     for at, step, rate_at, value, rate in zip(places, steps, behind, values, rates, strict=True):
-        motion[at : at + 3 * step : step], motion[at + rate_at : at + rate_at + 3 * step : step] = value, rate
+        motion[at : at + 3 * step : step] = value
+        motion[at + rate_at : at + rate_at + 3 * step : step] = rate
     ps = build("paper", SMALL, Air(), [(0.0, 0.15, 0.0)])
     row = np.zeros(int(ps[SD.H_RAW]))
     keep(ps, motion, row)

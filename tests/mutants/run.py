@@ -30,7 +30,8 @@ from tests.mutants.entries import LISTS, ROOT, Mutant, mutants, read
 
 #: What tests read beside the package and themselves.
 COPIED = ("fmu_bearing", "tests", "examples", "benchmarks", "docs", "modelDescription", "pyproject.toml",
-          "build_fmu.py", "README.md", "CONTRIBUTING.md", "constraints.txt")  # fmt: skip
+          "build_fmu.py", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE",
+          "constraints.txt")  # fmt: skip
 #: What tests and the package load of others, loaded once.
 LOADED = ("numba", "scipy.signal", "scipy.optimize", "scipy.interpolate", "scipy.linalg",
           "scipy.sparse.linalg", "pydantic", "typer", "rich", "matplotlib.pyplot", "plotly.graph_objects",

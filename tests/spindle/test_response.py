@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Bearing, SceneError, read_scene, simulate, with_fidelity
-from fmu_bearing.engine.layout import SP, L, P, S, U, Z
+from fmu_bearing.engine.fidelities.response.coupled_lines import line_phases
+from fmu_bearing.engine.layout import SP, L, P, S, T, U, Z
 from fmu_bearing.engine.status import OK, OTHER_FIDELITY
 from tests.conftest import ROOT
 from tests.engine.condensed import FIDELITIES, answer
@@ -206,3 +207,21 @@ def test_vibration_on_all_seats_is_that_of_full(seat):
     given = wavy(given.replace({"spindle.shaft.unbalance": HEAVY})).replace(SMALL)
     ratio = compared(given, bent(given), settle=0.1, duration=0.03, fidelity=RESPONSE)
     assert np.abs(ratio - 1.0).max() < 0.1
+
+
+def test_phases_ahead_run_as_fast_as_their_lines():
+    """By a difference over the time ahead, for lines of orbit, shaft and rolling of a set on a shaft."""
+    given, _ = set_of_one(True, 20000.0)
+    run = SetRun(given, FIDELITY=RESPONSE).init()
+    table, many, h = lines(run), 12, 1e-7
+    assert np.abs(table[:many, L.LINE_SHAFT]).max() > 0.0
+    at = int(run.row(0)[SP.ROW_W])
+    work = run.w[at : at + int(run.row(0)[SP.ROW_W_SIZE])]
+    turned, speeds = [], []
+    for ahead in (1e-3 - h, 1e-3 + h):
+        line_phases(run.p, run.s, work, table.ravel(), 0, many, ahead)
+        turned.append(work[T.COS : T.COS + many] + 1j * work[T.SIN : T.SIN + many])
+        speeds.append(work[T.DX : T.DX + many].copy())
+    # a phase of 1e5 rad/s keeps 1e-12 of itself; at constant speed nothing bends
+    found = np.angle(turned[1] / turned[0]) / (2.0 * h)
+    np.testing.assert_allclose(found, speeds[0], rtol=1e-5, atol=1e-1)

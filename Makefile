@@ -1,14 +1,16 @@
 # make demo    install, build the FMU, run the spindle co-simulation; results under out/
-# make test    install with test tools and run the tests that take seconds
+# make test    install with test tools and run the tests that take seconds: five minutes from nothing
 # make heavy   the tests that take minutes
 # make bits    compare the bits of kernels compiled in all ways; after a change in compiled/ or fmi/native/
-# make lint    style, format, types, imports and the site, checked by their tools
+# make lint    style, format, types and imports, checked by their tools
+# make pages   the documentation: figures, tables, links, code of pages, and the site
 # make soak    random walks with other draws for half an hour (SOAK=1800 s)
 # make bench   time the fidelities beside other programs; writes docs/results/benchmark.md and .csv
 # make tables  make the tables of docs/results again that another engine made, an hour of an idle machine
 # make papers  run the papers' cases and write docs/papers; a quarter of an hour, kept under out/papers
 # make measured  compare with what others measured; writes docs/measured.md, its figures and its tables
-# make docs    build the documentation site into out/site; opens from the disk, works offline
+# make docs    make pages, then make site
+# make site    build the documentation site into out/site; opens from the disk, works offline
 # make wheels  one wheel per platform with compiled kernels inside, and a universal one, into out/wheels
 # make wheel-check   look into these wheels, and use this machine's in a new environment without a compiler
 # make release-fmus  the FMUs of the example scenes for the same platforms, into out/fmus
@@ -28,15 +30,15 @@ BEARING := $(OUT)/Bearing7003C.fmu
 SOURCES := $(shell find fmu_bearing modelDescription -type f ! -name '*.pyc' 2>/dev/null)
 
 # Two test workers on two cores: linear algebra libraries must not start threads of their own.
-test heavy bits lint soak tables papers measured: export OPENBLAS_NUM_THREADS = 1
+test heavy bits lint pages soak tables papers measured: export OPENBLAS_NUM_THREADS = 1
 # No process has to compile sources again that one before it has imported, whatever the user's shell says.
 export PYTHONDONTWRITEBYTECODE =
 
 # .ci/run holds skipped tests against a list.
 SKIPS ?=
 
-.PHONY: demo test heavy bits lint soak bench tables papers measured docs kernels compiled wheels wheel-check \
-	release-fmus fresh-tables clean
+.PHONY: demo test heavy bits lint pages soak bench tables papers measured docs site kernels compiled wheels \
+	wheel-check release-fmus fresh-tables clean
 .DELETE_ON_ERROR:
 
 demo: $(BEARING) $(OUT)/SpindleMotor.fmu
@@ -57,7 +59,8 @@ $(OUT)/SpindleMotor.fmu: $(VENV)/.installed $(wildcard $(SPINDLE)/*.py $(SPINDLE
 # took longest go first (tests/order.py); TIMES=--measure-times measures them again.
 TIMES ?=
 test: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not heavy and not bits and not lint" \
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder \
+		-m "not heavy and not bits and not lint and not pages" \
 		--times tests/times/quick.txt $(TIMES) $(SKIPS)
 
 heavy: kernels
@@ -70,6 +73,10 @@ bits: kernels
 
 lint: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n $(JOBS) -m lint $(SKIPS)
+
+pages: kernels
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "pages and not heavy" \
+		--times tests/times/pages.txt $(TIMES) $(SKIPS)
 
 # What fails is printed with the draw that shows it.
 SOAK ?= 1800
@@ -96,7 +103,9 @@ measured: compiled
 
 # References are made from the code here, so it is installed too.
 SITE ?= $(OUT)/site
-docs: $(VENV)/.installed-docs
+docs: pages
+	@$(MAKE) --no-print-directory site
+site: $(VENV)/.installed-docs
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet --config-file docs/site/mkdocs.yml --site-dir $(abspath $(SITE))
 	@echo "open $(SITE)/index.html"
 

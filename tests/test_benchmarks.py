@@ -223,6 +223,7 @@ def test_tables_of_another_engine_are_named(tmp_path):
     assert "engine 0123456789abcdef, now" in found["old"]
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("path", sorted(tables.RESULTS.glob("*.md")), ids=lambda path: path.name)
 def test_a_table_names_what_made_it_and_a_command_makes_it(path):
     text = path.read_text("utf-8")

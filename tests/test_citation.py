@@ -5,6 +5,8 @@ import tomllib
 
 import pytest
 
+pytestmark = pytest.mark.pages
+
 ROOT = pathlib.Path(__file__).parents[1]
 
 

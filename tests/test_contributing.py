@@ -2,7 +2,11 @@
 
 import re
 
+import pytest
+
 from tests.pages import ROOT
+
+pytestmark = pytest.mark.pages
 
 TEXT = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 

@@ -21,6 +21,8 @@ from tests.conftest import EXAMPLES
 from tests.marks import heavy_but
 from tests.pages import DOCS, ROOT, blocks, commands, parse, run_page
 
+pytestmark = pytest.mark.pages
+
 PAGES = sorted(
     path for path in (ROOT / "README.md", *DOCS.rglob("*.md")) if "site" not in path.relative_to(ROOT).parts
 )
@@ -59,20 +61,17 @@ def text(site, page):
     return unescape((site / page).read_text(encoding="utf-8"))
 
 
-@pytest.mark.lint
 def test_every_page_becomes_part_of_the_site(site):
     for path in PAGES[1:]:
         assert (site / path.relative_to(DOCS).with_suffix(".html")).exists() or path.name == "README.md", path
 
 
-@pytest.mark.lint
 def test_a_notebook_is_shown_as_text_and_code(site):
     page = text(site, "source/examples/notebooks/first_result.ipynb.html")
     assert "<h3" in page and "Does less preload help" in page
     assert '"cell_type"' not in page and 'class="highlight"' in page
 
 
-@pytest.mark.lint
 def test_nothing_is_fetched_from_elsewhere(site):
     for path in site.rglob("*.html"):
         page = path.read_text(encoding="utf-8")
@@ -84,7 +83,6 @@ def test_nothing_is_fetched_from_elsewhere(site):
         assert not re.search(r"url\(['\"]?https?:", path.read_text(encoding="utf-8")), path
 
 
-@pytest.mark.lint
 def test_search_knows_the_generated_pages(site):
     index = (site / "search" / "search_index.js").read_text(encoding="utf-8")
     for word in ("contact_damping_us", "heat.oil", "fmu-bearing sensitivity", "read_scene"):
@@ -111,7 +109,6 @@ def opened(site):
         browser.close()
 
 
-@pytest.mark.lint
 def test_search_works_on_pages_opened_from_the_disk(site):
     with opened(site) as (page, said, asked):
         page.locator("input[name=query]").press_sequentially("preload")
@@ -122,7 +119,6 @@ def test_search_works_on_pages_opened_from_the_disk(site):
     assert all(url.startswith(("file:", "data:")) for url in asked)
 
 
-@pytest.mark.lint
 def test_figures_and_sizes_are_read_at_390_pixels(site):
     with opened(site) as (page, _, _):
         page.set_viewport_size({"width": 390, "height": 844})
@@ -161,7 +157,6 @@ _ASK = """async queries => {
 }"""
 
 
-@pytest.mark.lint
 def test_search_finds_every_command_and_every_variable(site, reference):
     """Commands and variables as users write them, `ball[1].velocity.x` for the row `ball[i].velocity.x`."""
     named = {reference.shown(one.name): one.name for one in reference.all_variables()}
@@ -177,7 +172,6 @@ def test_search_finds_every_command_and_every_variable(site, reference):
     assert len(first) > 0.9 * len(pages)
 
 
-@pytest.mark.lint
 def test_every_page_states_the_version_and_the_date_of_the_commit(site):
     """By the commit and not by the clock, so that a commit always makes the same site."""
     asked = subprocess.run(
@@ -211,14 +205,12 @@ def leaves(command, path):
         yield path
 
 
-@pytest.mark.lint
 def test_every_command_is_described(site):
     page = text(site, "cli.html")
     for command in leaves(typer.main.get_command(app), "fmu-bearing"):
         assert f"<code>{command}</code>" in page, command
 
 
-@pytest.mark.lint
 def test_every_size_of_a_maker_is_listed_with_its_marks(site):
     page = text(site, "sizes.html")
     for name, size in sizes().items():
@@ -229,14 +221,12 @@ def test_every_size_of_a_maker_is_listed_with_its_marks(site):
     assert "NSK-7003C" not in text(site, "scene.html")
 
 
-@pytest.mark.lint
 def test_every_exit_code_is_described(site):
     page = text(site, "cli.html")
     for code in (0, base.FOUND, base.REFUSED, base.ENDED_EARLY, base.INTERRUPTED):
         assert f"<td>{code}</td>" in page
 
 
-@pytest.mark.lint
 def test_every_public_name_is_described(site):
     page = text(site, "api.html")
     for name in fmu_bearing.__all__:
@@ -300,7 +290,6 @@ def test_ranges_of_the_reference_are_those_that_are_refused(scene_rows):
 
 
 @pytest.mark.parametrize("name", [path.stem for path in sorted(EXAMPLES.glob("*.toml"))])
-@pytest.mark.lint
 def test_every_variable_is_described(name, reference, site):
     page = text(site, "fmu-reference.html")
     for variable in variables(read_scene(EXAMPLES / f"{name}.toml"), 1e-5):
@@ -375,7 +364,6 @@ def test_the_page_on_analysis_uses_public_names():
     assert {name.strip() for _, names in found for name in names.split(",")} <= set(fmu_bearing.__all__)
 
 
-@pytest.mark.lint
 def test_formulas_are_set_as_mathematics(site):
     """MathML, made when the site is built: nothing is left to a script, which offline would not run."""
     theory = (site / "theory.html").read_text(encoding="utf-8")

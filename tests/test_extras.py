@@ -365,6 +365,7 @@ def test_every_requirement_has_its_version_in_the_constraints():
     assert {plain(line) for line in lines} - {"fmu-bearing"} <= locked
 
 
+@pytest.mark.pages
 def test_the_documentation_has_a_row_for_each_extra():
     page = (ROOT / "docs" / "quick-start.md").read_text(encoding="utf-8")
     rows = dict(re.findall(r"^\| `(\w+)` \| ([^|]*) \|", page, flags=re.MULTILINE))

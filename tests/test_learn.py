@@ -18,6 +18,8 @@ from fmu_bearing.scene import read_scene
 from tests.conftest import EXAMPLES
 from tests.pages import DOCS, run_page
 
+pytestmark = pytest.mark.pages
+
 LEARN = DOCS / "learn"
 PAGES = sorted(path.name for path in LEARN.glob("*.md"))
 

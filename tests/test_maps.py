@@ -6,6 +6,8 @@ import re
 
 import pytest
 
+pytestmark = pytest.mark.pages
+
 PACKAGE = pathlib.Path(__file__).parents[1] / "fmu_bearing"
 PACKAGES = sorted(path.parent for path in PACKAGE.rglob("__init__.py"))
 #: Names at the start of a row: ``a``, or ``a``, ``b`` where one row stands for several.

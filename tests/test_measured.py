@@ -157,6 +157,7 @@ def test_the_table_has_every_value_with_its_provenance():
             assert float(row["ours from"]) <= float(row["ours"]) <= float(row["ours to"])
 
 
+@pytest.mark.pages
 def test_the_page_has_misses_first_and_a_figure_per_source():
     rows = re.findall(r"^\| (\*\*missed\*\*|beside|met) \|", PAGE, flags=re.MULTILINE)
     order = [("**missed**", "beside", "met").index(one) for one in rows]
@@ -170,6 +171,7 @@ def test_the_page_has_misses_first_and_a_figure_per_source():
         )
 
 
+@pytest.mark.pages
 def test_the_tables_have_every_part_of_the_friction_and_all_that_is_assumed():
     for one in (*friction.MOVES_35, *parts.PARTS_7210B, *parts.PARTS_35, *parts.FRESH):
         assert re.search(rf"^\| (\*\*)?{re.escape(one)}(\*\*| \||,)", TABLES, flags=re.MULTILINE), one

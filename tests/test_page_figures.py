@@ -4,6 +4,8 @@ import pytest
 
 from tests import computed, figures, tables
 
+pytestmark = pytest.mark.pages
+
 
 @pytest.mark.parametrize("page", figures.PAGES)
 def test_a_page_has_the_figures_of_the_tables(page):

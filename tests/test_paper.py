@@ -9,6 +9,8 @@ from tests.conftest import ROOT
 from tests.figures_of_paper import paper
 from tests.tables import missing
 
+pytestmark = pytest.mark.pages
+
 TEXT = (ROOT / "paper.md").read_text("utf-8")
 _, HEAD, BODY = TEXT.split("---\n", 2)
 BIB = (ROOT / "paper.bib").read_text("utf-8")

@@ -8,6 +8,8 @@ import pytest
 
 from tests.pages import DOCS
 
+pytestmark = pytest.mark.pages
+
 FIRST = "index.md"
 
 #: Question; the page that answers it; words of the answer, line breaks aside.

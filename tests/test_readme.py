@@ -12,6 +12,8 @@ from typer.testing import CliRunner
 
 from fmu_bearing import cli
 
+pytestmark = pytest.mark.pages
+
 ROOT = pathlib.Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 

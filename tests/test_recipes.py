@@ -22,6 +22,8 @@ import pytest
 
 from tests.pages import DOCS, ROOT
 
+pytestmark = pytest.mark.pages
+
 PAGE = DOCS / "architecture.md"
 COPIED = ("fmu_bearing", "tests", "examples", "pyproject.toml", "docs/cli.md")
 #: Recipes that change kernels: a copy of the engine has to be compiled for them.

@@ -9,6 +9,8 @@ import pytest
 import fmu_bearing
 from tests.conftest import ROOT
 
+pytestmark = pytest.mark.pages
+
 yaml = pytest.importorskip("yaml", reason="PyYAML is not installed: extra docs")
 
 WORKFLOW = ROOT / ".github" / "workflows" / "release.yml"
@@ -111,7 +113,7 @@ def test_every_line_to_run_is_a_target_of_the_makefile(jobs):
     lines = [line for step in steps(jobs) for line in step.get("run", "").splitlines()]
     host = yaml.safe_load((ROOT / ".readthedocs.yaml").read_text("utf-8"))
     assert sorted(lines) == ["make docs", "make release-fmus", "make wheel-check", "make wheels"]
-    assert host["build"]["commands"] == ["make docs PYTHON=python SITE=$READTHEDOCS_OUTPUT/html"]
+    assert host["build"]["commands"] == ["make site PYTHON=python SITE=$READTHEDOCS_OUTPUT/html"]
     for line in (*lines, *host["build"]["commands"]):
         # -n prints what would be done and does nothing
         done = subprocess.run(["make", "-n", *line.split()[1:]], cwd=ROOT, capture_output=True, timeout=600)

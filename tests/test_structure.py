@@ -10,6 +10,8 @@ from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from tests import order
 from tests.pages import DOCS, ROOT
 
+pytestmark = pytest.mark.pages
+
 
 @pytest.fixture(scope="module")
 def structure():

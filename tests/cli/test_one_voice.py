@@ -165,6 +165,7 @@ def test_settle_and_duration_of_what_is_measured_are_the_librarys():
     assert OPTIONS["--seeds"]["compare"].default == SEEDS
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("name", ["--speed", "--fidelity", "--radiation-model", "--settle", "--plot"])
 def test_the_page_lists_the_commands(name):
     text = (DOCS / "cli.md").read_text("utf-8")

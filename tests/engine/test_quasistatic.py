@@ -19,6 +19,7 @@ DESIGN = {
 }
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("bearing", DESIGN)
 def test_the_page_on_validation_has_these_values(scene, bearing):
     name, preload, races, values = DESIGN[bearing]

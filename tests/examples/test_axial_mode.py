@@ -45,6 +45,7 @@ def test_the_vibration_follows_the_distance_from_what_excites(short):
     assert abs(float(short["200"][5])) <= 1.0 < 3.0 < float(short["500"][3]) < 5.0
 
 
+@pytest.mark.pages
 def test_the_page_shows_the_committed_figures():
     text = PAGE.read_text("utf-8").partition("<!-- axial_mode -->")[2].strip()
     known = rows(ROOT / "docs" / "results" / "axial_mode.csv")
@@ -62,6 +63,7 @@ def test_the_page_shows_the_committed_figures():
     assert shaken["200"] / shaken["500"] == pytest.approx(3.0, abs=0.5)
 
 
+@pytest.mark.pages
 def test_the_page_shows_what_the_command_gives():
     from fmu_bearing import modes
 

@@ -66,6 +66,7 @@ def test_results_repeat_what_the_example_computes(made, title):
             assert_same(cell, wanted)
 
 
+@pytest.mark.pages
 def test_page_has_the_frequencies_of_the_results():
     stored = {row[0]: row for row in part((RESULTS / "contact_conditions.md").read_text(), "Natural freq")}
     rows = part(PAGE, "The bearing, kHz")[:6]
@@ -77,6 +78,7 @@ def test_page_has_the_frequencies_of_the_results():
         assert set(plain) <= set(own[2].split(", "))
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize(("title", "kept"), [("What the patch", 6), ("Matches within", 5)])
 def test_rows_of_the_page_are_those_of_the_results(title, kept):
     stored = part((RESULTS / "contact_conditions.md").read_text(encoding="utf-8"), title)
@@ -94,6 +96,7 @@ def test_rows_of_the_page_are_those_of_the_results(title, kept):
     assert found >= 6
 
 
+@pytest.mark.pages
 def test_page_has_the_choice_and_the_contradictions():
     stored = (RESULTS / "contact_conditions.md").read_text(encoding="utf-8")
     first = part(stored, "Matches with free choice")[0]

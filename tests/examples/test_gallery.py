@@ -40,6 +40,7 @@ def test_where_the_resonance_meets_a_line(preload, line):
     assert gallery.resonance(point) == pytest.approx(line(point.frequencies), rel=0.01)
 
 
+@pytest.mark.pages
 def test_every_picture_has_a_command():
     page = (DOCS / "gallery.md").read_text(encoding="utf-8")
     sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]

@@ -88,6 +88,7 @@ def rows(path):
         return list(csv.reader(file))[1:]
 
 
+@pytest.mark.pages
 def test_the_result_that_is_kept():
     page = (ROOT / "docs" / "results" / "ross.md").read_text(encoding="utf-8")
     assert "ROSS 3.1.0" in page and "reads the same again: True" in page

@@ -248,6 +248,7 @@ def test_nothing_inside_points_to_where_it_was_built(fmu, flavour):
     assert ("binaries" in seen) == (flavour == "native")
 
 
+@pytest.mark.pages
 def test_documentation_names_every_difference():
     page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8")
     named = re.findall(r"(?<!\*)\*([^*|]+)\*(?!\*)", page.split("## What it answers")[1])

@@ -8,6 +8,8 @@ from fmu_bearing.identification.quantities import parse_quantity
 from fmu_bearing.scene import read_scene
 from tests.pages import DOCS, run_page
 
+pytestmark = pytest.mark.pages
+
 PAGE = DOCS / "identification.md"
 
 

@@ -129,6 +129,7 @@ ROWS = {
 }
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("name", ROWS)
 def test_the_page_says_what_halves_missed_and_what_is_left(name):
     """The table of docs/stiffness.md: tilt by two halves and by three planes, then what no planes have, %."""

@@ -7,6 +7,8 @@ import pytest
 
 from tests.pages import DOCS, blocks, run_page
 
+pytestmark = pytest.mark.pages
+
 
 @pytest.mark.heavy  # circles, planes and spheres by boundary elements: 45 s
 def test_the_page_runs(tmp_path, monkeypatch):

@@ -264,6 +264,7 @@ def test_a_contradiction_is_refused_and_a_gap_is_asked_for():
     new_scene("a", Dimensions(60.0, 95.0, 18.0, 17.0), designation="HCM7012-C-T")
 
 
+@pytest.mark.pages
 def test_the_page_has_every_symbol():
     rows = {}
     for line in (DOCS / "catalogue.md").read_text("utf-8").splitlines():

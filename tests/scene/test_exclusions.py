@@ -183,6 +183,7 @@ def test_settings_ask_the_table(scene):
     assert all(Setting(name).carries(pair()) for name in FIDELITIES)
 
 
+@pytest.mark.pages
 def test_the_page_on_limits_has_the_table():
     """The site makes it of every row; no cell ends the row early."""
     page = (DOCS / "limits.md").read_text(encoding="utf-8")

@@ -12,6 +12,8 @@ from typer.testing import CliRunner
 from fmu_bearing import cli, simulate
 from fmu_bearing.sweeps.description import read_description
 
+pytestmark = pytest.mark.pages
+
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "sweeps.md").read_text("utf-8")
 

@@ -6,6 +6,8 @@ import pytest
 
 from examples.papers.case import ROOT
 
+pytestmark = pytest.mark.pages
+
 PAGE = (ROOT / "docs" / "papers" / "kernels.md").read_text("utf-8")
 #: Numbered equations of each paper.
 LAST = {"Multi-source": 47, "Sound-field": 16, "Impact-noise": 13}

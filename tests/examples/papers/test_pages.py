@@ -152,6 +152,7 @@ def test_short_pages_say_what_is_known(tmp_path, monkeypatch):
         assert residual == pytest.approx(max(level - high, 0.0) - max(low - level, 0.0), abs=0.11)
 
 
+@pytest.mark.pages
 def test_committed_pages_show_every_value_and_their_verdict_its_rms():
     for name in PAGES:
         text = (ROOT / "docs" / "papers" / f"{name}.md").read_text("utf-8")

@@ -356,14 +356,9 @@ def sets():
         yield f"for the {name.upper()} it takes `{chosen[1]}` by `{chosen[2]}`"
 
 
-def settings():
-    """How many settings the tradeoff study has."""
-    yield f"Error against speed of {len(table('tradeoff'))} settings"
-
-
 def gallery():
     """Settings of the study, and the axial mode."""
-    yield from settings()
+    yield f"Error against speed of {len(table('tradeoff'))} settings"
     mode = float(row("axial_mode", **{"preload, N": "500"})["axial mode, Hz"])
     yield f"the axial mode at {1e-3 * mode:.1f} kHz"
 
@@ -391,8 +386,8 @@ def vibration():
 
 
 PAGES = {
-    "../README.md": settings, "../paper.md": paper, "examples.md": examples, "gallery.md": gallery,
-    "choosing.md": choosing, "coupling.md": coupling, "index.md": index, "limits.md": limits,
+    "../paper.md": paper, "examples.md": examples, "gallery.md": gallery, "choosing.md": choosing,
+    "coupling.md": coupling, "index.md": index, "limits.md": limits,
     "fidelities/full.md": full, "fidelities/rings.md": rings, "fidelities/response.md": response,
     "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
     "vibration.md": vibration,

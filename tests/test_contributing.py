@@ -21,7 +21,3 @@ def test_links_files_and_targets_are_there():
         places = (ROOT / path, ROOT / "fmu_bearing" / path, ROOT / "fmu_bearing" / "engine" / path)
         built = path in ("fidelity.model", "fidelity.method") or path.startswith("out/")
         assert built or any(place.exists() for place in places), path
-
-
-def test_it_is_linked_from_the_readme():
-    assert "(CONTRIBUTING.md)" in (ROOT / "README.md").read_text(encoding="utf-8")

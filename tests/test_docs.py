@@ -310,7 +310,7 @@ def test_every_variable_is_described(name, reference, site):
         assert sentence, variable.name
 
 
-# The README, a quick test, runs the same commands up to the level in dB(A).
+# The README runs some of these commands.
 RUN = [
     "quick-start.md", "catalogue.md", "sizes.md", "choosing.md", "coupling.md", "stiffness.md", "modes.md",
     "spindle.md", "motor-spindle.md",

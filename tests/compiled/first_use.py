@@ -110,10 +110,10 @@ def first_use(python, folder):
 
 
 def readme():
-    """Arguments of the README's commands: the three that lead to an FMU, and after the first a run."""
-    first, *more = [commands(text) for language, _, text in blocks(ROOT / "README.md") if language == "sh"]
-    (run,) = (words for block in more for words in block if words[1] == "simulate")
-    return [words[1:] for words in (first[0], run, *first[1:])]
+    """Arguments of the README's commands, in its order but for the run, which goes before what needs none."""
+    every = [commands(text) for language, _, text in blocks(ROOT / "README.md") if language == "sh"]
+    first, *more = [words[1:] for block in every for words in block if words[0] == "fmu-bearing"]
+    return [first, *sorted(more, key=lambda words: words[0] != "simulate")]
 
 
 def _alone(folder):

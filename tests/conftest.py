@@ -3,6 +3,7 @@
 import importlib
 import os
 import pathlib
+import signal
 
 import hypothesis
 import pytest
@@ -14,6 +15,10 @@ os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(own_folder(cache_root() / 
 
 # Numba colours the messages of all the overloads that it tries and drops: a tenth of what compiling takes.
 os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
+
+# A shell's background job ignores Ctrl-C, and so would every process that a test starts and interrupts.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # A test draws the same numbers each time and everywhere, and no clock fails it. `make soak` draws others.
 hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
@@ -40,8 +45,7 @@ OWN_OIL = {
 def pytest_collection_modifyitems(items):
     """Give those of minutes more time."""
     for item in items:
-        slow = item.get_closest_marker("heavy") or item.get_closest_marker("bits")
-        if slow and not item.get_closest_marker("timeout"):
+        if _slow(item) and not item.get_closest_marker("timeout"):
             item.add_marker(pytest.mark.timeout(HEAVY_TIMEOUT))
 
 
@@ -88,7 +92,9 @@ def pytest_addoption(parser):
     """Add the list of tests that may be skipped, and the times that tests took."""
     parser.addoption("--skips", metavar="FILE", help="fail where a test is skipped that FILE does not list")
     parser.addoption("--times", metavar="FILE", help="run the longest tests first, by the seconds in FILE")
-    parser.addoption("--measure-times", action="store_true", help="write the file of --times again")
+    parser.addoption(
+        "--measure-times", action="store_true", help="write what was measured into the file of --times"
+    )
 
 
 def pytest_configure(config):
@@ -100,7 +106,27 @@ def pytest_configure(config):
 
         times = pathlib.Path(config.getoption("--times"))
         worker = getattr(config, "workerinput", {}).get("workerid", "gw0")
-        config.pluginmanager.register(Order(times, config.getoption("--measure-times"), worker), "order")
+        config.pluginmanager.register(
+            Order(times, config.getoption("--measure-times"), config.rootpath, worker), "order"
+        )
+
+
+def _slow(item):
+    return item.get_closest_marker("heavy") or item.get_closest_marker("bits")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _native_fmus_for_this_processor(request):
+    """In a run without heavy tests, libraries of FMUs hold the newest instruction set alone.
+
+    The older one takes half a minute to compile; heavy tests and those of bits run both.
+    """
+    from fmu_bearing.compiled.platforms import PLATFORMS, host, narrowed
+
+    with pytest.MonkeyPatch.context() as patch:
+        if host() is not None and not any(map(_slow, request.session.items)):
+            patch.setitem(PLATFORMS, host().name, narrowed(host()))
+        yield
 
 
 def _compact(folder):

@@ -1,7 +1,7 @@
 """In which order tests run and which share a worker: by the CPU seconds that they took when measured.
 
 `make test` and `make heavy` name a file of times (``--times``). With ``--measure-times`` as well, the run
-writes that file again. The longest go first, so that the last are short and no worker waits for the other.
+writes what it measured into that file; files that it did not run keep their times. The longest go first, so that the last are short and no worker waits for the other.
 """
 
 import os
@@ -30,8 +30,8 @@ def read(path):
 class Order:
     """Sorts tests by a file of times, and measures them."""
 
-    def __init__(self, path, measure, worker="gw0"):
-        self.path, self.measure = path, measure
+    def __init__(self, path, measure, root, worker="gw0"):
+        self.path, self.measure, self.root = path, measure, root
         self.backwards = int(worker.removeprefix("gw")) % 2 == 1
         self.times, self.measured, self._begin = read(path), Counter(), 0.0
 
@@ -89,6 +89,8 @@ class Order:
         """Print the sum; write the file where asked for."""
         terminalreporter.write_line(f"CPU seconds of all tests: {sum(self.measured.values()):.0f}")
         if self.measure:
-            lines = [f"{s:.0f} {name}" for name, s in self.measured.most_common() if s >= SHORT]
+            kept = {name: s for name, s in self.times.items() if (self.root / name).exists()}
+            every = Counter(kept | self.measured).most_common()
+            lines = [f"{s:.0f} {name}" for name, s in every if s >= SHORT]
             head = "# CPU seconds by file (or folder), written by --measure-times (CONTRIBUTING.md)"
             self.path.write_text("\n".join([head, *lines, ""]), "utf-8")

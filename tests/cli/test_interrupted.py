@@ -28,11 +28,6 @@ changes, choose, error_motion, realtime, scene_stiffness, sensitivity, tradeoff,
 )  # fmt: skip
 
 
-def reacting():
-    """Let a child react to Ctrl-C; what a shell starts in the background, or nohup, ignores it."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
 SCENE = str(EXAMPLES / "7003C-bare.toml")
 
 #: Interrupts the program while it loads its commands, within a text that is executed, as dataclasses do.
@@ -54,8 +49,9 @@ sys.meta_path.insert(0, Interrupting())
     ("words", "seconds"),
     [
         (("simulate", "{scene}", "-t", "10000", "-o", "{folder}/a.csv"), 3.0),
-        (("sensitivity", "{scene}", "-o", "{folder}"), 3.0),
-        (("vibration", "{scene}", "-o", "{folder}"), 9.0),  # within a run
+        pytest.param(("sensitivity", "{scene}", "-o", "{folder}"), 3.0, marks=pytest.mark.heavy),
+        # within a run
+        pytest.param(("vibration", "{scene}", "-o", "{folder}"), 9.0, marks=pytest.mark.heavy),
     ],
     ids=["running", "studying", "in a run of a study"],
 )
@@ -63,7 +59,7 @@ def test_ctrl_c_is_one_line(tmp_path, words, seconds):
     filled = [word.format(scene=SCENE, folder=tmp_path) for word in words]
     with subprocess.Popen(
         [sys.executable, "-m", "fmu_bearing", *filled], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        text=True, start_new_session=True, preexec_fn=reacting,
+        text=True, start_new_session=True,
     ) as program:  # fmt: skip
         time.sleep(seconds)
         os.killpg(program.pid, signal.SIGINT)
@@ -81,7 +77,6 @@ def test_ctrl_c_while_modules_are_loaded(tmp_path):
     (tmp_path / "sitecustomize.py").write_text(WHILE_LOADING, encoding="utf-8")
     ended = subprocess.run(
         [sys.executable, "-m", "fmu_bearing", "--version"], capture_output=True, text=True, timeout=60,
-        preexec_fn=reacting,
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])},
     )  # fmt: skip
     assert (ended.returncode, ended.stderr, ended.stdout) == (130, "interrupted\n", "")

@@ -210,7 +210,6 @@ def test_ctrl_c_ends_it_at_once(tmp_path):
     process = subprocess.Popen(
         [sys.executable, "-m", "fmu_bearing", "warm-up"], env=environment, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background ignores it
     )  # fmt: skip
     assert "compiling the kernels" in process.stderr.readline()
     time.sleep(3.0)  # deep in Numba

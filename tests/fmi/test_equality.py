@@ -96,6 +96,7 @@ def test_serialised_state_continues_in_a_new_process(unpack, flavour, tmp_path, 
     assert in_another_process(pytestconfig, unpack(flavour), file) == here
 
 
+@pytest.mark.heavy
 def test_instruction_sets_give_the_same_bits(unpack, pytestconfig, monkeypatch):
     # the library takes v3 where the processor has it; the variable is read when an instance is made
     one = Master(unpack("native")).start(shaft_speed=FROM)

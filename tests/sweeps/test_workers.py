@@ -89,7 +89,7 @@ def test_what_failed_with_its_worker_is_tried_again_by_a_restart(silent, tmp_pat
     assert store.load(made.tasks[0]).reason == "no equilibrium"
 
 
-def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch, request):
+def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch):
     """The workers leave Ctrl-C to the parent, and none outlives it."""
     made = points.small(silent, speeds=range(1000, 9000, 1000))
     store = Store(tmp_path / "out")
@@ -101,9 +101,6 @@ def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch, req
             yield end
 
     monkeypatch.setattr(runs, "processes", three_then_ctrl_c)
-    # tests that a shell started in the background ignore Ctrl-C
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
     with pytest.raises(Stopped) as caught:
         run_plan(made, store, workers=2)
     assert caught.value.missing == "5 of 8 points"

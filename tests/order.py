@@ -1,7 +1,8 @@
 """In which order tests run and which share a worker: by the CPU seconds that they took when measured.
 
 `make test` and `make heavy` name a file of times (``--times``). With ``--measure-times`` as well, the run
-writes what it measured into that file; files that it did not run keep their times. The longest go first, so that the last are short and no worker waits for the other.
+writes what it measured into that file; files that it did not run keep their times. The longest go first, so
+that the last are short and no worker waits for the other.
 """
 
 import os

@@ -1,7 +1,7 @@
 """Sentences and rows of pages whose figures the package computes in moments, made from today's package.
 
-Each function yields what its page has to say, as those of `tests.figures` do from tables. ``python -m
-tests.computed`` prints what is missing, page by page.
+Each function yields what its page has to say, as those of `tests.figures` do from tables; ``python -m
+tests.figures`` writes them.
 """
 
 import functools
@@ -36,9 +36,10 @@ from fmu_bearing.vibration_test.lines import frequencies
 from fmu_bearing.vibration_test.reading import reading
 from fmu_bearing.vibration_test.rig import rig as vibration_rig
 from fmu_bearing.vibration_test.subject import subject as vibration_subject
-from tests.conftest import EXAMPLES, ROOT
+from tests.conftest import EXAMPLES, GATES, ROOT
+from tests.engine.quasistatic import solve
 from tests.spindle.test_flexible import first_frequency, spindle as study
-from tests.tables import missing, rounded
+from tests.tables import rounded, rows
 
 SETS = ROOT / "examples" / "spindle_set"
 PORT = ROOT / "examples" / "port" / "7003C-DB-port.toml"
@@ -75,12 +76,14 @@ def spindle():
     """Statics of the example's sets, and of the design study's."""
     scene = read_scene(SETS / "7003C-DB.toml")
     found = statics(scene)
+    loads = []
     for one in found.table():
         cells = (
             f"{one['bearing']}, {one['carries']}", f"{one['position_mm']:g}", f"{one['axial_N']:.1f}",
             f"{one['force_z_N']:.1f}", f"{one['ball_load_max_N']:.1f}", f"{one['angle_inner_max_deg']:.2f}",
         )  # fmt: skip
-        yield f"| {' | '.join(cells)} |"
+        loads.append(cells)
+    yield rows("loads", loads)
     yield (
         f"renewed when loads have moved by {100.0 * held._NEAR:g} %, speed by 1 %, or temperatures have "
         f"moved rings by {rounded(str(held._GROWN), 1)} m"
@@ -89,10 +92,12 @@ def spindle():
     yield from _lives(scene, found)
     yield from _preloads(scene)
     yield from _classes()
+    shafts = []
     for name, flexible in (("rigid", False), ("flexible", True)):
         one = study(flexible=flexible)
         nose = 1e-6 * statics(one, force=(0.0, 0.0, 0.0)).nose_stiffness
-        yield f"| {name} | {nose:.1f} | {first_frequency(one):.0f} |"
+        shafts.append((name, f"{nose:.1f}", f"{first_frequency(one):.0f}"))
+    yield rows("shafts", shafts)
 
 
 def _lives(scene, found):
@@ -126,7 +131,7 @@ def _preloads(scene):
 def _classes():
     """What the classes of a pair from one line give, and the loads of a triplet."""
     given = {"speed_rpm": 18e3, "sound": False}
-    lost = {}
+    lost, lines = {}, []
     for name in nsk.CLASSES:
         point = operating_point(made("DB", preload_class=name, **given))
         found = point.statics
@@ -138,7 +143,8 @@ def _classes():
         if key == "speed":
             words = f"n d_m {bad[key].text} of {bad[key].limit}"
         cells = (f"{abs(load):.0f}" for load in (*loads, 1e-6 * found.nose_stiffness))
-        yield f"| {name} | {' | '.join(cells)} | {100 * round(point.life / 100):,} | {words} |"
+        lines.append((name, *cells, f"{100 * round(point.life / 100):,}", words))
+    yield rows("preload classes", lines)
     yield f"takes {lost['medium']:.0f} N from the medium class and {lost['heavy']:.0f} N from the heavy one"
     low, _, high = statics(made("TBT", preload_class="medium", **given)).preloads["cold"]
     yield f"the medium class (390 N) against one carry {low:.0f} and {high:.0f} N"
@@ -259,17 +265,21 @@ def _skidding():
 def coupling():
     """Torque over speed, heat over temperature, ripple of the torque, derivatives at a port."""
     inertia, balls = 1.64e-4, 1.19e-7  # kg m2, of docs/results/coupling.md
+    lines = []
     for rpm in (2e3, 1e4, 2e4, 4e4):
         low, torque, high = (
             bearing_at(perfect(speed_rpm=share * rpm)).friction_torque for share in (0.98, 1.0, 1.02)
         )
         slope = (high - low) / (0.04 * rpm * RPM)
         longest = rounded(str(2.0 * (inertia - balls) / slope))
-        yield f"| {rpm:,.0f} | {1e3 * torque:.1f} | {rounded(str(slope))} | {longest} s |"
+        lines.append((f"{rpm:,.0f}", f"{1e3 * torque:.1f}", rounded(str(slope)), f"{longest} s"))
+    yield rows("torque", lines)
+    lines = []
     for celsius in (20.0, 30.0, 40.0, 60.0):
         low, heat, high = (_heat(celsius + change) for change in (-1.0, 0.0, 1.0))
         slope = 0.5 * (high - low)
-        yield f"| {celsius:.0f} | {heat:.0f} | {f'{slope:.2f}' if abs(slope) > 5e-3 else '0'} |"
+        lines.append((f"{celsius:.0f}", f"{heat:.0f}", f"{slope:.2f}" if abs(slope) > 5e-3 else "0"))
+    yield rows("heat", lines)
     ripples = [share for name in ("bare", "spindle") for rpm in (1e4, 2e4) for share in _ripple(name, rpm)]
     yield (
         f"on the scenes of the 7003C by at most {math.ceil(100.0 * max(ripples))} % either "
@@ -320,12 +330,16 @@ def error_motion_page():
     """Values and sources of the 7003C alone in fidelity rings."""
     scene = with_fidelity(example("7003C-bare"), model="rings")
     one = error_motion(scene, 2000.0, revolutions=50).speeds[0]
+    values = []
     for found in one.values[:4]:
         figures = (found.asynchronous, found.synchronous, found.synchronous_by_line)
         cells = [f"{1e6 * value:.{digits}f}" for value, digits in zip(figures, (3, 4, 4), strict=True)]
-        yield f"| {found.direction} | {' | '.join(cells)} |"
-    for part in one.per_source:
-        yield f"| {part.source} | {1e6 * part.radial:.3f} | {1e6 * part.axial:.3f} |"
+        values.append((found.direction, *cells))
+    yield rows("values", values)
+    sources = (
+        (part.source, *(f"{1e6 * x:.3f}" for x in (part.radial, part.axial))) for part in one.per_source
+    )
+    yield rows("sources", sources)
     yield f"The lines hold {100.0 * one.explained:.0f} % of the energy"
     race = one.nose.rates[0].f_o / one.nose.rates[0].f_r
     yield f"On the 7003C of this page it is {race:.2f} f_r"
@@ -358,14 +372,45 @@ def vibration():
     yield f"order {HIGHEST_BALL_ORDER}, on the 7003C {1e-3 * HIGHEST_BALL_ORDER * rates.f_b:.1f} kHz"
 
 
+#: By bearing: gate scene, preload (N), design values (N/m^1.5 over 1e10; N, deg, um).
+DESIGN = {
+    "7003C": ("7003C-bare", 500.0, (2.541, 2.407), (115.62, 21.12, 18.01)),
+    "7009C": ("7009C-full-ceramic", 350.0, (3.575, 3.361), (70.11, 17.08, 11.58)),
+}
+
+
+def validation():
+    """Design values beside those of the engine at rest."""
+    races, loads = [], []
+    for bearing, (name, preload, stiffness, values) in DESIGN.items():
+        scene = read_scene(GATES / f"{name}.toml").replace({"sound": None})
+        p, found = pack(scene, np.empty(0)), solve(scene, 0.0, preload)
+        for race, at, design in zip(("inner", "outer"), (0, P.RACE_SIZE), stiffness, strict=True):
+            own = 1e-10 * p[P.RACES + at + P.RACE_STIFFNESS]
+            races.append((f"{bearing}, {race}", f"{design:.3f}e10", f"{own:.3f}e10"))
+        computed = found["load_i"], found["angle_i"], 1e6 * found["shift"]
+        names = ("ball load", "N"), ("contact angle", "deg"), ("axial displacement", "um")
+        for (quantity, unit), design, value in zip(names, values, computed, strict=True):
+            loads.append(
+                (f"{bearing}, {preload:.0f} N: {quantity}", f"{design:.2f} {unit}", f"{value:.2f} {unit}")
+            )
+        if bearing == "7003C":
+            axial, radial, tilt, _ = found["stiffness"]
+            loads += [
+                (f"{bearing}, 500 N: {name} stiffness", design, f"{value:.3f}e{power} {unit}")
+                for name, design, value, power, unit in (
+                    ("axial", "5.57e7 N/m", 1e-7 * axial, 7, "N/m"),
+                    ("radial", "1.63e8 N/m", 1e-8 * radial, 8, "N/m"),
+                    ("tilt", "4.73e3 N m/rad", 1e-3 * tilt, 3, "N m/rad"),
+                )
+            ]
+    yield rows("races", races)
+    yield rows("at rest", loads)
+
+
 PAGES = {
     "coupling.md": coupling, "error-motion.md": error_motion_page,
     "examples.md": examples, "fidelities/rings.md": rings, "gallery.md": gallery, "limits.md": limits,
     "motor-spindle.md": motor_spindle, "solution.md": solution, "spindle.md": spindle,
-    "vibration.md": vibration,
+    "validation.md": validation, "vibration.md": vibration,
 }  # fmt: skip
-
-
-if __name__ == "__main__":
-    for page in PAGES:
-        print(page, *missing(page, PAGES[page]()), sep="\n  ")

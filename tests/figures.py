@@ -1,9 +1,10 @@
 """Sentences and rows of pages whose figures come from the tables under docs/results.
 
-Each function yields what its page has to say, made from today's tables. A page without one of them is stale:
-``python -m tests.figures`` prints what is missing, page by page.
+Each function yields what its page has to say, made from today's tables. ``python -m tests.figures`` writes
+rows and figures of these pages and of those in `tests.computed`, and prints sentences whose words are others.
 """
 
+import csv
 import re
 
 from tests.figures_of_limits import band, full_limits, limits, response_limits, rings_limits
@@ -18,6 +19,7 @@ from tests.tables import (
     percent,
     rounded,
     row,
+    rows,
     scene_line,
     settings_of,
     table,
@@ -47,7 +49,7 @@ def _cells(found):
     """Ring rms, load, torque and level of a setting: per cent where it is no fine figure."""
     shares = [found[key] for key in ("ring rms", "load", "torque")]
     texts = [percent(one) if float(one) >= 1e-3 else rounded(one, 1) for one in shares]
-    return " | ".join([*texts, rounded(found["dB(A)"], 1)])
+    return [*texts, rounded(found["dB(A)"], 1)]
 
 
 def _in_use(found):
@@ -77,8 +79,13 @@ def full():
 
 def choosing():
     """Which fidelity, what sound costs."""
-    for name, found in _fidelities().items():
-        yield f"| {name} | {_cells(found)} | {rounded(found['sim/CPU'])} | {rounded(_in_use(found))} |"
+    yield rows(
+        "fidelities",
+        (
+            [name, *_cells(found), rounded(found["sim/CPU"]), rounded(_in_use(found))]
+            for name, found in _fidelities().items()
+        ),
+    )
     yield from band()
     yield from _sound()
 
@@ -140,8 +147,8 @@ def _near(fidelity):
 
 def _sound():
     """What microphones and boundary elements cost; a paper's model beside them."""
-    for microphones in ("1", "4"):
-        yield f"| {microphones} | {_sound_costs(microphones)} |"
+    microphones = ("1", "4", "circle of 24", "circle of 360")
+    yield rows("sound", ([name, *_sound_costs(name)] for name in microphones))
     first = sorted(table("first_sound"), key=lambda one: float(one["CPU s"]))
     yield (
         f"`bem` also takes {rounded(first[0]['CPU s'])} s ({first[0]['housing, mm']} mm) to "
@@ -153,8 +160,6 @@ def _sound():
         if "r/min" in one["value"]
     ]
     yield f"Beside the 7009C it is {min(below):.0f} to {max(below):.0f} dB below `bem`"
-    for circle in ("24", "360"):
-        yield f"| circle of {circle} | {_sound_costs(f'circle of {circle}')} |"
 
 
 def _ratio(found, key):
@@ -167,11 +172,12 @@ def _sound_costs(microphones):
         row("benchmark", "Cost of sound", **where, radiation_model=model)
         for model in ("compact", "bem", "paper")
     ]
-    return " | ".join(rounded(one["CPU s per s"], 1) for one in costs)
+    return [rounded(one["CPU s per s"], 1) for one in costs]
 
 
 def validation():
     """Speeds and errors of the benchmark, its memory; how many extreme cases there are."""
+    lines = []
     for case, name in CASES.items():
         full, rings, response = usual(case)
         digits = 2, 3, 3
@@ -182,8 +188,8 @@ def validation():
         error = rounded(full["error"])
         asked = 2e-3 if "example" in case else 1e-3
         error = error if float(full["error"]) <= asked else f"**{error}**"
-        cells = [name, full_speed, error, *speeds]
-        yield "| " + " | ".join(cells).replace("|  |", "| |") + " |"
+        lines.append([name, full_speed, error, *speeds])
+    yield rows("benchmark", lines)
     lines = [usual(case)[0] for case in CASES if "example" not in case]
     faster = {
         peer: sorted(float(one[f"x {peer}"]) for one in lines)
@@ -259,11 +265,13 @@ def _over_gate_scenes():
             "scenes", scene=scene, fidelity="full", tolerance="0.002", **{"r/min": rpm, "radial, N": "0"}
         )
 
+    lines = []
     for scene, rpm in (
         ("7003C-bare", "20,000"), ("7003C-spindle", "20,000"), ("7009C-full-ceramic", "18,000"),
     ):  # fmt: skip
         own, gate = (float(of_full(name, rpm)["sim/CPU"]) for name in (scene, f"gate {scene}"))
-        yield f"| {scene}, {rpm} r/min | {own / gate:.2f} |"
+        lines.append([f"{scene}, {rpm} r/min", f"{own / gate:.2f}"])
+    yield rows("gates", lines)
     loudest = [
         abs(float(one["loudest, dB(A)"]))
         for one in table("scenes")
@@ -341,19 +349,21 @@ def coupling():
 
 def sets():
     """Fidelities of the example sets, and what `auto` chooses."""
+    lines = []
     for name, words in (("db", "DB, 15,000 r/min"), ("qbc", "QBC, 20,000 r/min")):
         default = {**_FULL, "strips": "5"}
-        rows = {
+        found_by = {
             "`full`": row(f"tradeoff_{name}", **default),
             "`rings`": row(f"tradeoff_{name}", **{**default, "fidelity": "rings", "method": ""}),
             "`response`": row(f"tradeoff_{name}", fidelity="response"),
         }
-        for fidelity, found in rows.items():
-            exact = [*_cells(found).split(" | ")[:-1], rounded(found["dB(A)"]), rounded(found["sim/CPU"])]
-            yield f"| {words}, {fidelity} | {' | '.join(exact)} |"
+        for fidelity, found in found_by.items():
+            exact = [*_cells(found)[:-1], rounded(found["dB(A)"]), rounded(found["sim/CPU"])]
+            lines.append([f"{words}, {fidelity}", *exact])
         text = (RESULTS / f"tradeoff_{name}.md").read_text("utf-8")
         chosen = re.search(r"fidelity auto: (\w+) / (\w+)", text)
         yield f"for the {name.upper()} it takes `{chosen[1]}` by `{chosen[2]}`"
+    yield rows("sets", lines)
 
 
 def gallery():
@@ -370,6 +380,7 @@ def examples():
 
 def vibration():
     """What the vibration test reads, by class and piece, and each source alone."""
+    lines = []
     for name, grade, rings, words in (
         ("7003C", "P2", "bend", ""), ("7003C", "P4", "bend", ""), ("7003C", "P5", "bend", ""),
         ("7003C", "P4", "round", ", rigid rings"), ("7009C", "P4", "bend", ""),
@@ -378,16 +389,33 @@ def vibration():
             case = {"bearing": name, "class": grade, "rings": rings}
             found = row("vibration", what=f"{piece} piece", **case)
             cells = [f"{found[f'{band} mean']} ({found[f'{band} std, %']})" for band in "LMH"]
-            yield f"| {name}, {grade}{words}, {piece} | {found['seeds']} | {' | '.join(cells)} |"
+            lines.append([f"{name}, {grade}{words}, {piece}", found["seeds"], *cells])
+    yield rows("classes", lines)
+    alone = []
     for source in ("inner race", "outer race", "ball sizes", "form of the balls"):
         case = {"bearing": "7003C", "class": "P4", "rings": "bend", "what": f"{source} alone"}
         cells = [row("vibration", **case)[f"{band} mean"] for band in "LMH"]
-        yield f"| {source} | {' | '.join(cells)} |"
+        alone.append([source, *cells])
+    yield rows("sources", alone)
+
+
+def modes():
+    """The axial mode over preload, what excites it, and the vibration."""
+    places = (0, 3, 5, 6)  # of the columns after the preload
+    with (RESULTS / "axial_mode.csv").open(encoding="utf-8", newline="") as file:
+        _, *lines = csv.reader(file)
+    shown = [[line[0], *(line[1 + k] for k in places)] for line in lines if line[0] in _PRELOADS]
+    yield rows("axial mode", shown)
+    at = {line[0]: line[1:] for line in lines}["500"]
+    yield f"There f_i meets the axial mode at {float(at[2]):,.0f} r/min, {float(at[3]):.1f} % above operation"
+
+
+_PRELOADS = ("200", "300", "400", "500", "650", "800")
 
 
 PAGES = {
     "../paper.md": paper, "examples.md": examples, "gallery.md": gallery, "choosing.md": choosing,
-    "coupling.md": coupling, "index.md": index, "limits.md": limits,
+    "coupling.md": coupling, "index.md": index, "limits.md": limits, "modes.md": modes,
     "fidelities/full.md": full, "fidelities/rings.md": rings, "fidelities/response.md": response,
     "spindle.md": spindle, "tradeoff.md": sets, "validation.md": validation,
     "vibration.md": vibration,
@@ -395,5 +423,8 @@ PAGES = {
 
 
 if __name__ == "__main__":
-    for page in PAGES:
-        print(page, *write(page, PAGES[page]()), sep="\n  ")
+    from tests import computed
+
+    for pages in (PAGES, computed.PAGES):
+        for page, parts in pages.items():
+            print(page, *write(page, parts()), sep="\n  ")

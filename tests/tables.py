@@ -5,6 +5,7 @@ import functools
 import math
 import pathlib
 import re
+from typing import NamedTuple
 
 DOCS = pathlib.Path(__file__).parents[1] / "docs"
 RESULTS = DOCS / "results"
@@ -108,10 +109,37 @@ def critical_speed():
     return f"{100 * round(found / 100):,}"
 
 
-def missing(page, sentences):
-    """Return those of the sentences that a page lacks; line breaks do not count."""
-    text = " ".join((DOCS / page).read_text("utf-8").split())
-    return [one for one in sentences if " ".join(one.split()) not in text]
+class Rows(NamedTuple):
+    """All rows of a table of a page, below ``<!-- rows: name -->``; they are written, whatever was there."""
+
+    name: str
+    lines: tuple[str, ...]
+
+    def place(self, text):
+        """Where a page has them."""
+        found = re.search(rf"<!-- rows: {self.name} -->\n\n(?:\|.*\n){{2}}((?:\|.*\n)*)", text)
+        assert found is not None, f"the page has no mark of the rows {self.name}"
+        return found
+
+    def text(self):
+        """Lines of the page."""
+        return "".join(f"{line}\n" for line in self.lines)
+
+
+def rows(name, lines):
+    """Rows of lists of cells."""
+    return Rows(name, tuple(f"| {' | '.join(cells)} |".replace("|  |", "| |") for cells in lines))
+
+
+def missing(page, parts):
+    """Return those of the sentences and `Rows` that a page lacks; line breaks of sentences do not count."""
+    text = (DOCS / page).read_text("utf-8")
+    flat = " ".join(text.split())
+    return [
+        one
+        for one in parts
+        if (one.place(text)[1] != one.text() if isinstance(one, Rows) else " ".join(one.split()) not in flat)
+    ]
 
 
 def settings_of(found):
@@ -122,15 +150,20 @@ def settings_of(found):
 _FIGURE = r"(?<![\w.])[-+]?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?"
 
 
-def write(page, sentences):
-    """Write the figures of the sentences into a page, where its words are the same; return those it lacks."""
+def write(page, parts):
+    """Write `Rows`, and figures of sentences whose words are the same, into a page; return what it lacks."""
     path = DOCS / page
     text = path.read_text("utf-8")
-    lacking = missing(page, sentences)
+    lacking = missing(page, parts)
     for one in list(lacking):
+        if isinstance(one, Rows):
+            first, last = one.place(text).span(1)
+            text = text[:first] + one.text() + text[last:]
+            lacking.remove(one)
+            continue
         words, figures = re.split(_FIGURE, one), re.findall(_FIGURE, one)
         blank = [r"\s+".join(map(re.escape, re.split(r"\s+", part))) for part in words]
-        # of several rows of a table the one that has most of the figures already
+        # of several places the one that has most of the figures already
         places = sorted(
             re.finditer(f"({_FIGURE})".join(blank), text),
             key=lambda place, wanted=figures: -sum(map(str.__eq__, place.groups(), wanted)),

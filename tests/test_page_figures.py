@@ -25,6 +25,21 @@ def test_figures_are_rounded(text, digits, shown):
     assert tables.rounded(text, digits) == shown
 
 
+def test_rows_and_figures_are_written(tmp_path, monkeypatch):
+    """Rows whatever they were, figures where the words are the same; what is left is returned."""
+    text = "Of 3 runs\n2 fail.\n\n<!-- rows: loads -->\n\n| a | b |\n|---|---|\n| old |\n\nEnd\n"
+    (tmp_path / "page.md").write_text(text, "utf-8")
+    monkeypatch.setattr(tables, "DOCS", tmp_path)
+    parts = ["Of 5 runs 4 fail", tables.rows("loads", [("x", "1"), ("y", "2")]), "Of 5 walks"]
+    assert tables.missing("page.md", parts) == parts
+    assert tables.write("page.md", parts) == ["Of 5 walks"] == tables.missing("page.md", parts)
+    assert (tmp_path / "page.md").read_text("utf-8") == (
+        "Of 5 runs\n4 fail.\n\n<!-- rows: loads -->\n\n| a | b |\n|---|---|\n| x | 1 |\n| y | 2 |\n\nEnd\n"
+    )
+    with pytest.raises(AssertionError, match="no mark of the rows angles"):
+        tables.missing("page.md", [tables.rows("angles", [])])
+
+
 def test_a_figure_that_is_not_the_tables_is_found(monkeypatch):
     monkeypatch.setattr(figures, "_ratio", lambda found, key: "7.77")
     page = "fidelities/rings.md"

@@ -6,38 +6,10 @@ from scipy.optimize import brentq
 
 from fmu_bearing.engine.layout import P
 from fmu_bearing.prepare.model import pack
-from tests.conftest import ROOT
 from tests.engine.helpers import RPM
 from tests.engine.quasistatic import solve
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris
-
-#: By bearing: gate scene, preload (N), design values (N/m^1.5 over 1e10; N, deg, um), as below.
-DESIGN = {
-    "7003C": ("7003C-bare", 500.0, (2.541, 2.407), (115.62, 21.12, 18.01)),
-    "7009C": ("7009C-full-ceramic", 350.0, (3.575, 3.361), (70.11, 17.08, 11.58)),
-}
-
-
-@pytest.mark.pages
-@pytest.mark.parametrize("bearing", DESIGN)
-def test_the_page_on_validation_has_these_values(scene, bearing):
-    name, preload, races, values = DESIGN[bearing]
-    page = (ROOT / "docs" / "validation.md").read_text("utf-8")
-    p, found = pack(scene(name), np.empty(0)), solve(scene(name), 0.0, preload)
-    for race, at, design in zip(("inner", "outer"), (0, P.RACE_SIZE), races, strict=True):
-        stiffness = 1e-10 * p[P.RACES + at + P.RACE_STIFFNESS]
-        assert f"| {bearing}, {race} | {design:.3f}e10 | {stiffness:.3f}e10 |" in page
-    computed = found["load_i"], found["angle_i"], 1e6 * found["shift"]
-    names = ("ball load", "N"), ("contact angle", "deg"), ("axial displacement", "um")
-    for (quantity, unit), design, value in zip(names, values, computed, strict=True):
-        row = f"| {bearing}, {preload:.0f} N: {quantity} | {design:.2f} {unit} | {value:.2f} {unit} |"
-        assert row in page
-    if bearing == "7003C":
-        axial, radial, tilt, _ = found["stiffness"]
-        assert f"axial stiffness | 5.57e7 N/m | {1e-7 * axial:.3f}e7 N/m |" in page
-        assert f"radial stiffness | 1.63e8 N/m | {1e-8 * radial:.3f}e8 N/m |" in page
-        assert f"tilt stiffness | 4.73e3 N m/rad | {1e-3 * tilt:.3f}e3 N m/rad |" in page
 
 
 def test_hertz_constants(scene):

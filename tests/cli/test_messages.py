@@ -11,6 +11,8 @@ import pytest
 from fmu_bearing.cli.base import Commands
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
+from tests.messages import says
 
 # compact sound: a table of boundary elements that is not in the cache is progress beside the message
 SINGLE = (EXAMPLES / "7003C-bare.toml").read_text("utf-8").replace('"bem"', '"compact"')
@@ -62,7 +64,7 @@ def said(run, *words, code=2):
             SINGLE,
             "mounting",
             "sections_mm = 3.0",
-            "it is of [spindle.shaft], which a set on one shaft has, and this scene is of one bearing",
+            "[spindle.shaft] ... one bearing",
         ),
         (SET, "operation", "preload_N = 3.0", "it belongs in [spindle.preload]"),
         (SET, "operation", "preload = 3.0", "it belongs in [spindle.preload]"),
@@ -74,7 +76,7 @@ def said(run, *words, code=2):
             SET,
             "operation",
             "preload_mode = 3.0",
-            "it is of [mounting], which one bearing has, and this scene is of a set on one shaft",
+            "[mounting] ... a set on one shaft",
         ),
     ],
 )
@@ -82,7 +84,7 @@ def test_a_key_in_the_wrong_table_names_the_right_one_for_this_scene(run, folder
     assert f"[{table}]\n" in text
     (folder / "it.toml").write_text(text.replace(f"[{table}]\n", f"[{table}]\n{line}\n", 1))
     key = line.partition(" = ")[0]
-    assert said(run, "info", "it.toml") == f"it.toml: {table}.{key} is not a key of a scene; {answer}"
+    assert says(said(run, "info", "it.toml"), f"it.toml ... {table}.{key} ... {answer}")
 
 
 @pytest.mark.parametrize(
@@ -92,33 +94,30 @@ def test_a_key_in_the_wrong_table_names_the_right_one_for_this_scene(run, folder
             SET,
             "[spindle.preload]",
             "[preload]",
-            "preload is not a key of a scene; it belongs in [spindle.prelo",
+            "preload ... [spindle.preload]",
         ),
         (
             SINGLE,
             "[sound]",
             "[microphone]",
-            "microphone is not a key of a scene; it belongs in [[sound.microph",
+            "microphone ... [[sound.microphone]]",
         ),
         (
             SINGLE,
             "[mounting]",
             "[preload]",
-            "preload is not a key of a scene; one bearing has preload_N in [mo",
+            "preload ... preload_N in [mounting]",
         ),
     ],
 )
 def test_a_table_in_the_wrong_place(run, folder, text, old, new, answer):
     (folder / "it.toml").write_text(text.replace(old, new, 1))
-    assert f"it.toml: {answer}" in said(run, "info", "it.toml")
+    assert says(said(run, "info", "it.toml"), f"it.toml: {answer}")
 
 
 def test_a_set_with_a_mounting_is_told_to_keep_one_and_no_more(run, folder):
     (folder / "it.toml").write_text(SET + "[mounting]\npreload_N = 3.0\n")
-    assert said(run, "info", "it.toml") == (
-        "it.toml: mounting: cannot be given with [spindle]: one bearing has [mounting], a set on one shaft "
-        "has [spindle]; keep one"
-    )
+    assert says(said(run, "info", "it.toml"), "it.toml: mounting ... [spindle] ... keep one")
 
 
 @pytest.mark.parametrize(
@@ -144,38 +143,34 @@ def test_a_misspelt_column_of_inputs_keeps_its_unit(run, folder, column, name):
         (
             "preload_N = 500.0",
             'preload_N = "300"',
-            "mounting.preload_N = '300' is refused; allowed: 0 to 1e+06 N; it is text, as it is in quotes: "
-            "write preload_N = 300",
+            "mounting.preload_N = '300' ... 0 to 1e+06 N ... write preload_N = 300",
         ),
         (
             "seed = 1",
             'seed = "1"',
-            "imperfections.seed = '1' is refused; allowed: 0 to 2147483647, whole numbers only; it is text, "
-            "as it is in quotes: write seed = 1",
+            "imperfections.seed = '1' ... 0 to 2147483647 ... write seed = 1",
         ),
         (
             "gravity = true",
             'gravity = "true"',
-            "fidelity.terms.gravity = 'true' is refused; allowed: true or false; it is text, as it is in "
-            "quotes: write gravity = true",
+            "fidelity.terms.gravity = 'true' ... true or false ... write gravity = true",
         ),
         (
             "preload_N = 500.0",
             'preload_N = "300 N"',
-            "mounting.preload_N = '300 N' is refused; allowed: 0 to 1e+06 N; it is text, no number",
+            "mounting.preload_N = '300 N' ... 0 to 1e+06 N ... no number",
         ),
         (
             'radiator = "bare"',
             "radiator = 3",
-            "sound.radiator = 3 is refused; allowed: bare, housing, baffle; it is a number, and text in "
-            "quotes is due",
+            "sound.radiator = 3 ... bare, housing, baffle ... text in quotes",
         ),
     ],
 )
 def test_quotes(run, folder, old, new, answer):
     assert old in SINGLE
     (folder / "it.toml").write_text(SINGLE.replace(old, new, 1))
-    assert said(run, "info", "it.toml") == f"it.toml: {answer}"
+    assert says(said(run, "info", "it.toml"), f"it.toml: {answer}")
 
 
 @pytest.mark.parametrize(
@@ -213,10 +208,8 @@ def test_a_frozen_member_of_an_array_and_a_table_that_is_deleted():
     "words", ["info", "modes", "stiffness", "build", "choose", "scene show", "sweep", "report", "changes"]
 )
 def test_a_table_where_a_scene_is_due(run, folder, words):
-    assert said(run, *words.split(), "run.csv") == (
-        "run.csv: is not a scene, but a table of values (CSV): a scene is a TOML file, which `fmu-bearing "
-        "scene new` writes; `fmu-bearing plot` and `compare` read results of runs"
-    )
+    way_out = "`fmu-bearing scene new` ... `fmu-bearing plot` and `compare`"
+    assert says(said(run, *words.split(), "run.csv"), f"run.csv ... scene ... table of values ... {way_out}")
 
 
 @pytest.mark.parametrize(
@@ -224,65 +217,65 @@ def test_a_table_where_a_scene_is_due(run, folder, words):
     [
         (
             "plot one.toml",
-            "one.toml: is not a result of a run, but a scene: `fmu-bearing simulate` writes resul",
+            "one.toml ... result ... a scene ... `fmu-bearing simulate`",
         ),
         (
             "validate one.toml",
-            "one.toml: is not an FMU, but a scene: `fmu-bearing build` makes an FMU of a scene",
+            "one.toml ... FMU ... a scene ... `fmu-bearing build`",
         ),
         (
             "validate run.csv",
-            "run.csv: is not an FMU, but a table of values (CSV): `fmu-bearing build` makes an",
+            "run.csv ... FMU ... table of values ... `fmu-bearing build`",
         ),
         (
             "simulate one.toml -i set.toml",
-            "set.toml: is not a table of values (CSV), but a scene: write lines",
+            "set.toml ... table of values (CSV) ... a scene ... write lines",
         ),
         (
             "info one.toml --catalogue run.csv",
-            "run.csv: is not a catalogue of bearings, but a table of values",
+            "run.csv ... catalogue of bearings ... table of values",
         ),
-        ("info sweep.toml", "sweep.toml: is not a scene, but a sweep: "),
+        ("info sweep.toml", "sweep.toml ... a scene ... a sweep"),
         (
             "info empty.toml",
-            "empty.toml: is not a scene, but an empty file: a scene is a TOML file, which `fmu",
+            "empty.toml ... empty file ... `fmu-bearing scene new`",
         ),
         (
             "identify one.toml set.toml -f mounting.preload_N",
-            "set.toml: is not a table of values (CSV), but a",
+            "set.toml ... table of values (CSV)",
         ),
         (
             "sound run.csv",
-            "run.csv: the result must hold time and mic[1].pressure; ask for them as outputs of",
+            "run.csv ... time and mic[1].pressure ... outputs",
         ),
     ],
 )
 def test_another_file_than_is_due(run, folder, words, answer):
-    assert answer in said(run, *words.split())
+    assert says(said(run, *words.split()), answer)
 
 
 @pytest.mark.parametrize(
     ("words", "answer"),
     [
         ("info none.toml", "none.toml: there is no such scene file"),
-        ("info none/of/it.toml", "none/of/it.toml: there is no such scene file: there is no folder none/of"),
-        ("plot none/it.csv", "none/it.csv: there is no such file: there is no folder none"),
-        ("simulate none/it.fmu", "none/it.fmu: there is no such FMU: there is no folder none"),
-        ("validate none/it.fmu", "none/it.fmu: there is no such FMU: there is no folder none"),
-        ("info sub", "sub: cannot be read: it is a folder: name a file in it"),
-        ("plot .", ".: cannot be read: it is a folder: name a file in it"),
+        ("info none/of/it.toml", "none/of/it.toml ... no folder none/of"),
+        ("plot none/it.csv", "none/it.csv ... no folder none"),
+        ("simulate none/it.fmu", "none/it.fmu ... no folder none"),
+        ("validate none/it.fmu", "none/it.fmu ... no folder none"),
+        ("info sub", "sub ... folder ... name a file in it"),
+        ("plot .", ".: ... folder ... name a file in it"),
         ("compare one.toml none.toml", "none.toml: there is no such scene file"),
-        ("compare one.toml sub", "sub: cannot be read: it is a folder: name a file in it"),
-        ("info utf16.toml", "utf16.toml: cannot be read as text in UTF-8: it is UTF-16: save it as UTF-8"),
+        ("compare one.toml sub", "sub ... folder ... name a file in it"),
+        ("info utf16.toml", "utf16.toml ... UTF-16 ... save it as UTF-8"),
         (
             "info latin.toml",
-            "latin.toml: cannot be read as text in UTF-8: byte 9 is no character of it: save it as UTF-8",
+            "latin.toml ... byte 9 ... save it as UTF-8",
         ),
         ("scene check none.toml one.toml", "none.toml: there is no such scene file"),
     ],
 )
 def test_files_that_cannot_be_read(run, folder, words, answer):
-    assert said(run, *words.split()) == answer
+    assert says(said(run, *words.split()), answer)
 
 
 def test_what_the_system_refuses_is_said_in_words(run, folder, monkeypatch):
@@ -328,7 +321,9 @@ def test_help_of_the_command_alone_is_no_error(run):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
-@pytest.mark.parametrize("words", ["info one.toml", "scene show one.toml", "scene catalogue --json"])
+@pytest.mark.parametrize(
+    "words", heavy_but(["info one.toml", "scene show one.toml", "scene catalogue --json"], 2)
+)
 def test_a_reader_that_has_read_enough_is_no_error(folder, words):
     """The pipe is closed before the command prints."""
     ours, theirs = os.pipe()
@@ -345,7 +340,7 @@ def test_a_reader_that_has_read_enough_is_no_error(folder, words):
 def test_warnings_show_no_line_of_the_package(folder):
     """An ellipse beyond its shoulder: the library warns, and the command prints a caution."""
     (folder / "it.toml").write_text(SINGLE.replace("preload_N = 500.0", "preload_N = 5000.0"))
-    words = "report it.toml --duration 0.05 --settle 0.01 --radiation-model compact --no-changes"
+    words = "simulate it.toml --stop-time 0.001 --output it.csv"
     command = [sys.executable, "-m", "fmu_bearing", *words.split()]
     environment = {**os.environ, "PYTHONWARNINGS": "always"}
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, env=environment)

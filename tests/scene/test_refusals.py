@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import MAX_BALLS
 from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.bearing import Bearing, most_balls
 from tests.conftest import GATES
+from tests.messages import says
 
 TEXT = (GATES / "7003C-spindle.toml").read_text(encoding="utf-8")
 
@@ -333,15 +334,13 @@ def test_unknown_catalogue_names_are_all_reported_and_nothing_beneath_them():
         + TEXT[TEXT.index("[mounting]") :]
     )
     lines = problems(text=text)
-    assert lines == [
-        "bearing.catalogue = '7003D' is not in the catalogue; did you mean '7003C'? known: 7003C, 7009C, "
-        "60 from NSK-7900C on (`fmu-bearing scene catalogue`)",
-        "lubricant.catalogue = 3 is not in the catalogue; known: spindle-oil",
-        "materials.inner_ring = 'gcr15' is not in the catalogue; did you mean 'GCr15'? "
-        "known: GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
-        "materials.balls = 'glass' is not in the catalogue; known: GCr15, Si3N4, ZrO2, bakelite, PEEK, "
-        "aluminium",
-    ]
+    expected = (
+        "bearing.catalogue = '7003D' ... '7003C' ... 7003C, 7009C, 60 from NSK-7900C on ... scene catalogue`",
+        "lubricant.catalogue = 3 ... spindle-oil",
+        "materials.inner_ring = 'gcr15' ... 'GCr15' ... GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
+        "materials.balls = 'glass' ... GCr15, Si3N4, ZrO2, bakelite, PEEK, aluminium",
+    )
+    assert all(map(says, lines, expected)) and len(lines) == len(expected), lines
 
 
 def test_misspelt_catalogue_key():
@@ -365,8 +364,8 @@ def test_misspelt_catalogue_key():
         (
             "pocket_diameter_mm = 4.6",
             "pocket_diameter_mm = 6.2",
-            "makes 12 pockets overlap at the cage's bore of 23.4 mm, where their centres are 6.056 mm apart: "
-            "make them smaller than 6.056, or give cage.bore_mm above 23.95, or take at most 11 balls",
+            "12 pockets ... 23.4 mm ... 6.056 mm apart ... smaller than 6.056 ... cage.bore_mm above 23.95 "
+            "... at most 11 balls",
         ),
         ("width_mm = 9.1", "width_mm = 10.1", "bearing.cage.width_mm = 10.1 must not exceed"),
         (
@@ -377,35 +376,35 @@ def test_misspelt_catalogue_key():
         ("pitch_diameter_mm = 26.0", "pitch_diameter_mm = 28.0", "between the cage's bore and outside diam"),
         ("bore_mm = 17.0", "bore_mm = 22.0", "bearing.ball_diameter_mm = 4.5 must be below 4"),
         ("outside_diameter_mm = 35.0", "outside_diameter_mm = 29.0", "outer_ring_inner_diameter_mm = 29.6"),
-        ("ball_count = 12", "ball_count = 19", "does not fit the pitch circle: at most 18 balls of 4.5 mm"),
+        ("ball_count = 12", "ball_count = 19", "ball_count = 19 ... at most 18 balls of 4.5 mm"),
         ("highest_order = 20", "highest_order = 1", "must not be below lowest_order = 2"),
         ("traction_strips = 5", "traction_strips = 4", "traction_strips = 4 must be 1, 3 or 5"),
         ("diameter_mm = 100.0", "diameter_mm = 35.0", "must exceed bearing.outside_diameter_mm = 35"),
         ("[materials.cage]", "[materials.nothing]", "materials.nothing is not a key of a scene"),
-        ('name = "P1"', 'name = "P2"', "sound: microphone names must differ: P2 is given more than once"),
-        ("y_mm = 105.0\n", "", "sound.microphone[1]: microphone 'P1' has x_mm, z_mm: give x_mm, y_mm, z_mm"),
+        ('name = "P1"', 'name = "P2"', "sound ... names must differ ... P2"),
+        ("y_mm = 105.0\n", "", "sound.microphone[1] ... 'P1' has x_mm, z_mm ... give x_mm, y_mm, z_mm"),
         (
             "y_mm = 105.0\n",
             "y_mm = 105.0\nr_mm = 1.0\n",
             "microphone 'P1' has x_mm, y_mm, z_mm, r_mm: give",
         ),
-        ("y_mm = 105.0\n", "y_mm = 49.9\n", "microphone 'P1' at x = 0, r = 49.9 mm lies inside the housing"),
-        ("y_mm = 105.0\n", "y_mm = 50.0\n", "microphone 'P1' at x = 0, r = 50 mm lies on the housing"),
+        ("y_mm = 105.0\n", "y_mm = 49.9\n", "'P1' ... r = 49.9 mm ... inside the housing"),
+        ("y_mm = 105.0\n", "y_mm = 50.0\n", "'P1' ... r = 50 mm ... on the housing"),
         (
             "y_mm = 105.0\n",
             "y_mm = 49.0\n",
-            "1 mm below its surface: move it to r above 50, or to x below -20.5 or above 139.5",
+            "1 mm below ... r above 50, or to x below -20.5 or above 139.5",
         ),
         (
             "x_mm = -80.5\n",
             "x_mm = -20.4\n",
-            "microphone 'P4' at x = -20.4, r = 0 mm lies inside the housing",
+            "'P4' at x = -20.4, r = 0 mm ... inside the housing",
         ),
     ],
 )
 def test_values_that_do_not_fit_each_other(old, new, expected):
     lines = problems((old, new))
-    assert any(expected in line for line in lines), lines
+    assert any(says(line, expected) for line in lines), lines
 
 
 def test_cage_needs_a_material():
@@ -462,17 +461,17 @@ def test_scene_is_frozen(scene):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("preload_N = 150,0 # light", "preload_N = 150,0: a decimal number has a point: write 150.0"),
-        ("x = 1.000,5", "x = 1.000,5: a decimal number has a point: write 1000.5"),
-        ("x = -1,5e3", "x = -1,5e3: a decimal number has a point: write -1.5e3"),
-        ("x = ,5", "x = ,5: a decimal number has a point: write 0.5"),
-        ("x = 20,000", "x = 20,000: .* write 20.000, or 20000 if the comma is between thousands"),
-        ("t = { x = 1,5, y = 2 }", "x = 1,5: a decimal number has a point: write 1.5"),
-        ("x = 20 000", "x = 20 000: a number has no marks between its thousands: write 20000"),
-        ("x = 1 250 000 # by blanks", "x = 1 250 000: .* marks between its thousands: write 1250000"),
-        ("x = 50 mm", "x = 50 mm: a number has no unit behind it: the key's name has the unit; write 50"),
-        ("x = 5%", "x = 5 %: a number has no unit behind it"),
-        ("x = 40 degC # warm", "x = 40 degC: a number has no unit behind it"),
+        ("preload_N = 150,0 # light", "preload_N = 150,0: .*: write 150.0"),
+        ("x = 1.000,5", "x = 1.000,5: .*: write 1000.5"),
+        ("x = -1,5e3", "x = -1,5e3: .*: write -1.5e3"),
+        ("x = ,5", "x = ,5: .*: write 0.5"),
+        ("x = 20,000", "x = 20,000: .* write 20.000, or 20000"),
+        ("t = { x = 1,5, y = 2 }", "x = 1,5: .*: write 1.5"),
+        ("x = 20 000", "x = 20 000: .*: write 20000"),
+        ("x = 1 250 000 # by blanks", "x = 1 250 000: .*: write 1250000"),
+        ("x = 50 mm", "x = 50 mm: .* unit .* write 50"),
+        ("x = 5%", "x = 5 %: .* unit"),
+        ("x = 40 degC # warm", "x = 40 degC: .* unit"),
     ],
 )
 def test_numbers_as_people_write_them(line, words):

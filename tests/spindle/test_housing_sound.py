@@ -9,7 +9,7 @@ import pytest
 
 from fmu_bearing import Bearing, Scene, sweep
 from fmu_bearing.acoustics.filters.bearings import front_of_set, housing_of_set
-from fmu_bearing.acoustics.filters.design import build, radiators_of, silent_parameters
+from fmu_bearing.acoustics.filters.design import radiators_of, silent_parameters
 from fmu_bearing.acoustics.radiation.bem import task
 from fmu_bearing.acoustics.radiation.bem.band import Band
 from fmu_bearing.acoustics.radiation.bem.bodies import bodies_of

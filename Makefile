@@ -64,7 +64,7 @@ test: kernels
 		--times tests/times/quick.txt $(TIMES) $(SKIPS)
 
 heavy: kernels
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m heavy \
+	HYPOTHESIS_PROFILE=many $(BIN)/python -m pytest -n $(JOBS) --dist loadfile --no-loadscope-reorder -m heavy \
 		--times tests/times/heavy.txt $(TIMES) $(SKIPS)
 
 # One worker: the compilers that it starts go side by side.

@@ -20,8 +20,11 @@ os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# A test draws the same numbers each time and everywhere, and no clock fails it. `make soak` draws others.
-hypothesis.settings.register_profile("fixed", derandomize=True, deadline=None, database=None)
+# A test draws the same numbers each time and everywhere, and no clock fails it. `make heavy` draws more,
+# `make soak` others.
+_FIXED = {"derandomize": True, "deadline": None, "database": None}
+hypothesis.settings.register_profile("fixed", max_examples=30, **_FIXED)
+hypothesis.settings.register_profile("many", **_FIXED)
 hypothesis.settings.register_profile("soak", derandomize=False, deadline=None, print_blob=True)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 

@@ -39,6 +39,7 @@ def test_imports():
     check("-c", LINT_IMPORTS)
 
 
+@pytest.mark.lint
 def test_files_are_short():
     long = {}
     for path in (ROOT / "fmu_bearing").rglob("*.py"):
@@ -60,6 +61,7 @@ def test_the_engine_needs_no_other_room():
     check("-c", code)
 
 
+@pytest.mark.lint
 def test_no_process_is_waited_for_without_end():
     """Every process that a test runs has a timeout: one that hangs fails its test, not the whole run."""
     endless, waiting = [], ("subprocess.run", "subprocess.check_output", "subprocess.check_call")

@@ -202,6 +202,7 @@ def test_bad_scenes_are_those_that_restart_or_move_far_more():
     assert quick_fidelities.faults(row | {"restarts of rings": "4"}) == ["rings restarts 4"]
 
 
+@pytest.mark.heavy
 def test_rings_beside_full_are_written_in_their_columns(tmp_path):
     quick_gates.main(["--what", "drawn", "--count", "1", "--output", str(tmp_path)])
     quick_limits.main(["--what", "stiff_preload", "--output", str(tmp_path)])

@@ -146,6 +146,7 @@ def test_kernels_are_neither_read_nor_kept_where_others_can_write(place, monkeyp
     assert make.objects(own(), ["step"], ["v0"]) == {("step", "v0"): b"code"}
 
 
+@pytest.mark.heavy
 def test_the_command_line_says_so_in_one_line(place):
     place.chmod(0o777)
     command = [sys.executable, "-m", "fmu_bearing", "warm-up"]

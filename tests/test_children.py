@@ -112,8 +112,12 @@ def test_zig(trapped):
             ("sweep", "{scene}", "--axis", "speed=9000,9500", "--settle", "0.001", "--window", "0.002"),
             marks=pytest.mark.heavy,
         ),
-        ("sensitivity", "{scene}", "--method", "morris", "--vary", "mounting.preload_N=100..200", "--vary",
-         "operation.speed_rpm=9000..9500", "--samples", "4", "--variables", "contact.inner.load_mean"),
+        pytest.param(
+            ("sensitivity", "{scene}", "--method", "morris", "--vary", "mounting.preload_N=100..200",
+             "--vary", "operation.speed_rpm=9000..9500", "--samples", "4", "--variables",
+             "contact.inner.load_mean"),
+            marks=pytest.mark.heavy,
+        ),
     ],
     ids=["sweep", "sensitivity"],
 )  # fmt: skip

@@ -261,6 +261,7 @@ def refused(tmp_path_factory):
     return json.loads(done.stdout.splitlines()[-1])
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("script", SCRIPTS)
 def test_an_example_names_the_extra_that_it_needs(refused, script):
     code, words, left = refused[script]
@@ -317,6 +318,7 @@ def distributions(package):
     return {plain(name) for name in brings().get(package, ())}
 
 
+@pytest.mark.lint
 def test_imports_are_of_the_core_or_of_an_extra():
     core = {plain(line) for line in PYPROJECT["project"]["dependencies"]}
     # numba brings llvmlite and pydantic its own core: they come with what is asked for, of their version
@@ -335,6 +337,7 @@ def test_imports_are_of_the_core_or_of_an_extra():
     assert not wrong
 
 
+@pytest.mark.lint
 def test_what_is_asked_for_by_need_is_in_the_table():
     asked = set()
     for path in FILES:
@@ -346,6 +349,7 @@ def test_what_is_asked_for_by_need_is_in_the_table():
     assert asked == set(EXTRAS)
 
 
+@pytest.mark.lint
 @pytest.mark.parametrize("package", EXTRAS)
 def test_an_extra_installs_its_package(package):
     names = {plain(line) for line in DEFINED[EXTRAS[package]]}

@@ -13,6 +13,7 @@ def test_what_one_worker_runs():
     assert scope("tests/test_docs.py::test_a") == "tests/test_docs.py"
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "workers", [["-p", "no:xdist"], ["-n1", "--dist=loadfile", "--no-loadscope-reorder"]]
 )

@@ -17,6 +17,7 @@ from tests.vibration_test import known
 LONG = {"changes", "compare", "identify", "report", "spread", "vibration"}
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.heavy] * (name in LONG)) for name in fmu_bearing.__all__]
 )
@@ -45,6 +46,7 @@ def own_methods(thing):
             yield from (test for test in finder.find(base, base.__name__, globs={}) if "." in test.name)
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("name", ["Scene", "Run", "Recording", "Bearing"])
 def test_examples_of_methods_run(name, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
@@ -54,6 +56,7 @@ def test_examples_of_methods_run(name, monkeypatch, tmp_path):
         assert runner.run(test).failed == 0, test.name
 
 
+@pytest.mark.pages
 def test_the_map_of_the_package_runs(monkeypatch):
     monkeypatch.chdir(ROOT)
     assert doctest.testmod(fmu_bearing).failed == 0

@@ -217,6 +217,7 @@ def test_every_output_of_a_run_on_such_a_mounting(fidelity, mount):
     same_outputs(*made, fidelity, 1.0)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("mount", MOUNTS)
 def test_figures_at_rest_and_modes_on_such_a_mounting(mount):
     made = set_of_one(RPM, -50.0, cage=False, mount=MOUNTS[mount])

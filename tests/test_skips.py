@@ -23,6 +23,7 @@ def test_known(): assert False
 """
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("listed", "code", "words"),
     [

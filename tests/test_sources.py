@@ -64,6 +64,7 @@ def test_the_result_of_an_fmu_finds_its_microphones_by_the_path(file):
     assert ours.scene == read_scene(file) and ours.microphones[0][0] == "P1"
 
 
+@pytest.mark.heavy
 def test_the_spread_of_a_file_is_that_of_its_recording(file, tmp_path):
     recording = record(file, 0.1)
     recording.save(tmp_path / "run.npz")

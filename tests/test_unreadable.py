@@ -20,6 +20,7 @@ from fmu_bearing.scene.read import with_fidelity
 from fmu_bearing.sweeps.description import read_description
 from fmu_bearing.validation.run import validate
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 
 SCENE = EXAMPLES / "7003C-bare.toml"
 
@@ -187,8 +188,11 @@ def damages(data, count):
 
 @pytest.mark.parametrize(
     ("file", "read"),
-    [("it.csv", Run.load), ("it.nc", Run.load), ("it.npz", Recording.load), ("it.wav", audio.read_wav),
-     ("table.npz", read_table)],
+    heavy_but(
+        [("it.csv", Run.load), ("it.nc", Run.load), ("it.npz", Recording.load), ("it.wav", audio.read_wav),
+         ("table.npz", read_table)],
+        2,
+    ),
     ids=["csv", "netcdf", "recording", "wav", "table"],
 )  # fmt: skip
 @pytest.mark.filterwarnings("error::pytest.PytestUnraisableExceptionWarning")  # it would print a traceback

@@ -54,6 +54,7 @@ def life_of(scene):
     return sum(shares) ** -0.9 * 1e6 / (60 * turning)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "begin", ["preload 500 -> 350 N", "balls ceramic", "inner groove 0.515 -> 0.51", "oil 40 -> 50"]
 )
@@ -80,6 +81,7 @@ def test_the_direction_of_turning_changes_no_figure(spindle):
     assert back.life == pytest.approx(there.life, rel=0.01)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("begin", ["preload 500 -> 350 N", "grade P4 -> P2"])
 def test_levels_are_those_of_two_recordings_with_the_same_seed(found, spindle, begin):
     row = named(found, begin)
@@ -103,12 +105,14 @@ def test_levels_are_those_of_two_recordings_with_the_same_seed(found, spindle, b
     assert row.level_range == (row.levels.min(), row.levels.max())
 
 
+@pytest.mark.heavy
 def test_the_microphone_is_the_loudest(found, spindle):
     run = record(with_fidelity(spindle, model="response"), 0.06, settle=0.02, progress=False)
     levels = run.levels(weighting="A", resolution=20.0)
     assert found.basis.microphone == run.microphones[int(np.argmax(levels))][0]
 
 
+@pytest.mark.heavy
 def test_every_choice_is_there_and_ranked(found):
     topics = {each.choice.topic for each in found.changes}
     assert topics == {
@@ -128,6 +132,7 @@ def test_every_choice_is_there_and_ranked(found):
     assert not named(found, "oil 40 -> 50").acts("life") and not named(found, "grade P4 -> P5").acts("torque")
 
 
+@pytest.mark.heavy
 def test_summary_and_table_have_the_figures(found):
     reported = found.summary()
     assert reported["seeds"] == list(found.basis.seeds) and reported["microphone"] == found.basis.microphone
@@ -267,6 +272,7 @@ def test_what_the_scene_or_the_engine_refuses_is_reported(spindle, monkeypatch):
     assert found.summary()["changes"][-1]["reason"] == refused.reason
 
 
+@pytest.mark.heavy
 def test_a_warning_of_the_choice_alone_is_reported(found):
     angle = named(found, "contact angle")
     assert any("beyond its shoulder" in text for text in angle.cautions)
@@ -309,6 +315,7 @@ def test_rings_that_bend_are_run_with_fidelity_full(scene, monkeypatch):
     assert found.changes[0].levels.shape == (3,)
 
 
+@pytest.mark.heavy
 def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch):
     """`response` and `rings` agree on the dry 7003C at 8,000 r/min, 18 dB(A) away from `full`."""
     only(monkeypatch)
@@ -347,6 +354,7 @@ def test_a_loud_cage_is_judged_by_full(spindle, monkeypatch):
     assert changes(spindle, seeds=5).basis.fidelity == "rings"
 
 
+@pytest.mark.heavy
 def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
     only(monkeypatch)
     last = spindle.replace({"imperfections.seed": 2**31 - 1})
@@ -355,6 +363,7 @@ def test_the_seeds_begin_with_the_scenes(spindle, monkeypatch):
         changes(spindle, seeds=0)
 
 
+@pytest.mark.heavy
 def test_a_scene_without_any_figure_is_refused(spindle, example):
     still = spindle.replace({"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1000.0})
     with pytest.raises(ValueError, match="nothing to compare.*does not turn"):

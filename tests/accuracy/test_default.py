@@ -25,6 +25,7 @@ def error(bearing, window):
     return relative_error(bearing.with_parameters().rings(window, SAMPLE), exact)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("rpm", "load"), [(1e3, 0.0), (28e3, 0.0), (1e4, -300.0), (1e4, -1000.0)])
 def test_the_default_keeps_its_tolerance_once_settled(bare, rpm, load):
     """Measured 5e-5, 9e-4, 1.5e-3, 1.8e-3 at the default of 2e-3; at 1e-3 4e-5, 4e-4, 8e-4, 9e-4."""
@@ -34,6 +35,7 @@ def test_the_default_keeps_its_tolerance_once_settled(bare, rpm, load):
     assert error(bearing, 0.02) < 3e-3
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("load", [500.0, 1000.0])
 def test_rings_under_loads_across_keep_the_tolerance(load):
     """Where balls rattle between the races, Newton's method may not leave more than the tolerance of 1e-3.

@@ -42,6 +42,7 @@ def lonely():
     return given, single(given, x)
 
 
+@pytest.mark.heavy
 def test_sensitivity_of_a_set_of_one_is_that_of_the_single_bearing(lonely):
     keys = ("lubricant.traction_max", "bearing.inner_conformity")
     ours, own = (sensitivity(scene, keys, warm_up=0.01, window=0.02) for scene in lonely)
@@ -84,6 +85,7 @@ def test_points_of_changes_are_those_of_statics(lonely):
     assert 1e6 * found.stiffness * flexibility[2, 2] == pytest.approx(1.0, rel=1e-9)
 
 
+@pytest.mark.heavy
 def test_levels_of_changes_are_those_of_two_recordings(monkeypatch):
     given = pair()
     choice = Alternative("preload", "more", {"spindle.preload.preload_N": 280.0})
@@ -136,6 +138,7 @@ def test_preload_choices_by_kind():
     assert not [one for one in alternatives(one_way) if one.topic == "preload"]
 
 
+@pytest.mark.heavy
 def test_two_integrators_of_a_pair_agree():
     """The engine's explicit method at 40 ns and its implicit one share the equations alone."""
     agree, own = check(pair(), 5e-3, 1e-3)

@@ -40,6 +40,7 @@ def test_files_hold_every_row_and_the_machine(study, tmp_path):
     assert "Numba" in page and page.count("\n| ") == 2 + len(study.rows)
 
 
+@pytest.mark.heavy
 def test_a_chart_without_sound(study, tmp_path):
     draw(study, tmp_path / "new" / "chart.png")
     assert (tmp_path / "new" / "chart.png").read_bytes().startswith(b"\x89PNG")

@@ -146,6 +146,7 @@ def test_frequency_response_of_the_whole_path():
     assert 20 * np.log10(np.abs(found[frequency >= STOP]).max() / edge) < -60
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("kind", ["noise", "lines"])
 @pytest.mark.parametrize("model", heavy_but(["compact", "paper_vector", "paper_contacts"], "compact"))
 def test_meters_and_recordings_hear_the_same(model, kind):

@@ -11,6 +11,7 @@ from fmu_bearing.engine.sound.high_pass import high_pass
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
 from tests.acoustics.playback import PAPER_POINTS, SMALL, build, low_limit
+from tests.marks import heavy_but
 
 
 def filtered(signals):
@@ -67,7 +68,7 @@ def test_a_sine_that_begins_at_once_leaves_no_slow_part(frequency, phase):
         assert 20 * np.log10(np.hypot(*line)) == pytest.approx(0.0, abs=0.1)
 
 
-@pytest.mark.parametrize("fidelity", ["response", "rings", "full"])
+@pytest.mark.parametrize("fidelity", heavy_but(["response", "rings", "full"], 1))
 def test_order_one_waviness_reads_its_level_at_once(scene, fidelity):
     """The ring whirls at f_r: 50 ms after the start as after half a second, to 0.1 dB.
 

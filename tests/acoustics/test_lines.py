@@ -127,6 +127,7 @@ def step(block, hertz, begin, h, tau):
     beats.follow(ps, ss, ws, h, tau)
 
 
+@pytest.mark.heavy
 def test_meters_follow_beats_as_samples_do(block):
     """Against exponential averages of the samples of the sum: ripple of the clusters' distance is left."""
     hertz, pressures = beating(block)
@@ -151,6 +152,7 @@ def test_meters_follow_beats_as_samples_do(block):
     np.testing.assert_allclose(sums / ss[SD.SS_METERED], (sound**2).mean(1), rtol=2e-3)
 
 
+@pytest.mark.heavy
 def test_steps_do_not_matter_to_meters(block):
     hertz, _ = beating(block)
     _, ps, ss, _ = block

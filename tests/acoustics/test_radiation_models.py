@@ -235,6 +235,7 @@ def test_contact_sources_that_orbit_keep_their_strength():
     assert np.all(whole[:2] < 1e-6 * single[:2])
 
 
+@pytest.mark.heavy
 def test_normal_velocities_at_orbiting_contacts_change_as_motion_in_vectors_says():
     """d/dt (v . n) by a difference: rings and cage in even acceleration, normals that turn with the balls.
 

@@ -56,6 +56,7 @@ class Line:
         return np.array(found)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("delays", [(31, 40, 75), (47, 60, 200), (5, 300, 700)])
 @pytest.mark.parametrize("lengths", [(), (8,), (16,), (32,), (64,), (16, 64), (32, 64), (32, 256), (64, 512)])
 def test_blocks_against_sums_over_all_taps(lengths, delays):
@@ -73,6 +74,7 @@ def test_blocks_against_sums_over_all_taps(lengths, delays):
     assert np.max(np.abs(found - expected)) < 1e-13 * np.max(np.abs(expected))
 
 
+@pytest.mark.heavy
 def test_a_span_without_filters_adds_nothing():
     """All taps end before the longer blocks begin."""
     rng = np.random.default_rng(2)
@@ -83,6 +85,7 @@ def test_a_span_without_filters_adds_nothing():
     assert np.max(np.abs(found - expected)) < 1e-13 * np.abs(expected).max()
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("lengths", [(16,), (32, 64), (32, 256)])
 def test_states_carry_a_block_under_way(lengths):
     """Copied after each of many samples, with spoilt work space: equal bits until the end."""

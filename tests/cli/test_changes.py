@@ -27,6 +27,7 @@ def test_it_prints_what_the_function_returns(run, few, example_file):
     assert "preload 500 -> 350 N" in reported.stderr  # progress
 
 
+@pytest.mark.heavy
 def test_its_table_fits_a_terminal(run, example_file, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     reported = run("changes", example_file, "--no-levels")

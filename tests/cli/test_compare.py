@@ -67,6 +67,7 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
         assert load == pytest.approx(preload / (12.0 * math.sin(angle)), rel=5e-3)
 
 
+@pytest.mark.heavy
 def test_machines(run, rings_file, quiet_cages):
     done = run("compare", *quiet_cages, *SHORT, "--fidelity", "response", "--seeds", 2, "--json")
     assert done.exit_code == 0, done.output
@@ -85,6 +86,7 @@ def test_machines(run, rings_file, quiet_cages):
     assert finding["is_finding"] is (min(every) > 0.0 or max(every) < 0.0)
 
 
+@pytest.mark.heavy
 def test_scenes_that_are_equal(run, quiet_cages):
     done = run("compare", quiet_cages[0], quiet_cages[0], *SHORT, "--seeds", 1)
     assert done.exit_code == 0 and "the scenes do not differ" in done.stdout

@@ -40,6 +40,7 @@ def test_simulate_says_so_beside_torque_too(run, whirling_file, tmp_path):
     assert firm.data["doubt"] == ""
 
 
+@pytest.mark.heavy
 def test_sound_and_compare_say_so(run, whirling_file, tmp_path):
     quick = ("-t", "0.05", "--settle", "0.01")
     recorded = run(
@@ -52,6 +53,7 @@ def test_sound_and_compare_say_so(run, whirling_file, tmp_path):
     assert beside.output.count(WORDS) == 2
 
 
+@pytest.mark.heavy
 def test_compare_keeps_it(whirling):
     found = compare(
         whirling, with_fidelity(whirling, model="full"), duration=5e-3, settle=1e-3, progress=False
@@ -95,6 +97,7 @@ def test_build_says_so(run, whirling, tmp_path):
         assert f"F{WORDS[1:]}" in fmu.read("documentation/index.html").decode()
 
 
+@pytest.mark.heavy
 def test_a_level_of_a_run_that_restarted_is_in_doubt(run, example, tmp_path):
     """The outer race leaves the balls: its ring is 180 K warmer at once. No mode is weak here."""
     scene = with_fidelity(example("7003C-bare"), model="rings").replace({"mounting.preload_N": 500.0})

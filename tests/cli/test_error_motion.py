@@ -27,6 +27,7 @@ def test_values_files_and_remarks_are_the_librarys(run, words, rings_file, tmp_p
     assert (tmp_path / "p.svg").stat().st_size > 10_000
 
 
+@pytest.mark.heavy
 def test_tables_and_remarks_are_printed(run, words):
     done = run(*words, "--force")
     assert done.exit_code == 0, done.output

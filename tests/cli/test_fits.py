@@ -58,6 +58,7 @@ def test_a_scene_without_a_fit_is_refused(run):
     assert "has no fit" in refused.stderr and "[mounting.fit.shaft]" in refused.stderr
 
 
+@pytest.mark.heavy
 def test_pictures_have_bands_limits_and_the_speed_of_loss():
     """Curves are the study's at the scene's speed and temperatures; a ring that lets go has its mark."""
     strong = {"youngs_modulus_GPa": 310.0, "poisson_ratio": 0.26, "density_kg_m3": 3200.0}
@@ -87,6 +88,7 @@ def test_pictures_have_bands_limits_and_the_speed_of_loss():
     assert marks == pytest.approx([1e-3 * loss * 9.549297] * 5) and marks[0] < 25.0
 
 
+@pytest.mark.heavy
 def test_pictures_of_a_bearing_on_springs_with_a_housing_alone(tmp_path, run):
     scene = bearing(warm=20.0, housing=HOUSING).replace({"mounting.preload_mode": "force"})
     path, target = tmp_path / "housing.toml", tmp_path / "fits.png"
@@ -97,6 +99,7 @@ def test_pictures_of_a_bearing_on_springs_with_a_housing_alone(tmp_path, run):
     assert one.held_by_force and one.temperature is None and one.speed.hoop.size == 0
 
 
+@pytest.mark.heavy
 def test_info_has_the_seats_of_each_bearing(run, file, tmp_path):
     shown = run("info", file).stdout
     assert "fits: inner ring js5 on P4, mean 2.0 um of -4.0 to 8.0" in " ".join(shown.split())
@@ -111,6 +114,7 @@ def test_info_has_the_seats_of_each_bearing(run, file, tmp_path):
     assert "fits" not in run("info", DB, "--json").data
 
 
+@pytest.mark.heavy
 def test_equal_columns_and_rows_of_all_bearings_are_shown_once(run, file, tmp_path):
     fit = {"spindle.fit": {"preload": "unmounted", "shaft": {"interference_um": 2.0, "material": STEEL}}}
     path = tmp_path / "pair.toml"

@@ -114,6 +114,7 @@ def test_force_replaces_it(words, file, run, rings_file, tmp_path):
     assert (folder / file).read_text("utf-8") != "old" and (folder / file).stat().st_size > 20
 
 
+@pytest.mark.heavy
 def test_a_sweep_goes_on_in_its_own_folder_and_spares_that_of_another(run, silent_file, tmp_path):
     words = ("sweep", silent_file, "--fidelity", "rings", "--settle", 0, "--window", 1e-3, "-w", 1)
     first = run(*words, "-a", "speed=5000,9000", "-o", tmp_path)

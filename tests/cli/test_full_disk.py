@@ -7,6 +7,7 @@ import zipfile
 import pytest
 
 from fmu_bearing import Recording, Run, files
+from tests.marks import heavy_but
 
 NO_ROOM = os.strerror(errno.ENOSPC).lower()
 
@@ -46,11 +47,13 @@ def test_a_recording_and_a_picture_that_were_there_stay(run, rings_file, full):
     assert (out / "recording.npz").read_text() == "old"
 
 
+@pytest.mark.heavy
 def test_the_run_of_a_report_is_kept_where_there_is_no_room_for_the_page(run, rings_file, full, tmp_path):
     kept = tmp_path / "kept.npz"
     done = run(
-        "report", rings_file, "--duration", 0.05, "--settle", 0.01, "-o", full / "a.html", "--keep", kept
-    )
+        "report", rings_file, "--duration", 0.05, "--settle", 0.01, "--no-changes", "-o", full / "a.html",
+        "--keep", kept,
+    )  # fmt: skip
     assert done.exit_code == 2 and "a.html" in done.stderr.splitlines()[-1]
     assert Recording.load(kept).size > 0
 
@@ -82,14 +85,14 @@ def test_no_room_anywhere(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("words", "name", "said"),
-    [
+    heavy_but([
         (("stiffness", "{scene}", "--frequencies", "100"), "k.csv", "K radial"),
         (("modes", "{scene}"), "", "what moves most"),
         (("fits", "{fitted}"), "f.csv", "preload, N, at speed"),
         (("realtime", "{scene}", "--fidelity", "response", "--duration", "0.01"), "r.csv", "mean, us"),
         (("error-motion", "{scene}", "--revolutions", "20"), "", "largest lines"),
         (("sensitivity", "{scene}", "--quick"), "", "what rests on assumed values"),
-    ],
+    ], 0, 3),
     ids=lambda words: words[0] if isinstance(words, tuple) else "",
 )  # fmt: skip
 @pytest.mark.parametrize("as_json", [(), ("--json",)], ids=["table", "json"])

@@ -52,6 +52,7 @@ def output(tmp_path_factory):
     return tmp_path_factory.mktemp("found") / "identified.toml"
 
 
+@pytest.mark.heavy
 def test_it_finds_writes_and_goes_on(run, scene_of, measured, output):
     arguments = ("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output, "--json")
     result = run(*arguments)
@@ -88,6 +89,7 @@ def test_tables_on_the_terminal(run, scene_of, measured, output):
         assert word in result.stdout
 
 
+@pytest.mark.heavy
 def test_the_scene_of_a_set_is_written_as_a_set(run, tmp_path):
     """A heavy spot of the example's shaft: its line rises by 20 lg of the amount."""
     key = "spindle.shaft.unbalance[1].amount_g_mm"

@@ -57,6 +57,7 @@ def test_info_fits_a_terminal_and_names_units(run):
     assert "caution: contact pressure 1.89 GPa" in result.stderr
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("path", [EXAMPLES / "7003C-spindle.toml", SET], ids=["single", "set"])
 def test_info_says_how_far_torque_and_stiffness_were_from_values_elsewhere(run, path):
     """One line each with the page; life and level say that nobody measured them."""
@@ -70,6 +71,7 @@ def test_info_says_how_far_torque_and_stiffness_were_from_values_elsewhere(run, 
     assert run("info", path, "--json").data["measured_elsewhere"] == measured_elsewhere()
 
 
+@pytest.mark.heavy
 def test_info_of_ceramic_rings_has_no_life_and_of_nonsense_no_figures(run, tmp_path):
     result = run("info", EXAMPLES / "7009C-full-ceramic.toml")
     assert result.exit_code == 0 and "standards rate rings of steel only" in result.stdout
@@ -142,6 +144,7 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
+@pytest.mark.heavy
 def test_a_set_is_checked_shown_and_run(run, tmp_path):
     result = run("scene", "check", SET)
     assert result.exit_code == 0 and "a scene, with an equilibrium" in result.stdout
@@ -188,6 +191,7 @@ LIGHT = (
 )
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("bearing", "kind", "changes", "radial"), LIGHT)
 def test_stiffness_is_one_figure(run, tmp_path, bearing, kind, changes, radial):
     path = tmp_path / "light.toml"
@@ -216,6 +220,7 @@ def test_the_matrix_is_headed_by_directions(run):
     assert rows == ["axial", "radial y", "radial z", "tilt y", "tilt z"]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("command", [("info",), ("scene", "check"), ("modes",)])
 def test_a_soft_pedestal_is_named(run, tmp_path, command):
     firm, weak = (f"pedestal_stiffness_N_m = {value}" for value in ("1e8", "1e5"))
@@ -232,6 +237,7 @@ def test_a_soft_pedestal_is_named(run, tmp_path, command):
     assert "soft pedestal" not in result.stdout + result.stderr
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("speed", [0, 1, 1e-6, -50])
 @pytest.mark.parametrize("path", [EXAMPLES / "7003C-bare.toml", SET], ids=["bare", "set"])
 def test_a_speed_that_decides_no_waves_is_taken(run, path, speed):

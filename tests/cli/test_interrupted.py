@@ -16,6 +16,7 @@ from fmu_bearing import Recording, files, record
 from fmu_bearing.acoustics.analysis.field import TAIL
 from fmu_bearing.run import march as march_module
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 
 # of these names the packages also have functions
 changes, choose, error_motion, realtime, scene_stiffness, sensitivity, tradeoff, vibration = (
@@ -105,18 +106,21 @@ MISSING = {
 
 @pytest.mark.parametrize(
     ("words", "files"),
-    [
-        (["tradeoff", "--quick"], ["tradeoff.csv", "tradeoff.md", "tradeoff.png"]),
-        (["sensitivity", "--quick"], ["sensitivity.csv", "sensitivity.md"]),
-        (["changes", "--no-levels"], []),
-        (["stiffness", "--speeds", "9000,12000,15000", "--frequencies", "100"], ["stiffness.csv"]),
-        (["error-motion", "--speeds", "2000,3000,4000", "--revolutions", "20"], ["lines.csv"]),
-        (["vibration", "--rigid", "--fidelity", "rings", "--seeds", "3"], ["lines.csv", "bands.png"]),
-        (["realtime", "--duration", "0.01"], ["realtime.csv"]),
-        (["choose"], []),
-    ],
+    heavy_but(
+        [
+            (["tradeoff", "--quick"], ["tradeoff.csv", "tradeoff.md", "tradeoff.png"]),
+            (["sensitivity", "--quick"], ["sensitivity.csv", "sensitivity.md"]),
+            (["changes", "--no-levels"], []),
+            (["stiffness", "--speeds", "9000,12000,15000", "--frequencies", "100"], ["stiffness.csv"]),
+            (["error-motion", "--speeds", "2000,3000,4000", "--revolutions", "20"], ["lines.csv"]),
+            (["vibration", "--rigid", "--fidelity", "rings", "--seeds", "3"], ["lines.csv", "bands.png"]),
+            (["realtime", "--duration", "0.01"], ["realtime.csv"]),
+            (["choose"], []),
+        ],
+        2, 3, 6,
+    ),
     ids=lambda words: words[0] if words else "",
-)
+)  # fmt: skip
 def test_a_study_keeps_what_is_finished(words, files, run, silent_file, tmp_path, monkeypatch):
     """Interrupted within the third of its rows: two are printed and written."""
     calls = itertools.count(1)
@@ -158,6 +162,7 @@ def press(monkeypatch):
     return at
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 def test_sound_keeps_what_was_recorded(run, rings_file, tmp_path, press):
     """200 steps of 0.4 ms are 80 ms, 10 of them left out."""
@@ -190,6 +195,7 @@ def test_sound_says_why_nothing_is_kept(run, rings_file, tmp_path, press):
 REPORT = ("--duration", "0.5", "--settle", "0.01", "--json")
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 def test_a_report_of_a_run_that_was_cut(run, rings_file, tmp_path, press):
     """The page is made of 0.1 s less the flight to microphones; what takes longest is left out."""
@@ -205,6 +211,7 @@ def test_a_report_of_a_run_that_was_cut(run, rings_file, tmp_path, press):
     assert "of which the last 0.04" in page.read_text("utf-8")
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("place", "cut"),
     [
@@ -231,6 +238,7 @@ def test_a_report_has_the_sections_that_are_finished(run, rings_file, tmp_path, 
     )
 
 
+@pytest.mark.heavy
 def test_the_report_of_a_set_has_the_sections_that_are_finished(run, tmp_path, monkeypatch):
     def pressed(*given):
         raise KeyboardInterrupt

@@ -34,6 +34,7 @@ def test_a_short_run_is_silent(run, rings_file, tmp_path):
     assert done.exit_code == 0 and done.stderr == ""
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("words", "what"),
     [

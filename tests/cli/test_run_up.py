@@ -28,6 +28,7 @@ def made(run, rings_file, tmp_path_factory):
     return out, done
 
 
+@pytest.mark.heavy
 def test_speed_and_lines_of_a_run_up(made, rings_file):
     """Balls pass the outer race at one order, Z/2 (1 - D cos a/d_m) but for the angles at speed: 2 %."""
     out, _ = made
@@ -57,6 +58,7 @@ def test_the_table_is_that_of_python(made):
     assert "2000 Hz: no line stands out" not in done.stdout and "kinematic" not in done.stdout
 
 
+@pytest.mark.heavy
 def test_a_new_run_leaves_nothing_of_an_older_one(run, rings_file, tmp_path):
     out = tmp_path / "out"
     out.mkdir()
@@ -68,6 +70,7 @@ def test_a_new_run_leaves_nothing_of_an_older_one(run, rings_file, tmp_path):
     assert (out / "mine.txt").read_text() == "old"
 
 
+@pytest.mark.heavy
 def test_a_recording_has_its_own_speed(made, run, tmp_path):
     out, _ = made
     again = run("sound", out / "recording.npz", *QUICK, "-o", tmp_path / "again")
@@ -93,6 +96,7 @@ def test_what_is_no_run_up_is_refused(run, rings_file, tmp_path, text, more, sai
     assert said in refused.stderr and not (tmp_path / "out").exists()
 
 
+@pytest.mark.heavy
 def test_a_shaft_that_turns_back_has_no_order_map(run, rings_file, tmp_path):
     out = tmp_path / "out"
     there = ("-t", 0.1, "--settle", 0.02, "--run-up", "3000:-3000", *QUICK)

@@ -43,6 +43,7 @@ def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):
     assert found["scene"] == found["fmu"]
 
 
+@pytest.mark.heavy
 def test_simulate_loads_only_what_a_first_run_needs(rings_file, tmp_path):
     """A first run is mostly loading: SciPy's signal and statistics would take half a second more.
 
@@ -128,6 +129,7 @@ def test_netcdf_without_its_packages_is_refused_before_the_run(run, rings_file, 
     assert refused.exit_code == 2 and "is a folder: name the file" in refused.stderr
 
 
+@pytest.mark.heavy
 def test_plot(run, rings_file, tmp_path):
     result = tmp_path / "run.csv"
     run("simulate", rings_file, "-t", 3e-3, "-o", result)
@@ -187,6 +189,7 @@ def test_sound_plays_in_pascals(recorded, run):
     assert ratio == pytest.approx(apart, abs=0.2)
 
 
+@pytest.mark.heavy
 def test_sound_of_a_recording_is_that_of_the_scene(recorded, run, tmp_path):
     folder, done = recorded
     again = run(
@@ -224,6 +227,7 @@ def test_sound_refuses_in_a_line(run, rings_file, recorded, silent_file, tmp_pat
         assert refused.stderr.splitlines()[-1].startswith("error: ")
 
 
+@pytest.mark.heavy
 def test_listening_to_pressures_alone(scene):
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05)
     recorded = analyse_sound(whole)
@@ -236,6 +240,7 @@ def test_listening_to_pressures_alone(scene):
     assert set(recorded.parts) == {"inner_ring", "outer_ring", "cage", "balls"} and again.parts == {}
 
 
+@pytest.mark.heavy
 def test_levels_of_a_papers_radiation_model_add_energies(scene):
     """As the paper does (eqs. 43 and 46); the pressures of its sources added would read 0.3 dB more here."""
     whole = record(with_fidelity(scene("7003C-bare"), model="rings"), 0.05, radiation_model="paper")

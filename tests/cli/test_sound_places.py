@@ -20,6 +20,7 @@ QUICK = (
 )
 
 
+@pytest.mark.heavy
 def test_a_place_that_no_scene_has(run, rings_file, tmp_path):
     out = tmp_path / "out"
     made = run("sound", rings_file, *QUICK, "--microphone-at", "0,1000,0", "-o", out)

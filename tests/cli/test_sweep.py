@@ -132,6 +132,7 @@ def test_refused_points_are_counted_with_their_reason(run, silent_file, tmp_path
     assert result.data["reasons"][0].startswith("initialisation: ")
 
 
+@pytest.mark.heavy
 def test_ctrl_c_ends_with_130_and_says_how_to_go_on(silent_file, tmp_path, monkeypatch):
     def one_then_ctrl_c(tasks):
         yield next(local.here(tasks))
@@ -159,6 +160,7 @@ def test_ctrl_c_ends_with_130_and_says_how_to_go_on(silent_file, tmp_path, monke
     assert result.exit_code == 0 and "2 of 2 points, 0 refused" in result.stdout
 
 
+@pytest.mark.heavy
 def test_help_loads_nothing_heavy():
     code = (
         "import sys; from fmu_bearing import cli\n"

@@ -19,6 +19,8 @@ from fmu_bearing.recording.measurements.at_frequency import noise_at
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from tests.pages import DOCS, blocks, commands
 
+pytestmark = pytest.mark.pages
+
 PAIR = "NSK-7010C-DB.toml"
 BRIEF = ("--duration", "0.05", "--settle", "0.02", "--radiation-model", "compact", "--no-spread", "--no-wav")
 SAME = 1e-9  # relative: JSON keeps all digits

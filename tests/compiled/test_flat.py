@@ -55,6 +55,7 @@ def entry(a, b, n):
 """
 
 
+@pytest.mark.heavy
 def test_slices_rows_and_lengths_are_numpys():
     a = np.random.default_rng(7).standard_normal(25)
     table, constants = a.reshape(5, 5), np.arange(1.0, 6.0)

@@ -204,6 +204,7 @@ def test_an_unknown_platform_is_refused_by_name(module, tmp_path):
     assert not (tmp_path / "folder").exists()
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for a child process on Windows")
 def test_ctrl_c_ends_it_at_once(tmp_path):
     environment = {**os.environ, "FMU_BEARING_CACHE": str(tmp_path)}
@@ -223,6 +224,7 @@ def test_ctrl_c_ends_it_at_once(tmp_path):
     assert left.strip() == ""
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(not lean(make.version("numba")), reason="this Numba is compiled with the plain way only")
 def test_the_lean_way_computes_the_plain_ways_bits():
     found = {}

@@ -59,6 +59,7 @@ def running(found):
     return [column.bearings[0].preloads["running"] for column in found.columns]
 
 
+@pytest.mark.heavy
 def test_columns_are_computed_in_full_and_first_order_would_fail(steel):
     """Page: 166, 166, 214, 359, 414 N, by first order 36, 82, 214, 347, 392 N (rounded: 0.5 N)."""
     full = running(steel)
@@ -162,6 +163,7 @@ def given(found, take, ring, key):
     return {"interference_um": 1e6 * seat.drawn, key: None}
 
 
+@pytest.mark.heavy
 def test_as_many_draws_as_of_three_sigma_lie_beyond_the_probable_pairs(both):
     """0.135 % of draws of their own: 270 of 200,000, +-16 by chance; the pairs are from 27 of 20,000, +-5."""
     classes = {"shaft.shaft_class": "k5", "housing.housing_class": "K5", "bearing_class": "P5"}
@@ -193,6 +195,7 @@ def test_as_many_draws_as_of_three_sigma_lie_beyond_the_probable_pairs(both):
         assert np.mean(sign * drawn > sign * own) == pytest.approx(0.00135, abs=0.0006)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_set_has_each_bearing_and_its_own_interference(number):
     fit = {"spindle.fit": {"bearing_class": "P4", "preload": "unmounted", "shaft": {"shaft_class": "js5"}}}
@@ -213,6 +216,7 @@ def test_a_set_has_each_bearing_and_its_own_interference(number):
         )
 
 
+@pytest.mark.heavy
 def test_a_probable_pair_is_of_the_classes_although_one_bearing_has_its_own():
     fit = {"bearing_class": "P4", "preload": "unmounted"}
     fit |= {"shaft": {"shaft_class": "js5"}, "housing": HOUSING}
@@ -264,6 +268,7 @@ def test_a_measured_preload_has_no_drawing():
     assert one.preloads["mounted"] == pytest.approx(150.0, rel=1e-3)
 
 
+@pytest.mark.heavy
 def test_roughness_is_between_drawn_and_mounted():
     rough = SHAFT | {"roughness_Rz_um": 2.0}
     seat = fits(bearing(shaft=rough)).column("mean").bearings[0].seats["inner"]

@@ -24,10 +24,7 @@ BEARINGS = (
             *((bearing, "steel") for bearing in ("NSK-7004C", "NSK-7914C", "7009C")),
             ("NSK-7010C", "full-ceramic"),
         ],
-        "NSK-7900C-hybrid",
         "7003C-hybrid",
-        "7009C-steel",
-        "NSK-7010C-full-ceramic",
     ),
     ids=str,
 )
@@ -36,10 +33,10 @@ def test_a_fresh_scene_is_good(bearing, kind):
 
 
 @pytest.mark.heavy
-# every fifth size: angles take turns, and so do kinds, in pairs
+# of every fifth size, beside those above, a half with both angles and kinds
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [(name, ("hybrid", "steel")[k // 2 % 2]) for k, name in enumerate(list(sizes())[::5])],
+    [(name, ("hybrid", "steel")[k // 2 % 2]) for k, name in enumerate(list(sizes())[::5]) if k % 4 in (0, 3)],
 )
 def test_a_fresh_scene_of_any_size_is_good(name, kind):
     sound_and_good(name, kind)
@@ -60,6 +57,7 @@ def sound_and_good(bearing, kind):
     assert self_excited(found) is None
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("bearing", "kind", "arrangement"),
     heavy_but(
@@ -87,6 +85,7 @@ def test_a_fresh_set_is_good(bearing, kind, arrangement):
     assert min(loads) >= (0.68 if arrangement == "TBT" else 1.0) * least * (1.0 - 1e-6)
 
 
+@pytest.mark.heavy
 def test_rules_stand_in_the_marks(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(new_scene("my", "NSK-7010C", kind="hybrid"), "utf-8")
@@ -125,6 +124,7 @@ def test_what_is_given_stays_and_is_not_marked(tmp_path):
     assert heavy.operation.speed_rpm == 13_500.0
 
 
+@pytest.mark.heavy
 def test_angles_without_classes_and_limits_have_rules_of_their_own():
     scene = read_scene_text(new_scene("my", Dimensions(40.0, 68.0, 15.0, 40.0), sound=False))
     # n d_m 0.75e6, three digits
@@ -132,6 +132,7 @@ def test_angles_without_classes_and_limits_have_rules_of_their_own():
     assert scene.mounting.preload_N >= 1.15 * operating_point(scene).bearings[0].least_preload
 
 
+@pytest.mark.heavy
 def test_a_speed_without_a_good_preload_gets_the_most_that_makers_would_not_caution_of():
     fast = read_scene_text(new_scene("my", "NSK-7004C", kind="steel", speed_rpm=36_000.0, sound=False))
     judged = {one.key: one.judgement for one in verdicts(operating_point(fast))}
@@ -140,6 +141,7 @@ def test_a_speed_without_a_good_preload_gets_the_most_that_makers_would_not_caut
     assert {judged[key] for key in ("pressure", "preload_class")} == {"good"}
 
 
+@pytest.mark.heavy
 def test_ahead_is_towards_minus_x():
     scene = read_scene_text(new_scene("my", "7003C"))
     places = {place.name: place.position_m for place in scene.microphones}

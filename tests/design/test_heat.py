@@ -91,6 +91,7 @@ def test_sums_and_table():
     assert cells["of it to oil and balls, W"] == ["8.50", "8.50", "17.00"]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("file", [SINGLE, SET], ids=["single", "set"])
 def test_info_prints_it_beside_the_torque(file, capsys):
     from typer.testing import CliRunner

@@ -55,6 +55,7 @@ def test_each_bearing_carries_its_own_load():
     assert {one.key for one in verdicts(pair) if one.bearing is None} == {"set_life", "lift_off", "whirl"}
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("rpm", [0.0, 15e3])
 def test_waves_ask_for_nothing_here(rpm):
     """The lowest speed decides the orders of waves, which statics leaves out."""
@@ -77,6 +78,7 @@ def test_temperatures_are_those_of_each_bearing():
     assert (cool, warm) == (42.0, 60.0)
 
 
+@pytest.mark.heavy
 def test_info_shows_all_bearings_side_by_side(tmp_path):
     given = read_scene(PAIR).replace({"operation.required_life_h": 1e7})
     file = tmp_path / "pair.toml"

@@ -68,6 +68,7 @@ def test_sliding_alone_goes_with_the_largest_traction():
     assert set(inputs(found)) == {"traction", "conformity", "viscosity"}
 
 
+@pytest.mark.heavy
 def test_changes_of_scenes_run_apart_add_as_roots_of_squares(pair):
     """Each end by its own operating point, through the values that the result names."""
     scene = read_scene(SET)
@@ -115,6 +116,7 @@ def test_an_end_without_equilibrium_is_left_out_and_named(monkeypatch):
     assert found.total.low < found.torques[0] < found.total.high
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("changes", "without"),
     [
@@ -224,6 +226,7 @@ def test_refusals(tmp_path):
         torque_range(read_scene(EXAMPLES / "7003C-bare.toml").replace(soft))
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("file", [SINGLE, SET], ids=["single", "set"])
 def test_info_shows_it_beside_the_torque(file):
     found = operating_point(file)

@@ -119,6 +119,7 @@ def test_power_balance_of_wavy_balls(case, tilt, gate):
     assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("cage_offset", [0.5, 1.02])
 def test_heavy_spot_of_the_cage(case, name, cage_offset):

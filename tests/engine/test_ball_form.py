@@ -40,6 +40,7 @@ def slow_form(run, rolled, speed, tau=0.0):
     return np.array(found).transpose(1, 0, 2)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("rolled", [-3.0, 0.0, 1e-9, 2.7])
 def test_heights_are_those_of_turned_balls(scene, rolled):
     run = Run(quiet(scene("7009C-full-ceramic")), 18000, ball_waves=FORM, FIDELITY=1.0).init()
@@ -72,6 +73,7 @@ def test_balls_roll_as_the_quasi_static_point_has_it(scene):
     assert swept * c[C.BALL_RADIUS] == pytest.approx(lv[L.RATIO] * path, rel=2e-3)
 
 
+@pytest.mark.heavy
 def test_orders_over_the_turning_add_up_to_the_form(scene):
     run = Run(quiet(scene("7003C-bare")), 10000, ball_waves=FORM, FIDELITY=2.0).init()
     assert LN.SIZE <= S.CONDENSED - S.JAC

@@ -284,6 +284,7 @@ def comb(fit, fidelity):
     return 20.0 * np.log10(np.abs(constant)) - 10.0 * np.log10((spectrum**2).mean(axis=0))
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("um", [None, -1.0, 7.0])
 @pytest.mark.parametrize("fidelity", ["full", "rings"])
 def test_steps_of_a_run_up_leave_no_comb(fidelity, um):

@@ -123,6 +123,7 @@ def test_what_grows_is_found_in_many_sets():
     assert_found(sets(150), 15, 2)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("fidelity", ["rings", "response", "full"])
 def test_a_run_up_into_growth_is_named_once(fidelity):
     """In `rings` it whirls at 130 mm/s there, `full` has 0.5 and `response` 0.15: the model is to blame."""

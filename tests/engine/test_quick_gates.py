@@ -43,6 +43,7 @@ def assert_kicked_as_full(scene):
     assert 0.97 < found[0] and found[1] < 1.03, (scene.name, found)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("bearing", "rpm", "preload"),
     heavy_but(
@@ -106,6 +107,7 @@ def assert_terms(chosen):
             assert low < least and most < high, (what, model, least, most)
 
 
+@pytest.mark.heavy
 def test_some_terms_and_sets_are_as_in_full():
     found = dict(terms())
     names = ("7003C-spindle, land clearance 0.3 mm", "DB of 7003C, bending shaft")

@@ -64,6 +64,7 @@ def test_what_grows_in_the_operator_whirls_in_full(case):
     assert whirls[1] > 5.0
 
 
+@pytest.mark.heavy
 def test_a_share_of_the_catalogue_and_of_drawn_bearings_is_calm():
     assert_calm([*slow_enough("grid", 0.03), *slow_enough("drawn", 0.01)], 0.3)
 

@@ -32,6 +32,7 @@ def both(points, own, k, orders, turns):
     return fast, slow
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("turns", [11, 23, 24, 60])  # full rows of four, and rows that are filled up
 @pytest.mark.parametrize(
     ("k", "allowed"), [(0.37, 1e-12), (20.0, 1e-13), (110.0, 1e-13), (406.0, 1e-13), (4000.0, 1e-13)]
@@ -90,6 +91,7 @@ def test_no_distance_at_all():
     assert rows[2:] == pytest.approx(0.0)
 
 
+@pytest.mark.heavy
 def test_four_azimuths_are_vector_code_on_every_processor():
     """26 multiplications of sine and cosine and 20 around them; four sums have another four."""
     found = ahead.assembly("fmu_bearing.engine.boundary_elements.remainder", "terms", "ddddda" + "a")

@@ -17,6 +17,7 @@ def multiplications(found):
     }
 
 
+@pytest.mark.heavy
 def test_the_solution_is_vector_code_on_every_processor():
     found = ahead.assembly("fmu_bearing.engine.newton.block_arrow", "solve", "aaddaa")
     # 36 for a ball's inverse, six for a body coordinate, six to follow one, and one for the border's inverse

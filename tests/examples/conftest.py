@@ -2,10 +2,11 @@
 
 import importlib.util
 import pathlib
-import subprocess
 import sys
 
 import pytest
+
+from fmu_bearing import build_fmu
 
 ROOT = pathlib.Path(__file__).parents[2]
 SPINDLE = ROOT / "examples" / "spindle_cosimulation"
@@ -53,12 +54,10 @@ def fmus(builder, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def real_fmus(builder, example_file, tmp_path_factory):
+def real_fmus(builder, example, tmp_path_factory):
     """Folder with all three FMUs, the bearing built from the example scene with compact sound."""
     folder = tmp_path_factory.mktemp("real")
     for model in builder.MODELS:
         builder.build(SPINDLE / f"{model}.py", folder)
-    bearing = folder / "Bearing7003C.fmu"
-    command = [sys.executable, str(ROOT / "build_fmu.py"), str(example_file), "-o", str(bearing)]
-    subprocess.run(command, check=True, capture_output=True, text=True, timeout=600)
+    build_fmu(example("7003C-spindle"), folder / "Bearing7003C.fmu")
     return folder

@@ -135,6 +135,7 @@ def test_command_line_says_in_one_line_what_is_missing(tmp_path):
     assert done.stderr.startswith("error: no FMU at ")
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("step", ["0.00005", "0.002"])
 def test_command_line_refuses_other_steps(fmus, tmp_path, step):
     options = ("--communication-step", step)
@@ -143,6 +144,7 @@ def test_command_line_refuses_other_steps(fmus, tmp_path, step):
     assert "communication-step" in done.stderr
 
 
+@pytest.mark.heavy
 def test_interrupt_keeps_what_was_computed(fmus, tmp_path):
     options = ("--end-time", "1000")
     running = subprocess.Popen(

@@ -24,6 +24,7 @@ def read(path):
     return np.genfromtxt(path, delimiter=",", names=True, deletechars="")
 
 
+@pytest.mark.heavy
 def test_writes_tables_and_pictures(demo):
     output, folder = demo
     names = {"spindle.csv", "sound.csv", "preload.csv", "viscosity.csv", "spindle.png", "effects.png"}
@@ -32,6 +33,7 @@ def test_writes_tables_and_pictures(demo):
     assert "P4 (-80.5, 0, 0) " in output
 
 
+@pytest.mark.heavy
 def test_columns_begin_with_time_and_hold_no_nan(demo):
     _, folder = demo
     table = read(folder / "spindle.csv")
@@ -39,6 +41,7 @@ def test_columns_begin_with_time_and_hold_no_nan(demo):
     assert all(np.isfinite(table[name]).all() for name in table.dtype.names)
 
 
+@pytest.mark.heavy
 def test_preload_closes_the_contact_angle_and_costs_torque(demo):
     _, folder = demo
     rows = read(folder / "preload.csv")
@@ -47,6 +50,7 @@ def test_preload_closes_the_contact_angle_and_costs_torque(demo):
     assert np.all(np.diff(rows["friction_torque"]) > 0.0)
 
 
+@pytest.mark.heavy
 def test_viscosity_builds_film(demo):
     _, folder = demo
     rows = read(folder / "viscosity.csv")

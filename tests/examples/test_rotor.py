@@ -77,6 +77,7 @@ def test_a_rigid_body_on_its_bearings(script):
     assert min(abs(value / expected - 1.0) for value, _ in found) < 1e-3  # damped, 1 %
 
 
+@pytest.mark.heavy
 def test_a_python_without_ross_is_reported(script, tmp_path):
     command = [sys.executable, str(SCRIPT), "--ross", f"{sys.executable} -S", "-o", str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)

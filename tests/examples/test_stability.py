@@ -24,6 +24,7 @@ def folder(tmp_path_factory):
     return out
 
 
+@pytest.mark.heavy
 def test_shafts_lighter_than_the_balls_diverge_and_others_settle(folder):
     from stability import DIVERGED
 
@@ -39,12 +40,14 @@ def test_shafts_lighter_than_the_balls_diverge_and_others_settle(folder):
         assert all(abs(float(row["factor_taken_over"])) < 0.1 for row in (light, middle, own))
 
 
+@pytest.mark.heavy
 def test_heat_settles_without_turns_of_sign(folder):
     rows = [row for key, row in cells(folder / "coupling.csv").items() if key[0] == "heat"]
     factors = [float(row["factor"]) for row in rows]
     assert len(factors) == 2 and 1.0 > factors[0] > factors[1] > 0.0  # the longer step forgets more
 
 
+@pytest.mark.heavy
 def test_page_repeats_what_the_example_measures(folder):
     assert (folder / "coupling.png").stat().st_size > 10_000
     assert "](coupling.png)" in (folder / "coupling.md").read_text("utf-8")

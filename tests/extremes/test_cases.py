@@ -13,10 +13,11 @@ from tests.conftest import GATES
 from tests.extremes.bearings import PERFECT, RINGS, RPM, Trace, bearing, drive, feed
 from tests.extremes.cases import CASES, COMPUTED, EXPLICIT, FULL, SLACK, SLOW, WORK
 from tests.extremes.checks import balanced, finite, plausible
+from tests.marks import heavy_but
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+@pytest.mark.parametrize(("fidelity", "method"), heavy_but(COMPUTED, "full-esdirk4"))
 def test_ends_as_recorded(case, fidelity, method):
     ends_as_recorded(case, fidelity, method)
 
@@ -178,6 +179,7 @@ def test_communication_steps_shorter_than_anything(fidelity, method, h):
     finite(run)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("scene", ["7003C-bare", "7003C-spindle", "7009C-full-ceramic"])
 @pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
 @pytest.mark.parametrize("stiffness", [1e4, 1e6, 1e12])

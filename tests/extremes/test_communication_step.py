@@ -80,6 +80,7 @@ def test_same_trajectory_at_the_same_instants(settled, name, fidelity, method):
         )
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
 def test_same_means_over_twenty_milliseconds(settled, name, fidelity, method):

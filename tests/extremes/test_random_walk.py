@@ -137,6 +137,7 @@ def test_a_short_walk_with_a_jet(fidelity, method, start, moves):
     walk("7003C-bare", start, moves, fidelity, method, JET)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
 @settings(max_examples=5, **HEALTH)
 @given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6))

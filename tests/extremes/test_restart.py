@@ -66,6 +66,7 @@ def walk(name, fidelity, seed, duration, shortest=2e-6):
     return run
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("fidelity", CHEAP)
 @pytest.mark.parametrize("name", heavy_but(SETS, "DB"))
 def test_a_short_walk_of_a_set_returns(name, fidelity):
@@ -148,6 +149,7 @@ def test_a_bearing_comes_back_from_loose_balls(fidelity):
         assert run.get(place) == pytest.approx(other.get(place), abs=1e-6)
 
 
+@pytest.mark.heavy
 def test_sound_goes_on_where_rings_begin_again():
     """Samples come at their rate over a restart, and levels stay numbers."""
     sound = edited("7003C-bare", {}).model_dump()["sound"]

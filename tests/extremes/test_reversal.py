@@ -41,6 +41,7 @@ def reverse(scene, step, before, scale, **fidelity):
     return run, np.array(residuals)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("step", [1e-4, 1e-3])
 @pytest.mark.parametrize("name", SCENES)
 def test_energy_balance(example, name, step):

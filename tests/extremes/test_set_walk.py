@@ -80,6 +80,7 @@ def test_a_walk_goes_on_or_is_refused(name, fidelity, seed):
     assert refused < 8
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", SETS)
 def test_a_start_at_drawn_inputs_ends_or_is_refused(name):
     rng = np.random.default_rng(7)

@@ -173,6 +173,7 @@ def test_start_time_must_be_finite(master, expected):
 # --- steps that fail ------------------------------------------------------------------------------------
 
 
+@pytest.mark.heavy
 def test_step_that_does_not_converge(master, expected):
     bearing, other = master().start(**SOFT), master().start(**SOFT)
     before = bearing.run(1)[0]

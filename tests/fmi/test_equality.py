@@ -86,6 +86,7 @@ def bits(taken):
     return [float(value).hex() for values in taken for value in values]
 
 
+@pytest.mark.heavy
 def test_serialised_state_continues_in_a_new_process(unpack, flavour, tmp_path, pytestconfig):
     one = Master(unpack(flavour)).start(shaft_speed=FROM)
     run_up(one, 0, STEPS // 2)

@@ -33,7 +33,8 @@ FIVE = {
 
 
 def scene(file, outputs=None, **changes):
-    found = read_scene(file).replace(changes)
+    compact = {"sound.radiation_model": "compact"} if file == SINGLE else {}
+    found = read_scene(file).replace(compact | changes)
     return found if outputs is None else found.replace({"fmu.outputs": list(outputs)})
 
 

@@ -42,6 +42,7 @@ def test_building_twice_gives_identical_bytes(model, fmu, flavour, tmp_path):
     assert again.read_bytes() == fmu.read_bytes()
 
 
+@pytest.mark.heavy
 def test_another_process_builds_identical_bytes_and_says_what(fmu, flavour, scene_file, tmp_path):
     target = tmp_path / "new folder" / "Bearing.fmu"
     where = {"PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo", "LC_ALL": "C"}

@@ -73,6 +73,7 @@ def test_description_says_who_has_derivatives(model, flavour, provides):
     assert can.get("providesDirectionalDerivative") == provides
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("flavour", ["native", "python"])
 def test_checkers_find_nothing(model, fmu, tmp_path, flavour):
     path = fmu if flavour == "native" else str(build(model, tmp_path / "port.fmu", flavour="python").path)

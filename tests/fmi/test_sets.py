@@ -23,6 +23,7 @@ from fmu_bearing.interface import inputs
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 from tests.native_builds import no_native_fmu
 
 from .conftest import DISCARD, OK, Master
@@ -100,7 +101,7 @@ def march(one, first=0, last=None):
     return taken
 
 
-@pytest.mark.parametrize("name", ["DB", "QBC"])
+@pytest.mark.parametrize("name", heavy_but(["DB", "QBC"], "DB"))
 def test_both_builds_and_the_library_give_the_same_bits(masters, name):
     native, python = (masters(flavour, name).start() for flavour in FLAVOURS)
     assert native.everything() == python.everything()
@@ -171,6 +172,7 @@ def test_warnings_name_the_bearing(masters):
     assert lines[0].startswith("bearing 2: its inner race carries 0.")
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("flavour", FLAVOURS)
 def test_checkers_find_nothing(folders, flavour, caplog):
     path, folder = folders(flavour)

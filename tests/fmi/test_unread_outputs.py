@@ -52,6 +52,7 @@ def run(model, names, count, h):
     return np.array(rows)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("file", "fidelity", "outputs", "changes", "expected"),
     [

@@ -29,6 +29,7 @@ def levels(scene, table, **options):
     return Levels(scene, read_data(table, scene), (), **options).at(np.empty(0), [1], "response")[0]
 
 
+@pytest.mark.heavy
 def test_levels_are_those_of_a_recording(spindle):
     found = levels(spindle, rows("leq", "leq_a", "third_octave[2000]", "line[f_r]"))
     made = record(spindle.replace({"operation.speed_rpm": SPEED}), 0.4, settle=0.05, progress=False)
@@ -42,6 +43,7 @@ def test_levels_are_those_of_a_recording(spindle):
     assert found[3] == pytest.approx(10.0 * np.log10(squares[0, near].sum() / 4e-10), abs=0.1)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("model", ["paper", "paper_vector", "paper_contacts"])
 def test_radiation_models_of_the_papers_add_energies_as_recordings_do(spindle, model):
     sound = spindle.sound.model_copy(update={"radiation_model": model})

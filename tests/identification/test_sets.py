@@ -107,6 +107,7 @@ def test_a_line_is_looked_for_in_every_bearing():
     assert found[0] == pytest.approx(max(found[1:]), abs=1e-3)  # frequencies are rounded to 1e-3 Hz
 
 
+@pytest.mark.heavy
 def test_the_amplitude_of_all_races_is_found_again():
     table = rows("leq_a", "third_octave[2000]", "velocity[bearing[2].outer_ring.z]")
     data = measured(pair(), table, (3, 5), **SHORT)
@@ -156,6 +157,7 @@ def test_values_are_written_into_the_file_of_a_set():
     assert made.count("# identified: ") == 4
 
 
+@pytest.mark.heavy
 def test_the_unbalance_of_a_set_is_found_again():
     """Levels of a linear response: the search needs its line at the speed of the shaft alone."""
     key, truth = "imperfections.unbalance_um", 0.5

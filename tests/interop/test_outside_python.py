@@ -215,6 +215,7 @@ def test_proxyfmu_from_ecospy(ecos, native, expected, tmp_path, monkeypatch):
     assert found == expected[-1].tolist()
 
 
+@pytest.mark.heavy
 @needs_linux64
 def test_the_whole_spindle_in_ecos_simulate(ecos, archives, tmp_path):
     """Native bearing, motor and thermal network in a program without Python, against FMPy's .ssp runner."""

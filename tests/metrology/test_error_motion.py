@@ -60,6 +60,7 @@ def by_direction(one):
     return {values.direction: values for values in one.values}
 
 
+@pytest.mark.heavy
 def test_without_surfaces_nothing_moves_in_rings(bare):
     still = error_motion(bare.replace({"imperfections": None}), revolutions=FEW)
     for values in still.speeds[0].values[:4]:
@@ -71,6 +72,7 @@ def test_without_surfaces_nothing_moves_in_rings(bare):
     assert not any("nearer to a whole order" in line for line in still.remarks())
 
 
+@pytest.mark.heavy
 def test_without_surfaces_the_cage_alone_moves_the_nose_in_full(bare):
     """The cage of this scene, 5 um off balance, rests in its pockets and knocks."""
     scene = with_fidelity(bare.replace({"imperfections": None}), model="full")
@@ -108,6 +110,7 @@ def test_ball_sizes_move_the_axis_by_their_closed_form(bare):
     assert line.radial == pytest.approx(middle.radial - apex * middle.tilt, rel=1e-3)
 
 
+@pytest.mark.heavy
 def test_table_lines_and_parts(found):
     columns, rows = found.table()
     assert [row[2] for row in rows] == list(DIRECTIONS)
@@ -195,6 +198,7 @@ def test_a_remark_says_where_lines_of_bearings_are_shared(bare, other, shared):
     assert any("such lines are shared equally" in line for line in one.remarks()) == shared
 
 
+@pytest.mark.heavy
 def test_a_set_of_one_moves_as_the_bearing_does(scene):
     """Of a set on its own pedestal, at the plane of its balls, against the ground."""
     flaws = scene("7003C-bare").imperfections.model_copy(update={"unbalance_um": 0.0})
@@ -240,6 +244,7 @@ def test_refusals_of_sets():
         error_motion(quad, at=4.0)
 
 
+@pytest.mark.heavy
 def test_of_many_speeds_six_are_drawn_evenly_among_them(found):
     one = found.speeds[0]
     speeds = [replace(one, nose=replace(one.nose, scene=one.nose.scene.replace(

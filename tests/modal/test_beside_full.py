@@ -21,6 +21,7 @@ from fmu_bearing.modal.equations.cage_sound import loss_without_cage
 from fmu_bearing.prepare.sound import silenced, sound_blocks
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 
 
 def fresh(bearing, rpm, preload, kind="hybrid", **options):
@@ -55,6 +56,7 @@ def test_balls_use_the_room_in_pockets_as_the_load_across_grows(scene, load, low
     assert max(play(turned)) == pytest.approx(max(play(loaded)), abs=0.05)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("arrangement", "loads"), [("DB", {1.0: False, 200.0: True}), ("QBC", {150.0: True})]
 )
@@ -99,6 +101,7 @@ def test_rings_that_depart_from_full_are_named(bearing, rpm, preload, kind, expe
     assert doubt(with_fidelity(scene, model="full")) == ""
 
 
+@pytest.mark.heavy
 def test_loads_are_in_doubt_where_rings_move_far_more_than_in_full(scene):
     """A linear answer to waves on a pedestal so soft that the load sinks the ring by 2 mm."""
     mounting = {"mounting.pedestal_stiffness_N_m": 3e5, "mounting.radial_load_z_N": -600.0}
@@ -119,7 +122,9 @@ def test_a_perfect_bearing_is_not_compared(scene):
     assert np.isfinite(run.play).all()
 
 
-@pytest.mark.parametrize(("radiation", "low", "high"), [("compact", 8.0, 10.0), ("bem", 0.0, 0.5)])
+@pytest.mark.parametrize(
+    ("radiation", "low", "high"), heavy_but([("compact", 8.0, 10.0), ("bem", 0.0, 0.5)], 0)
+)
 def test_a_loud_cage_is_named(radiation, low, high):
     """The rings shield it in bem alone: the 7009C in its spindle, with and without the cage's sound."""
     scene = read_scene(EXAMPLES / "7009C-spindle.toml").replace({"sound.radiation_model": radiation})
@@ -130,6 +135,7 @@ def test_a_loud_cage_is_named(radiation, low, high):
     assert is_of_levels(said) == bool(said)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("arrangement", [None, "DB"])
 @pytest.mark.parametrize("radiation", ["compact", "paper", "paper_vector"])
 def test_a_silenced_cage_makes_no_sound_and_nothing_else_changes(arrangement, radiation):

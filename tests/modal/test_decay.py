@@ -26,6 +26,7 @@ def compare(found, poles, order, above=0.0, frequency=1e-4, damping=0.005):
     return len(chosen)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("name", "rpm"),
     heavy_but([("7003C-bare", 10_000), ("7003C-bare", 28_000), ("7009C-full-ceramic", 18_000)], 0),

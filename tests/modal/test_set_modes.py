@@ -143,6 +143,7 @@ def _decays(pair, way, push, frequency):
     return np.log(poles) / (h * (_SAMPLES // 10))
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("way", "push"), [(0, 2.0), (1, 1.0)], ids=["axial", "radial"])
 @pytest.mark.parametrize("which", ["pair", "four that bend"])
 def test_the_engine_rings_at_these_frequencies(which, way, push):
@@ -204,6 +205,7 @@ def test_housing_and_sliding_rings_have_modes():
     assert all(mode.damping > 0.0 for mode in found.modes)
 
 
+@pytest.mark.heavy
 def test_campbell_leaves_turning_out_and_takes_heavy_spots():
     several = housed()
     found = campbell(several, [5e3, 10e3, 15e3])

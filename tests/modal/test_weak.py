@@ -30,6 +30,7 @@ def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
     assert min(found.damping for found in modes(scene).modes if found.name == mode) < LEAST
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("name", "rpm"), [("7003C-spindle", 20000), ("7003C-bare", 20000)])
 def test_well_damped_bearings_are_not(name, rpm):
     """Their levels agree with levels of full within 0.3 dB(A), docs/results/scenes.md."""

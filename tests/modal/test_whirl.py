@@ -106,6 +106,7 @@ def test_where_no_steady_state_was_found_nothing_is_judged():
     assert doubt(scene) == f"fidelity rings: {UNSTEADY}" and whirl(scene) == ""
 
 
+@pytest.mark.heavy
 def test_a_campbell_diagram_says_what_it_does_not_draw():
     """At 14,000 and 20,000 r/min balls have most of the energy of the whirl; branches are modes of rings.
 
@@ -157,6 +158,7 @@ def rms_in_full(scene):
     return run[name][-500:].std()
 
 
+@pytest.mark.heavy
 def test_cages_that_stop_a_set_silence_the_remark():
     """The pair grows by 370 1/s without its cages, and decays with them, as fidelity full does."""
     pair = read_scene_text(PAIR, "pair")
@@ -165,6 +167,7 @@ def test_cages_that_stop_a_set_silence_the_remark():
     assert rms_in_full(pair) < 2e-4 < 2e-2 < rms_in_full(without_cage(pair))
 
 
+@pytest.mark.heavy
 def test_a_set_is_judged_by_its_growth():
     """Face to face on a short shaft, steel balls, no cages; the example's pair does not grow."""
     pair = without_cage(read_scene_text(PAIR, "pair"))

@@ -36,6 +36,7 @@ def check_depth(counts, rounds, forge=True):
         assert counts[name] >= least * rounds, (name, counts)
 
 
+@pytest.mark.heavy
 def test_no_call_is_too_careless(compiler, resources, tmp_path):
     program = build(tmp_path, [compiler], hostile_kernels(tmp_path, [compiler]), toy.KERNELS)
     counts = play(program, resources, tmp_path / "bad", seed=1, rounds=60)
@@ -94,6 +95,7 @@ def test_real_kernels_bear_a_careless_host(compiler, sanitizers, scene, tmp_path
     check_depth(counts, 50, forge=False)
 
 
+@pytest.mark.heavy
 def test_driver_notices_a_library_that_takes_damage(compiler, resources, tmp_path):
     """The driver itself: with checksums believed blindly it has to fail."""
     shim = tmp_path / "shim"

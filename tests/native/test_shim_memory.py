@@ -41,6 +41,7 @@ def life(functions, location):
     return answers
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="reads the memory in use from Linux")
 def test_ten_thousand_instances_leave_nothing(functions, resources, tmp_path):
     def cycles(count):

@@ -88,6 +88,7 @@ def test_a_frequency_beside_the_bands_is_refused(recording, found, frequency):
         noise_at(recording, found, frequency)
 
 
+@pytest.mark.heavy
 def test_the_command_prints_it_and_the_table_has_components(recording, found, tmp_path):
     recording.save(tmp_path / "run.npz")
     words = [

@@ -25,6 +25,7 @@ def found(plain, other):
     return compare(plain, other, duration=DURATION, settle=SETTLE, progress=False)
 
 
+@pytest.mark.heavy
 def test_the_keys_that_differ(found, plain):
     assert found.keys == {
         "mounting.preload_N": (plain.mounting.preload_N, 200.0),
@@ -36,6 +37,7 @@ def test_the_keys_that_differ(found, plain):
     assert repr(found) == "Comparison(A: 7003C-bare, B: other, 2 keys differ)"
 
 
+@pytest.mark.heavy
 def test_a_key_of_one_scene_alone(plain):
     perfect = plain.replace({"imperfections": None})
     keys = compare(perfect, plain, duration=0.02, settle=0.01, progress=False).keys
@@ -114,6 +116,7 @@ def test_machines_get_the_same(found):
     assert data["a"]["third_octaves_dB"]["P1"]["1000"] == pytest.approx(found.a.third_octaves["P1"][1000.0])
 
 
+@pytest.mark.heavy
 def test_files_of_scenes_and_recordings_are_taken(plain, found, tmp_path):
     (tmp_path / "scene.toml").write_text(plain.to_toml(), "utf-8")
     record(plain, DURATION, settle=SETTLE, progress=False).save(tmp_path / "run.npz")

@@ -94,6 +94,7 @@ def test_maps_mark_it_at_every_speed():
     assert line.get_xdata() == pytest.approx([60.0, 60.0], rel=1e-12)
 
 
+@pytest.mark.heavy
 def test_runs_recordings_and_comparisons_know_it(made):
     end = made.excitation_end
     assert end == pytest.approx(excitation_end(made.scene, float(np.mean(made.speed))), rel=1e-12)

@@ -50,6 +50,7 @@ def both(pair):
     return compare(*pair)
 
 
+@pytest.mark.heavy
 def test_of_two_recordings(both):
     assert both.conditions() == "fidelity response, radiation model compact"
     found = both.finding("P1", 3)

@@ -24,6 +24,7 @@ def energies(scene, model="response"):
     return 10.0 ** (found.levels(weighting="A") / 10.0)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("model", "size", "within"), [("response", 1.0, 0.15), ("rings", 1.0, 0.15), ("rings", 0.1, 0.02)]
 )
@@ -39,6 +40,7 @@ def test_races_alone_differ_by_the_ratio_of_their_amplitudes(scene, model, size,
     assert 10.0 * np.log10(found[0] / found[1]) == pytest.approx(20.0 * np.log10(ratio), abs=within)
 
 
+@pytest.mark.heavy
 def test_real_grades_differ_by_what_each_of_their_parts_does(scene):
     """P4 over P2 by energies: races a factor of 4, unbalance and sizes of 2.8, balls of G3 in both 1.
 

@@ -18,6 +18,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene.imperfections import Harmonic
 from fmu_bearing.scene.read import with_fidelity
+from tests.marks import heavy_but
 from tests.native_builds import no_native_fmu
 from tests.recording.third_octaves import fast_levels
 
@@ -90,13 +91,16 @@ def agree(recording, read):
 
 @pytest.mark.parametrize(
     ("name", "fidelity", "waves"),
-    [
-        ("7003C-bare", "rings", True),
-        ("7003C-bare", "response", True),
-        ("7003C-bare", "full", True),
-        ("7003C-impact", "full", True),
-        ("7003C-impact", "full", False),
-    ],
+    heavy_but(
+        [
+            ("7003C-bare", "rings", True),
+            ("7003C-bare", "response", True),
+            ("7003C-bare", "full", True),
+            ("7003C-impact", "full", True),
+            ("7003C-impact", "full", False),
+        ],
+        2,
+    ),
 )
 def test_runs_rich_in_ultrasound(scene, name, fidelity, waves):
     given = with_bands(with_fidelity(scene(name), model=fidelity))
@@ -105,6 +109,7 @@ def test_runs_rich_in_ultrasound(scene, name, fidelity, waves):
     agree(*recorded(given, microphones=True, outputs=names))
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("flavour", FLAVOURS)
 def test_fmus(scene, flavour, tmp_path):
     """The meters of both builds, run by FMPy, against a recording by the library."""
@@ -121,6 +126,7 @@ def test_fmus(scene, flavour, tmp_path):
     agree(recorded(given)[0], read)
 
 
+@pytest.mark.heavy
 def test_the_motion_is_rich(scene):
     """Without the band limit these scenes would tell: from 22 kHz on there is as much as below 20 kHz."""
     given = rich(with_fidelity(scene("7003C-bare"), model="rings"))

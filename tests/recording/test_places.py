@@ -52,6 +52,7 @@ def test_measurements_take_names(recorded):
     assert np.array_equal(ours, theirs)
 
 
+@pytest.mark.heavy
 def test_spread_and_listen_take_places_and_name_them(recorded, tmp_path):
     found = analyse_sound(recorded, ["P2", ELSEWHERE])
     assert found.names == ("P2", "(0, 300, 0) mm")
@@ -63,6 +64,7 @@ def test_spread_and_listen_take_places_and_name_them(recorded, tmp_path):
     assert sure.levels.tolist() == recorded.levels([ELSEWHERE, "P2"], weighting="A").tolist()
 
 
+@pytest.mark.heavy
 def test_every_microphone_has_a_sound_file_of_its_own(recorded, tmp_path):
     # the fourth and last differ from others by what some file systems, or file names, do not know
     names = ("A.1", "A-1", "A_1", "a-1", "A 1", "A/1", "A-1-2", ".1")

@@ -90,6 +90,7 @@ def test_strongest_lines_are_kinematic(bare):
     assert any("f_i" in line.name or "f_o" in line.name for line in lines)
 
 
+@pytest.mark.heavy
 def test_run_up_follows_the_shaft(run_up):
     """The passing of balls at the inner race stands still in the order map while the speed grows 2.6-fold."""
     assert run_up.speed[0] == pytest.approx(733 + 2417 * 0.02, rel=1e-3)
@@ -189,6 +190,7 @@ def test_places_that_do_not_serve(bare):
         record(bare.scene, -1.0)
 
 
+@pytest.mark.heavy
 def test_pictures_and_tables(bare, run_up, tmp_path):
     """Every picture is drawn, with what it was given in it; every table has its rows."""
     frequency, spectra = measure.component_spectra(bare, P1)
@@ -234,6 +236,7 @@ def test_pictures_and_tables(bare, run_up, tmp_path):
     assert [row[0] for row in written["directivity"][0][1]] == ["YZ", "XY", "XZ"]
 
 
+@pytest.mark.heavy
 def test_directivity_keeps_out_of_the_housing(example, tmp_path):
     """A circle through the nearest microphone, 80.5 mm ahead of the spindle, would meet its housing."""
     scene = with_fidelity(example("7003C-spindle"), model="response")

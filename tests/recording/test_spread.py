@@ -39,6 +39,7 @@ def found(bare):
     return spread(recorded(bare), ["P1", "P4"], seeds=3)
 
 
+@pytest.mark.heavy
 def test_range_holds_the_runs_made_one_by_one(bare, found):
     places = [place.position_m for place in bare.microphones if place.name in ("P1", "P4")]
     own = recorded(bare, places)
@@ -55,6 +56,7 @@ def test_range_holds_the_runs_made_one_by_one(bare, found):
     assert found.seeds == pytest.approx(np.ptp(every[:4], axis=0), abs=1e-6)
 
 
+@pytest.mark.heavy
 def test_draws_of_a_surface_take_the_place_of_the_assumed_law(bare):
     """Oracle: each draw's run made by itself; the range is theirs, without the assumed corners."""
     numbers = np.arange(4)
@@ -107,6 +109,7 @@ def test_shares_are_those_of_each_imperfection_alone(bare, found):
     assert sum(found.sources.values()) == pytest.approx([1.0, 1.0], abs=1e-12)
 
 
+@pytest.mark.heavy
 def test_harmonics_stated_one_by_one_are_a_race_too(bare):
     """Three of the inner race are all of its share, and none of the outer race's."""
     harmonics = tuple(Harmonic(order=n, amplitude_um=0.1, phase_deg=20.0 * n) for n in (5, 9, 12))
@@ -139,6 +142,7 @@ def test_table_names_every_microphone(found):
     assert low <= float(rows[0][1]) <= high
 
 
+@pytest.mark.heavy
 def test_a_weakly_damped_bearing_is_drawn_with_full(bare, example, monkeypatch):
     """Levels of the dry 7003C at 8,000 r/min are 18 dB(A) off in response, and so would be their range."""
     made = spreading._drawn

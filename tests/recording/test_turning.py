@@ -36,6 +36,7 @@ def run(steel):
     return made, watch
 
 
+@pytest.mark.heavy
 def test_kinematics_are_those_of_the_run(run, steel):
     made, _ = run
     within = made.within()

@@ -121,6 +121,7 @@ def test_what_makes_nothing_better_is_said(found):
     assert "Rating life: no choice makes it better." in texts and "Level: no choice makes it better." in texts
 
 
+@pytest.mark.heavy
 def test_a_scene_that_bends_has_no_levels_unless_asked(scene, monkeypatch):
     recording = observed(scene("7009C-full-ceramic"), 0.02, settle=0.005)[0]
     monkeypatch.setattr(
@@ -146,6 +147,7 @@ def test_a_set_has_no_levels_unless_asked(monkeypatch):
     assert "--changes" in table.note and "those of a set" in table.note
 
 
+@pytest.mark.heavy
 def test_a_recording_whose_speed_changes_has_none(rings):
     rising = rings.speed_points * np.linspace(1.0, 1.2, rings.speed_points.size)
     with pytest.raises(Absent, match="speed changes"):

@@ -13,6 +13,7 @@ from tests.reports.reading import Page, not_run
 DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 
 
+@pytest.mark.heavy
 def test_a_set_has_its_seats_bearing_by_bearing():
     fit = {"bearing_class": "P4", "preload": "unmounted", "shaft": {"shaft_class": "js5"}}
     scene = read_scene(DB).replace({"spindle.fit": fit})

@@ -143,6 +143,7 @@ def test_at_standstill_there_are_modes_with_and_without_friction(scene):
     assert tilts[0] > tilts[1]
 
 
+@pytest.mark.heavy
 def test_a_scene_without_imperfections_and_sound(scene):
     bare = scene("7003C-bare").model_copy(update={"imperfections": None, "sound": None})
     made = section(subject_of(bare, 20_000.0))
@@ -153,6 +154,7 @@ def test_a_scene_without_imperfections_and_sound(scene):
     assert all(row[-1] == "not in the scene" for row in crossings.rows)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("model", ["rings", "response", "auto"])
 def test_every_fidelity_has_modes(scene, model, monkeypatch):
     """They are modes of `full`, so only the speeds are cut down here."""
@@ -163,6 +165,7 @@ def test_every_fidelity_has_modes(scene, model, monkeypatch):
     assert [block.key for block in made.blocks if block.sort == "chart"] == ["campbell"]
 
 
+@pytest.mark.heavy
 def test_speeds_without_equilibrium_are_told(scene, monkeypatch):
     lowest = room.campbell
 

@@ -105,6 +105,7 @@ def test_scales_of_velocity_have_powers_and_toolbars_lie_on_no_axis(full_page):
     assert len(scaled) >= 2 and all(layout["modebar"]["orientation"] == "h" for layout in scaled)
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("brief")
 def test_assumed_values_carry_the_files_remarks(tmp_path):
     made = make(
@@ -120,6 +121,7 @@ def test_assumed_values_carry_the_files_remarks(tmp_path):
     assert any("turns of the cage" in warning for warning in made.warnings)
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("brief")
 def test_fidelity_rings_says_what_does_not_move(rings, tmp_path):
     page = Page(report(rings, tmp_path / "rings.html", changes=False))
@@ -172,6 +174,7 @@ def test_pressures_of_an_fmu_alone(tmp_path):
     assert float(page.tables["Strongest lines at mic[1].pressure"][1][0]) == pytest.approx(1000.0, abs=1.0)
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("brief")
 def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_path):
     rings = with_fidelity(scene("7003C-spindle"), model="rings")
@@ -187,6 +190,7 @@ def test_a_recording_of_few_variables_and_a_papers_radiation_model(scene, tmp_pa
     assert "contact.inner.load_mean" in made.sections["contacts"]
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("brief")
 def test_a_scene_without_microphones(rings, tmp_path):
     deaf = Recording(

@@ -59,6 +59,7 @@ def pair(tmp_path_factory):
     return brief_page(PAIR, tmp_path_factory.mktemp("pair") / "pair.html", duration=0.1, settle=0.02)
 
 
+@pytest.mark.heavy
 def test_the_page_of_a_pair_has_all_sections_and_the_figures_of_statics(pair):
     made, page = pair
     assert list(made.sections) == SECTIONS
@@ -80,6 +81,7 @@ def test_the_page_of_a_pair_has_all_sections_and_the_figures_of_statics(pair):
     assert set(page.ids) and len(set(page.ids)) == len(page.ids) and made.size < 3e6
 
 
+@pytest.mark.heavy
 def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_bearing(pair):
     """Figures of a card are of the run, else of the operating point; verdicts take the run's extremes."""
     made, page = pair
@@ -124,6 +126,7 @@ def test_the_first_screen_of_a_set_has_the_overall_verdict_and_a_card_for_each_b
     assert whole == [f"{one.text} ({one.judgement})" for one in found if one.bearing is None]
 
 
+@pytest.mark.heavy
 def test_quantities_of_bearing_and_shaft_are_those_of_the_run(pair):
     """One run by `simulate` at the same points, from which each section has what it shows."""
     made, page = pair
@@ -157,6 +160,7 @@ def test_quantities_of_bearing_and_shaft_are_those_of_the_run(pair):
     assert float(largest[7]) == pytest.approx(found["bearing[2].contact.outer.load_max"].max(), rel=6e-4)
 
 
+@pytest.mark.heavy
 def test_balls_of_each_bearing_add_up_to_it(pair):
     made, page = pair
     outputs = made.recording.outputs
@@ -296,6 +300,7 @@ def test_page_of_a_tandem_says_what_it_lacks():
         axial(given)
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("brief")
 def test_options_of_a_run_act_and_the_run_is_kept(tmp_path):
     """Speed, settings, run-up and the kept run, as of a single bearing; statics are at the speed, too."""

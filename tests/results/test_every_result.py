@@ -137,6 +137,7 @@ def finite(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+@pytest.mark.heavy
 def test_every_result_is_saved_and_read_back_with_units(roots, tmp_path):
     for module in pkgutil.walk_packages(fmu_bearing.__path__, "fmu_bearing."):
         if not module.name.startswith(WITHOUT) and not module.name.endswith("__main__"):

@@ -64,6 +64,7 @@ def between(automatic):
     return choose(automatic(0.13, 0.02), FEW, **SHORT)
 
 
+@pytest.mark.heavy
 def test_three_accuracies_three_fidelities(loose, between, tight):
     """Over these 20 ms, worst of three conditions, in dB of ring velocity and in torque.
 
@@ -129,6 +130,7 @@ def test_at_standstill_it_says_what_it_left_out(automatic):
     assert "not probed: another speed and a rise of speed, as the shaft does not turn; other" in found.summary
 
 
+@pytest.mark.heavy
 def test_a_bearing_that_whirls_by_itself_takes_full(automatic, example):
     """The 7009C at 18,000 r/min, and at 36,000: half of that is 18,000."""
     steel = example("7009C-steel").with_rigid_rings().replace({"sound": None})
@@ -183,6 +185,7 @@ def read(scene):
     return np.sqrt([squares[:3].sum(), squares[3:].sum()]), load.mean(), torque.mean()
 
 
+@pytest.mark.heavy
 def test_the_chosen_fidelity_is_as_accurate_as_asked_for(automatic, silent, loose, tight):
     """Run as a user would, beside fidelity full in steps ten times as fine as the scene's."""
     truth = read(prepare(silent, max_step=2e-6).scene)
@@ -196,6 +199,7 @@ def test_the_chosen_fidelity_is_as_accurate_as_asked_for(automatic, silent, loos
     assert np.abs(20 * np.log10(rings / truth[0])).max() > 0.1
 
 
+@pytest.mark.heavy
 def test_the_resolved_scene_is_the_one_written_by_hand(automatic, silent, loose, between, tight):
     """The scene's own 20 us and 1e-3 bound every candidate, so that nothing but the fidelity is new."""
     asked = automatic(0.01, 1e-3)

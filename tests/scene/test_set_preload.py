@@ -11,6 +11,7 @@ from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import new_scene
 from fmu_bearing.steady.statics import statics
+from tests.marks import heavy_but
 
 PAIR = 390.0  # N: NSK's medium class of the 7010C
 
@@ -90,7 +91,7 @@ def flush(load, pair, more, fewer):
     ("arrangement", "more", "fewer"),
     [("DB", 1, 1), ("DF", 1, 1), ("QBC", 2, 2), ("TBT", 2, 1), ("QBT", 3, 1)],
 )
-@pytest.mark.parametrize("kind", ["steel", "hybrid"])
+@pytest.mark.parametrize("kind", heavy_but(["steel", "hybrid"], 1))
 def test_a_class_is_the_offset_of_the_loose_pair(arrangement, more, fewer, kind):
     """The law agrees with the package's to 1e-9, the preloads that the statics find to 1e-6."""
     found = read(arrangement, kind=kind)

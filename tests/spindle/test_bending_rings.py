@@ -62,6 +62,7 @@ def rates_of(system):
     return rate
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("seat", heavy_but(["fixed", "housing", "pedestal"], "housing"))
 def test_runs_are_those_of_the_oracle(seat):
     """Balls, bodies, modes and shaft in one dense system, by the classical method in steps of 0.1 us."""

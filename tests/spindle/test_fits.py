@@ -14,6 +14,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.fits import solid
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene.member import one_of
+from tests.marks import heavy_but
 from tests.mounted import own_oracle
 from tests.spindle.one import set_of_one
 from tests.spindle.sets import scene
@@ -126,7 +127,7 @@ def test_the_parameter_moves_all_bearings_alike():
     np.testing.assert_allclose([run.get(name) for name in names], wanted, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize("signs", ["+-", "-+"])
+@pytest.mark.parametrize("signs", heavy_but(["+-", "-+"], 0))
 @pytest.mark.parametrize("own", [[{}, {}], SIX_AND_TWO], ids=["equal", "6 and 2 um"])
 def test_spacers_hold_a_place_or_a_preload(signs, own):
     """Mounted: what was asked for. Unmounted: spacers of the loose pair, which the oracle loads with races

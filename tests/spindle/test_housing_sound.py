@@ -77,6 +77,7 @@ def single(scene, number=0, **more):
     return Scene.from_dict(given)
 
 
+@pytest.mark.heavy
 def test_a_set_of_one_in_its_housing_sounds_as_the_single_bearing_there():
     """Boundary elements, and a housing whose middle is the bearing: both are on their pedestal there."""
     x = 0.5 * LENGTH

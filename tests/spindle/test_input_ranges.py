@@ -14,6 +14,7 @@ def moments(scene):
     return [one for one in inputs_of(scene) if one.name.startswith("nose.moment")]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["nose.moment.y", "nose.moment.z"])
 def test_the_end_of_the_range_of_moments_is_computed(name):
     scene = with_fidelity(set_of(*FOUR, rpm=10e3), model="full")

@@ -220,6 +220,7 @@ def test_derivatives_are_those_of_the_equations(h):
         assert np.linalg.norm((one - other) * weights, 2) < 0.01 * np.linalg.norm(other * weights, 2)
 
 
+@pytest.mark.heavy
 def test_resistance_at_rest_is_the_static_stiffness():
     run = PortRun(as_port(scene("+-", (0.0, 30.0)))).lead(0.0, 0.0).init()
     # gate 1 of the design study, 7003C DB; balls come to rest slowly: 2.7e-3 are left after 2 ms, 2e-4

@@ -185,6 +185,10 @@ def test_bearings_on_another_models_shaft_have_fidelity_full_alone():
             with_fidelity(read_scene(PORT), model=name)
     run = SetRun(read_scene(PORT), FIDELITY=RINGS)
     assert run.try_init() == OTHER_FIDELITY
+
+
+@pytest.mark.heavy  # auto measures what it chooses from
+def test_auto_takes_full_on_another_models_shaft():
     assert Bearing(with_fidelity(read_scene(PORT), model="auto")).scene.fidelity.model == "full"
 
 

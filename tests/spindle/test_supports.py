@@ -12,6 +12,7 @@ from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import ROOT
 from tests.engine.condensed import FIDELITIES
 from tests.engine.helpers import Run
+from tests.marks import heavy_but
 from tests.oracles.cartesian_forces import turned_axes
 from tests.spindle.rest import oracle
 from tests.spindle.runs import SetRun
@@ -40,7 +41,7 @@ def test_statics_are_where_runs_start(seat, flexible):
 
 
 @pytest.mark.parametrize("fidelity", [0.0, *FIDELITIES.values()], ids=["full", *FIDELITIES])
-@pytest.mark.parametrize("flexible", [False, True], ids=["rigid", "beam"])
+@pytest.mark.parametrize("flexible", heavy_but([False, True], 1), ids=["rigid", "beam"])
 @pytest.mark.parametrize("seat", SEATS)
 def test_the_stiffness_that_runs_tell_is_that_of_statics(seat, flexible, fidelity):
     given = loaded(seat, rpm=0.0, **{"spindle.shaft.flexible": flexible})

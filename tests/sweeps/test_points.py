@@ -140,6 +140,7 @@ def test_a_figure_that_only_some_points_have(scene):
     assert np.isfinite(data["ball[12].velocity"][0]) and np.isnan(data["ball[12].velocity"][1])
 
 
+@pytest.mark.heavy
 def test_error_motion_is_a_figure_of_a_run_of_its_own(rings):
     """At the middle of the bearing, as `error_motion` has it; a speed of 0 has none."""
     wanted = ["friction_torque", "error_motion.asynchronous.rotating", "error_motion.asynchronous.tilt_*"]

@@ -31,6 +31,7 @@ def silent(scene):
     return scene("7003C-bare").model_copy(update={"sound": None})
 
 
+@pytest.mark.heavy
 def test_two_workers_give_the_bits_of_one(silent):
     """Also in another order, and whatever else is in the sweep."""
     axes = {"seed": [1, 2], "speed": [9000, 12000]}
@@ -125,6 +126,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
 def test_workers_end_with_a_program_that_is_killed(trace, tmp_path):
     """Their pipes stay open, as they hold both ends: nothing else would end them."""

@@ -94,6 +94,7 @@ def fmu(example, tmp_path_factory):
     return build(prepare(example("7003C-spindle")), tmp_path_factory.mktemp("fmu") / "Bearing.fmu").path
 
 
+@pytest.mark.heavy
 def test_example_passes_and_a_departure_is_reported(pytester, fmu):
     same, changed = (shutil.copytree(HARNESS, pytester.path / name) for name in ("same", "changed"))
     file = changed / "references" / "start.csv"

@@ -81,6 +81,7 @@ def test_python_build_has_the_known_notes_only(model, tmp_path):
     assert of(results, "skipped") == skipped
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     # pythonfmu compares no GUID, and the Python slave does not look at the time
     ("flavour", "notes"),
@@ -185,6 +186,7 @@ def test_ability_that_is_not_there_is_found(found, check, flag):
     assert "fmi2Error; expected fmi2OK" in remark
 
 
+@pytest.mark.heavy
 def test_a_crash_is_a_finding_and_checks_before_it_stand(broken):
     results = by_name(validate(broken("CRASH")))
     assert of(results.values(), "finding") == {"finite"}

@@ -223,6 +223,7 @@ def test_a_surface_explains_the_values(quick):
     assert anderon.law.exponent.median == pytest.approx(found.law.exponent.median, abs=0.02)
 
 
+@pytest.mark.heavy
 def test_lines_narrow_it_and_an_exact_law_does_more(quick):
     plain = surface("7003C", L=41.0, M=42.0, H=54.0)
     lines = surface("7003C", L=41.0, M=42.0, H=54.0, lines={"f_i - f_r": 9.0, "f_o": 10.0})

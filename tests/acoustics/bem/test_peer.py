@@ -26,7 +26,9 @@ def ours(frequency, points):
 
 @pytest.mark.heavy
 @pytest.mark.parametrize(
-    ("frequency", "allowed"), [(500.0, 0.3), (2000.0, 0.3), (5000.0, 0.5), (20_000.0, 0.8)]
+    # two of the gate's four: at 500 Hz the ring is nearly a dipole, which closed forms give
+    ("frequency", "allowed"),
+    [(2000.0, 0.3), (20_000.0, 0.8)],
 )
 def test_ring_against_bempp(frequency, allowed):
     """Points round the ring in two planes, within 10 dB of the pattern's maximum (dB allowed: the gate's)."""

@@ -30,6 +30,7 @@ def _cases():
     return own
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("around", [*(pytest.param(x, marks=pytest.mark.heavy) for x in (0.96, 1.0)), 1.04])
 def test_no_mode_of_a_papers_scene_grows(around):
     for one in _cases():

@@ -40,6 +40,7 @@ def test_corrected_they_are_the_multi_source_papers_corrected_equations(state):
     assert without()(0.0, state) == pytest.approx(other(0.0, state), rel=1e-12)
 
 
+@pytest.mark.heavy
 def test_row_x_of_eq_3_pushes_the_inner_ring_the_way_it_moves(state):
     """Aside by 1 um in both directions across, the ring is driven back along Z and on along Y."""
     (_, _, right), (_, _, wrong) = (without(*names).split(without(*names)(0.0, state))

@@ -195,6 +195,7 @@ def tilting(corrections):
     return rings[4, :, 0], touching, system
 
 
+@pytest.mark.heavy
 def test_third_law_of_tilt_moments():
     """A ball pushes both rings apart along the axis, so their moments are opposite; printed they are not."""
     (inner, outer), touching, system = tilting(Corrections.all())
@@ -254,6 +255,7 @@ def test_printed_traction_is_a_shadow_of_the_load():
     assert pull == pytest.approx(ellipse * b.viscosity / film, rel=0.03)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("name", "least", "most"),
     [

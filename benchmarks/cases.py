@@ -31,7 +31,7 @@ class Case:
     communication : float
         Communication step (s) in which errors are taken, and the speed of fidelity full.
     folder : Path
-        Where the scene stands: ``GATES`` or ``EXAMPLES``.
+        Folder of the scene: ``GATES`` or ``EXAMPLES``.
     """
 
     scene: str

@@ -11,7 +11,7 @@ from pathlib import Path
 from fmu_bearing import Scene, read_scene, with_fidelity
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES
-from fmu_bearing.prepare.sound import Sounds
+from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.paces import speed
 from fmu_bearing.run.settings import TERMS, Setting

@@ -22,7 +22,7 @@ from fmu_bearing import Scene, new_scene, read_scene, simulate, with_fidelity
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import H, L, Q, S, Y
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.modal.campbell.weak import doubt, is_of_levels
+from fmu_bearing.modal.campbell.doubts import doubt, is_of_levels
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.scene.nsk import sizes

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from benchmarks.cases import EXAMPLES, GATES
 from fmu_bearing.arrays import EngineError
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.results.table import machine, markdown, number, write_csv
 from fmu_bearing.run.metrics import Figures, Measured, measure, of_kind
 from fmu_bearing.run.settings import Setting

@@ -61,7 +61,7 @@ class Timed:
 
 
 def one_of(scene: Scene) -> Scene:
-    """Return a single bearing of a set, preloaded alike, on a rotor as heavy as its share of a shaft."""
+    """Return a single bearing of a set, equally preloaded, on a rotor as heavy as its share of a shaft."""
     mounting = Mounting(
         preload_N=scene.spindle.preload.preload_N,
         pedestal_stiffness_N_m=_PEDESTAL,

@@ -66,7 +66,7 @@ def paces(tasks: tuple[Task, ...], repeats: int, run: Callable) -> list[tuple[st
             ways["Dask, this machine", workers] = lambda address=address: cluster(tasks, address, run)
         for ends in ways.values():
             drained(ends())
-        # in turn, so that what else the machine does meets all alike
+        # in turn, so that what else the machine does slows all the same
         times = [[drained(ends()) for ends in ways.values()] for _ in range(repeats)]
     for (name, workers), row in zip(ways, zip(*times, strict=True), strict=True):
         found.append((name, workers, min(row) / len(tasks)))

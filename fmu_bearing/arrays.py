@@ -62,10 +62,10 @@ _WAVY = (
 
 def reasons(p: NDArray[np.float64]) -> dict[int, str]:
     """Return what the status codes of the engine mean for the parameters of a bearing, or of a set."""
-    found = REASONS | _OF_SETS if SP.has_shaft(p) else REASONS
+    texts = REASONS | _OF_SETS if SP.has_shaft(p) else REASONS
     first, values = int(p[P.AT_WAVES]), len(RACES) * 2 * int(p[P.WAVE_INTERVALS])  # heights and slopes
     highest = 1e6 * float(np.abs(p[first : first + values : 2]).max()) if p[P.WAVINESS] else 0.0
-    return found | {NO_START: found[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else found
+    return texts | {NO_START: texts[NO_START] + _WAVY.format(highest)} if highest > _WAVES_HIGH else texts
 
 
 class EngineError(ValueError):
@@ -92,7 +92,7 @@ class Arrays:
     def of(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
         """Return the arrays of a scene at its own speed, loads and temperatures.
 
-        ``sounds``: the sound block of each bearing (``prepare.sound.sound_blocks``); default: no sound.
+        ``sounds``: the sound block of each bearing (``prepare.sound_block.sound_blocks``); default: no sound.
         ``parameters``: values for places of ``p`` by their names in ``layout.p``, as ``TOLERANCE=1e-5``.
         """
         return cls(_fixed(pack(scene, *(sounds or [np.empty(0)])), parameters), input_values(scene))

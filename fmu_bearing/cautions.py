@@ -176,8 +176,8 @@ def cautions(model: Model, growth: bool = True) -> tuple[Caution, ...]:
 
     ``growth``: with that of a motion that grows by itself.
     """
-    found = _cautions(model)
-    return found if growth else tuple(one for one in found if one.before != _GROWTH.before)
+    warnings = _cautions(model)
+    return warnings if growth else tuple(one for one in warnings if one.before != _GROWTH.before)
 
 
 def _cautions(model: Model) -> tuple[Caution, ...]:
@@ -196,9 +196,9 @@ def _fits(scene: Scene, table: str = "mounting.fit") -> tuple[Caution, ...]:
     ``table``: of the file, in which they are given.
     """
     tight = replace(_RADIALLY_TIGHT, after=_RADIALLY_TIGHT.after.format(table))
-    found = [] if scene.fit is None else [tight]
-    for race, (seat, one) in enumerate(zip(("shaft", "housing"), interferences(scene), strict=True)):
-        if one is not None and one.um > 0.0:
+    warnings = [] if scene.fit is None else [tight]
+    for race, (seat, interference) in enumerate(zip(("shaft", "housing"), interferences(scene), strict=True)):
+        if interference is not None and interference.um > 0.0:
             ring = ("inner", "outer")[race]
             place = Z.FIT + Z.FIT_SIZE * race + Z.FIT_INTERFERENCE
             before = f"the fit of the {ring} ring lets go of the {seat} (gap now "
@@ -206,8 +206,8 @@ def _fits(scene: Scene, table: str = "mounting.fit") -> tuple[Caution, ...]:
                 " um on diameter): the ring is computed as centred and growing by itself; give more "
                 f"interference ({table}.{seat}), less speed, or a cooler ring"
             )
-            found.append(Caution(place, 0.0, -1e6, before, after, decimals=2))
-    return tuple(found)
+            warnings.append(Caution(place, 0.0, -1e6, before, after, decimals=2))
+    return tuple(warnings)
 
 
 def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
@@ -246,14 +246,14 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
     bearings = scene.bearings()
     # one for all: their waves have the same orders
     own = first_output(scene, len(bearings))
-    found = [
+    warnings = [
         replace(_WAVES, index=own + SP.Z_WAVE_TIME), replace(_RESTARTS, index=own + SP.Z_RESTARTS),
         replace(_GROWTH, index=own + SP.Z_GROWTH),
     ]  # fmt: skip
     for bearing in bearings:
         for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene, "spindle.fit")):
             place = first_output(scene, bearing.number - 1) + one.index
-            found.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
+            warnings.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
     if len({bearing.sign for bearing in bearings}) == 1:
-        found.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
-    return tuple(found)
+        warnings.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
+    return tuple(warnings)

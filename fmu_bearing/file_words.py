@@ -130,7 +130,7 @@ def trouble(
 
 
 def instead(path: str | os.PathLike[str], due: str) -> str:
-    """Say what a file holds where something else is due; empty where that cannot be told.
+    """Say what a file holds where something else is due; empty where that is not known.
 
     Parameters
     ----------
@@ -138,13 +138,13 @@ def instead(path: str | os.PathLike[str], due: str) -> str:
     due : str
         What the file had to hold: one of the constants of this module.
     """
-    found = _holds(path)
-    fits = found == due or (found, due) == (TABLE, RESULT) or (found == EMPTY and due != SCENE)
-    if not found or fits:
+    kind = _holds(path)
+    fits = kind == due or (kind, due) == (TABLE, RESULT) or (kind == EMPTY and due != SCENE)
+    if not kind or fits:
         return ""
     tabular = due in (TABLE, RESULT)
-    ways = [_DUE[due], _READ.get(found, ""), _CONVERT.get(found, "") if tabular else ""]
-    return f"is not {due}, but {found}: {'; '.join(way for way in ways if way)}"
+    ways = [_DUE[due], _READ.get(kind, ""), _CONVERT.get(kind, "") if tabular else ""]
+    return f"is not {due}, but {kind}: {'; '.join(way for way in ways if way)}"
 
 
 def _holds(path: str | os.PathLike[str]) -> str:

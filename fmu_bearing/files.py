@@ -17,7 +17,7 @@ __all__ = [
     "cache_root",
     "check_file",
     "check_folder",
-    "foreign",
+    "who_else_writes",
     "naming",
     "no_room",
     "own_folder",
@@ -49,13 +49,13 @@ def plain_file(path: str | os.PathLike[str], most: float = float("inf")) -> Path
     """
     if "\0" in os.fspath(path):
         raise OSError("its name holds NUL, as no file's name does")
-    found = os.stat(path)
-    if stat.S_ISDIR(found.st_mode):
+    status = os.stat(path)
+    if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError("it is a folder: name a file in it")
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(status.st_mode):
         raise OSError("it is a pipe or a device: write its output to a file, and name that file")
-    if found.st_size > most:
-        raise OSError(f"it has {1e-6 * found.st_size:.3g} MB; allowed: up to {1e-6 * most:g} MB")
+    if status.st_size > most:
+        raise OSError(f"it has {1e-6 * status.st_size:.3g} MB; allowed: up to {1e-6 * most:g} MB")
     return Path(path)
 
 
@@ -134,11 +134,11 @@ def _home() -> str:
         import pwd
 
         with contextlib.suppress(KeyError):
-            found = pwd.getpwuid(os.geteuid()).pw_dir
-            return found if os.path.isabs(found) else ""
+            folder = pwd.getpwuid(os.geteuid()).pw_dir
+            return folder if os.path.isabs(folder) else ""
         return ""
-    found = os.path.expanduser("~")
-    return found if os.path.isabs(found) else ""
+    folder = os.path.expanduser("~")
+    return folder if os.path.isabs(folder) else ""
 
 
 def own_folder(folder: Path) -> Path:
@@ -156,7 +156,7 @@ def own_folder(folder: Path) -> Path:
         for one in (*reversed(folder.parents), folder):
             if not one.is_dir():
                 one.mkdir(0o700)
-    if why := foreign(folder):
+    if why := who_else_writes(folder):
         mend = f"; `chmod go-w {folder}` does, too, if all that it holds is yours"
         mend = mend if "(mode" in why and not folder.stat().st_mode & stat.S_ISVTX else ""
         raise CacheError(
@@ -179,23 +179,23 @@ def read_own(path: Path) -> bytes:
         Where it cannot be read.
     """
     with path.open("rb") as file:
-        if why := foreign(file.fileno()):
+        if why := who_else_writes(file.fileno()):
             raise CacheError(f"{path}: {why}")
         return file.read()
 
 
-def foreign(path: Path | int) -> str:
+def who_else_writes(path: Path | int) -> str:
     """Say who else may have written to a file or folder, by path or open; empty: nobody, or none is there."""
     if sys.platform == "win32":
         return ""
     try:
-        found = os.stat(path)
+        status = os.stat(path)
     except OSError:
         return ""
-    if found.st_uid != os.geteuid():
-        return f"{_user(found.st_uid)} owns it, and {_user(os.geteuid())} uses it"
-    if found.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
-        return f"others can write to it (mode {stat.S_IMODE(found.st_mode):o})"
+    if status.st_uid != os.geteuid():
+        return f"{_user(status.st_uid)} owns it, and {_user(os.geteuid())} uses it"
+    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return f"others can write to it (mode {stat.S_IMODE(status.st_mode):o})"
     return ""
 
 

@@ -22,12 +22,12 @@ def nearest(name: str, names: Iterable[str]) -> str:
         The names that are known.
     """
     wanted = _words(name)
-    best, found = _ALIKE, ""
+    best, nearest_name = _ALIKE, ""
     for other in names:
         likeness = _likeness(wanted, _words(other), name, other)
         if likeness > best:
-            best, found = likeness, other
-    return found
+            best, nearest_name = likeness, other
+    return nearest_name
 
 
 def _words(name: str) -> list[str]:
@@ -45,5 +45,5 @@ def _likeness(wanted: list[str], words: list[str], name: str, other: str) -> flo
 
 @functools.cache
 def _ratio(word: str, other: str) -> float:
-    found = difflib.SequenceMatcher(None, word, other).ratio()
-    return found if found > _ALIKE else 0.0
+    ratio = difflib.SequenceMatcher(None, word, other).ratio()
+    return ratio if ratio > _ALIKE else 0.0

@@ -24,11 +24,11 @@ from fmu_bearing import (
     with_fidelity,
 )  # fmt: skip
 from fmu_bearing.engine.fidelities.condensed import uneven
-from fmu_bearing.engine.fidelities.rings import held
+from fmu_bearing.engine.fidelities.rings import frozen_points
 from fmu_bearing.engine.layout import SD, P
 from fmu_bearing.engine.statics import place
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.campbell import weak
+from fmu_bearing.modal.campbell import doubts
 from fmu_bearing.prepare.model import land_clearance, pack, prepare
 from fmu_bearing.prepare.surfaces import HIGHEST_BALL_ORDER
 from fmu_bearing.scene import imperfections, nsk, read_scene_text
@@ -85,8 +85,8 @@ def spindle():
         loads.append(cells)
     yield rows("loads", loads)
     yield (
-        f"renewed when loads have moved by {100.0 * held._NEAR:g} %, speed by 1 %, or temperatures have "
-        f"moved rings by {rounded(str(held._GROWN), 1)} m"
+        f"renewed when loads have moved by {100.0 * frozen_points._NEAR:g} %, speed by 1 %, or "
+        f"temperatures have moved rings by {rounded(str(frozen_points._GROWN), 1)} m"
     )
     yield f"a ring is displaced by more than {place._FAR:g} of the pitch radius"
     yield from _lives(scene, found)
@@ -215,7 +215,7 @@ def solution():
 
 def rings():
     """Weak damping, skidding."""
-    yield f"with a damping ratio below {weak.LEAST:g}, or below {weak.NARROW:g} with a line on it"
+    yield f"with a damping ratio below {doubts.LEAST:g}, or below {doubts.NARROW:g} with a line on it"
     yield from _skidding()
 
 

@@ -14,7 +14,7 @@ EVERY = 0.05  # s
 
 @pytest.fixture
 def said(monkeypatch):
-    """Lines, told often."""
+    """Lines, printed often."""
     monkeypatch.setattr(progress, "EVERY", EVERY)
     return []
 

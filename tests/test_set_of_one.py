@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import modes, operating_point, statics, stiffness, verdicts
-from fmu_bearing.elastic.shaft import placed
+from fmu_bearing.elastic.shaft import rigid_transform
 from fmu_bearing.instance import Instance
 from fmu_bearing.interface import variables
 from fmu_bearing.modal.equations.quick import operator_matrix, quick_run
@@ -91,7 +91,7 @@ def at_rest(several, single, close, place=4e-9, share=1e-6):
     """Compare all figures at rest; ``place``: m and rad; ``share``: of the largest stiffness."""
     ours, theirs = statics(several), statics(single)
     # the shaft's nose is 90 mm ahead of the bearing
-    there = placed(1.0, 1e-3 * MIDDLE)
+    there = rigid_transform(1.0, 1e-3 * MIDDLE)
     at_nose = there.T @ theirs.stiffness @ there
     np.testing.assert_allclose(ours.stiffness, at_nose, rtol=0.0, atol=share * np.abs(at_nose).max())
     np.testing.assert_allclose(there @ ours.displacement, theirs.displacement, rtol=0.0, atol=place)

@@ -10,7 +10,7 @@ from benchmarks.cases import GATES, WARM_UP, silent
 from benchmarks.fmu.calls import Case, host_program, packed, slave
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.compiled.platforms import host
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound_block import sound_block
 from fmu_bearing.scene import read_scene
 
 COLUMNS = ("scene", "sound", "through", "sim/wall", "of the library")

@@ -90,7 +90,7 @@ class Case:
         Raises
         ------
         ValueError
-            Where a mode of the scene grows: what is heard is a whirl, and no value of a paper comes from it.
+            Where a mode of the scene grows: the sound is a whirl's, and no value of a paper comes from it.
         """
         scene = self.build()
         if (mode := growing(scene)) is not None:

@@ -27,7 +27,7 @@ from scipy.linalg import block_diag, eig
 from fmu_bearing import read_scene, stiffness
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.results.table import machine, markdown, write_csv
-from fmu_bearing.steady.stiffness.planes import mirrored_matrix, shares
+from fmu_bearing.steady.stiffness.planes import mirrored_matrix, plane_matrices
 
 HERE = pathlib.Path(__file__).parent
 SCENE = HERE.parent / "scenes" / "7003C-spindle.toml"
@@ -102,7 +102,7 @@ def whole(table):
 
 def in_planes(table, a):
     """Return K(w) and C(w), shape (3, 3), of planes at -a, 0, a (m) from both bearings' balls."""
-    held = [[shares(one, a) for one in pair] for pair in both_ways(table)]
+    held = [[plane_matrices(one, a) for one in pair] for pair in both_ways(table)]
     return [[between(table, one[k]) for one in pair] for pair in held for k in range(3)]
 
 

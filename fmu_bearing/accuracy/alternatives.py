@@ -46,10 +46,10 @@ def alternatives(scene: Scene) -> list[Alternative]:
     Number and size of the balls stay, because they make another bearing. Whether a scene allows a choice,
     only `Scene.replace` checks.
     """
-    found = [
+    choices = [
         *_preload(scene), *_balls(scene), *_grades(scene), *_oil(scene), *_geometry(scene), *_supports(scene),
     ]  # fmt: skip
-    return found
+    return choices
 
 
 def _preload(scene: Scene) -> Iterator[Alternative]:
@@ -58,8 +58,8 @@ def _preload(scene: Scene) -> Iterator[Alternative]:
         return
     now = value_at(scene, key) or 0.0
     wanted = [(float(f"{factor * now:.3g}"), "") for factor in _PRELOADS if now > 0.0]
-    found = None if key.endswith("force_N") else preload_classes(scene)  # springs have no offset of faces
-    for name in found.loads if found else ():
+    classes = None if key.endswith("force_N") else preload_classes(scene)  # springs have no offset of faces
+    for name in classes.loads if classes else ():
         made = preload({CLASS: name}, scene.bearing, scene.materials, scene.assembly.carries)
         if made is not None:
             wanted.append((made.force, f" {name}"))
@@ -171,7 +171,7 @@ def _supports(scene: Scene) -> Iterator[Alternative]:
         words = f"pedestal {1e-6 * stiffness:g} -> {1e-6 * factor * stiffness:g} N/um"
         yield Alternative("pedestal", words, {key: factor * stiffness})
     if spots := scene.assembly.heavy_spots:
-        lighter = [one.model_dump() | {"amount_g_mm": _BALANCE * one.amount_g_mm} for one in spots]
+        lighter = [spot.model_dump() | {"amount_g_mm": _BALANCE * spot.amount_g_mm} for spot in spots]
         yield Alternative(
             "balance", f"unbalance of the shaft x{_BALANCE:g}", {"spindle.shaft.unbalance": lighter}
         )

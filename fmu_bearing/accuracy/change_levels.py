@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.cautions import in_doubt
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.campbell.weak import doubt, weakness
+from fmu_bearing.modal.campbell.doubts import doubt, reason_for_doubt
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
@@ -59,9 +59,9 @@ class ChangeLevels:
     def _choose(self, scene: Scene) -> tuple[str, NDArray[np.float64]]:
         """Return the cheapest fidelity within the scene's accuracy, and its levels at all microphones.
 
-        Rings that bend need fidelity full, and what `weakness` names is judged by it. Else the level of full
-        decides, of one run with the scene's own seed: a cage that is loud sounds in full alone, and makes
-        changes of preload go the other way (a steel DB set at 18,000 r/min).
+        Rings that bend need fidelity full, and what `reason_for_doubt` names is judged by it. Else the level
+        of full decides, of one run with the scene's own seed: a cage that is loud sounds in full alone, and
+        makes changes of preload go the other way (a steel DB set at 18,000 r/min).
         """
         assert scene.imperfections is not None
         own, seed = scene.fidelity.model, scene.imperfections.seed
@@ -70,16 +70,16 @@ class ChangeLevels:
         if own in ("rings", "response"):
             return own, self._all(scene, own, seed)
         full = self._all(scene, "full", seed)
-        if weakness(scene, radiation_model=self.estimator.radiation_model):
+        if reason_for_doubt(scene, radiation_model=self.estimator.radiation_model):
             return "full", full
         at = int(np.argmax(full))
         for fidelity in ("response", "rings"):
             try:
-                found = self._all(scene, fidelity, seed)
+                levels = self._all(scene, fidelity, seed)
             except ValueError:
                 continue
-            if abs(found[at] - full[at]) <= scene.fidelity.accuracy.level_dB:
-                return fidelity, found
+            if abs(levels[at] - full[at]) <= scene.fidelity.accuracy.level_dB:
+                return fidelity, levels
         return "full", full
 
     def _all(self, scene: Scene, fidelity: str, seed: int) -> NDArray[np.float64]:

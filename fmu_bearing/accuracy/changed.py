@@ -211,7 +211,7 @@ class Changes(Result):
 
     def resonances(self) -> list[str]:
         """Return topics of which less and more are both quieter: a strong line is near a resonance."""
-        found = []
+        quieter = []
         topics = {"speed": "operation.speed_rpm"}
         if self.scene.assembly.can_preload:
             topics["preload"] = self.scene.assembly.preload_key
@@ -227,8 +227,8 @@ class Changes(Result):
                 if side
             ]
             if len(sides) == 2 and all(e.acts("level") and e.level < 0.0 for e in sides):
-                found.append(topic)
-        return found
+                quieter.append(topic)
+        return quieter
 
     def resonance(self) -> str:
         """Return the remark on `resonances`; empty without."""
@@ -242,9 +242,9 @@ class Changes(Result):
 
     def remarks(self) -> list[str]:
         """Return the warnings of single changes, and the choices that were left out."""
-        found = [f"Unchanged: {text}." for text in (*self.before.cautions, self.basis.doubt) if text]
-        found += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
-        return found + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
+        warnings = [f"Unchanged: {text}." for text in (*self.before.cautions, self.basis.doubt) if text]
+        warnings += [f"{each.choice.words}: {text}." for each in self.changes for text in each.cautions]
+        return warnings + [f"Left out: {each.choice.words}: {each.reason}." for each in self.refused]
 
     def conditions(self) -> str:
         """Return how the figures were computed, in sentences."""
@@ -269,10 +269,10 @@ class Changes(Result):
     def unchanged(self) -> str:
         """Return the figures of the unchanged scene, in words."""
         b = self.before
-        found = [f"{self.basis.level:.1f} dB(A)"] if "level" in self.figures else []
-        found += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
-        found += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
-        return ", ".join([*found, f"{self.stiff} {b.stiffness:.3g} N/um"])
+        figures = [f"{self.basis.level:.1f} dB(A)"] if "level" in self.figures else []
+        figures += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
+        figures += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
+        return ", ".join([*figures, f"{self.stiff} {b.stiffness:.3g} N/um"])
 
 
 def shown_level(change: float, digits: int = 3) -> str:

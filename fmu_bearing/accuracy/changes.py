@@ -16,7 +16,7 @@ from fmu_bearing.accuracy.change_levels import ChangeLevels, change_levels
 from fmu_bearing.accuracy.changed import Change, Changes, LevelBasis, Point
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import unrated
-from fmu_bearing.modal.campbell.weak import whirl_words
+from fmu_bearing.modal.campbell.doubts import whirl_words
 from fmu_bearing.progress import Tell, keeping, silent
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
@@ -57,7 +57,7 @@ def changes(
         Where the unchanged scene has no equilibrium (`EngineError`) or no figure to compare, or for
         ``seeds`` below 1.
     Stopped
-        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``study``.
 
     Examples
     --------
@@ -84,15 +84,15 @@ def changes(
         ear.level, ear.microphone, ear.fidelity, ear.estimator.radiation_model, ear.estimator.settle,
         ear.estimator.duration, ear.seeds, ear.doubt,
     )  # fmt: skip
-    found = Changes(scene, before, basis, (), reason, _no_life(scene))
-    if not found.figures:
-        raise ValueError(f"{scene.name} has nothing to compare. {found.conditions()}")
+    study = Changes(scene, before, basis, (), reason, _no_life(scene))
+    if not study.figures:
+        raise ValueError(f"{scene.name} has nothing to compare. {study.conditions()}")
     rows: list[Change] = []
-    with keeping(rows, lambda: replace(found, changes=tuple(rows))):
+    with keeping(rows, lambda: replace(study, changes=tuple(rows))):
         for choice in alternatives(scene):
             tell(choice.words)
             rows.append(_changed(scene, choice, before, ear))
-    return replace(found, changes=tuple(rows))
+    return replace(study, changes=tuple(rows))
 
 
 def point(scene: Scene) -> Point:
@@ -104,17 +104,17 @@ def point(scene: Scene) -> Point:
         Where there is no equilibrium.
     """
     cautions: list[str] = []
-    found = operating_point(scene, cautions.append)
-    cautions += found.remarks
-    if found.whirl is not None:
-        cautions.append(whirl_words(*found.whirl, scene))
-    torque = 1e3 * sum(one.friction_torque for one in found.bearings)
+    operating = operating_point(scene, cautions.append)
+    cautions += operating.remarks
+    if operating.whirl is not None:
+        cautions.append(whirl_words(*operating.whirl, scene))
+    torque = 1e3 * sum(bearing.friction_torque for bearing in operating.bearings)
     torque *= math.copysign(1.0, scene.operation.speed_rpm)
     if not scene.assembly.joined:
-        (one,) = found.bearings
+        (one,) = operating.bearings
         life, stiffness = one.life, 0.5 * float(one.stiffness[1, 1] + one.stiffness[2, 2])
     else:
-        life, stiffness = found.life, found.statics.nose_stiffness
+        life, stiffness = operating.life, operating.statics.nose_stiffness
     return Point(torque, math.nan if life is None else life, 1e-6 * stiffness, tuple(cautions))
 
 

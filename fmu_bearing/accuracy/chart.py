@@ -32,7 +32,7 @@ _PANELS = (
 )
 
 
-def front(points: Sequence[tuple[float, float]]) -> list[int]:
+def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
     """Places, fastest first, of those (speed, error) points that none betters in both (Pareto front)."""
     best, places = math.inf, []
     for k in sorted(range(len(points)), key=lambda k: (-points[k][0], points[k][1])):
@@ -93,7 +93,7 @@ def _panel(ax: "Axes", rows: Sequence[Row], kind: str) -> tuple[list[Point], lis
         face = "none" if _reduced(row) and marker != "x" else color
         ax.plot(speed, error, marker=marker, color=color, markerfacecolor=face, linestyle="")
     whole = [entry for entry in shown if not _reduced(entry[0])]
-    best = [whole[k] for k in front([(speed, error) for _, speed, error in whole])]
+    best = [whole[k] for k in pareto_front([(speed, error) for _, speed, error in whole])]
     ax.plot([entry[1] for entry in best], [entry[2] for entry in best], color="0.5", linewidth=1.0, zorder=0)
     ax.margins(x=0.16, y=0.12)
     return best, shown

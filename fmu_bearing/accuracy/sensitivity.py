@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.prepare.sound import sound_blocks, sound_key
+from fmu_bearing.prepare.sound_block import sound_blocks, sound_key
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Quantity, Result, Study
 from fmu_bearing.results.table import machine, markdown

@@ -16,7 +16,7 @@ import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays, EngineError
-from fmu_bearing.prepare.sound import Sounds
+from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Quantity, Result, Study
 from fmu_bearing.results.table import machine, markdown, number

@@ -94,8 +94,8 @@ class Radiation:
         ValueError
             When a microphone lies inside a body, or the table does not serve.
         """
-        found = RECIPES[self.model].paths(self, microphones, members)
-        return sorted(found, key=lambda path: path.channel)
+        paths = RECIPES[self.model].paths(self, microphones, members)
+        return sorted(paths, key=lambda path: path.channel)
 
 
 _Maker = Callable[[Radiation, Sequence[Position], Sequence[int]], list[Path]]

@@ -58,32 +58,32 @@ def compare(
             check_folder(output)  # refused before the runs
             check_new_in(force, output, *_FILES)
         one, other = (source_of(source, at_speed(speed, settings, source)) for source in (a, b))
-        found = compare_them(
+        comparison = compare_them(
             one, other, duration=duration, settle=settle, fidelity=fidelity, radiation_model=radiation_model,
             tell=tell,
         )  # fmt: skip
-        tables = found.tables(microphone)
-        both = bool(found.a.levels.keys() & found.b.levels.keys())
+        tables = comparison.tables(microphone)
+        both = bool(comparison.a.levels.keys() & comparison.b.levels.keys())
         track = partial(steps, what="draws of the surfaces")
-        finding = found.finding(microphone, seeds, track) if both else None
+        finding = comparison.finding(microphone, seeds, track) if both else None
         with Writing() as files:
             if output is not None:
-                files += found.save(output, microphone)
+                files += comparison.save(output, microphone)
             if plot is not None:
-                save(found.plot(microphone), plot)
+                save(comparison.plot(microphone), plot)
                 files.append(plot)
     if as_json:
         print_json(
-            found.summary() | {"finding": None if finding is None else finding.summary(), "files": files}
+            comparison.summary() | {"finding": None if finding is None else finding.summary(), "files": files}
         )
         return end(0, files)
     for title, table in tables.items():
-        show(f"levels, {found.conditions()}" if title == "levels" else title, *table)
-    if not found.keys and found.a.scene is not None and found.b.scene is not None:
+        show(f"levels, {comparison.conditions()}" if title == "levels" else title, *table)
+    if not comparison.keys and comparison.a.scene is not None and comparison.b.scene is not None:
         typer.echo("the scenes do not differ")
     typer.echo(f"A: {a}, B: {b}; differences are B minus A")
     if finding is not None:
         typer.echo(finding.words())
-    for line in found.doubts():
+    for line in comparison.doubts():
         tell(line)
     end(0, files, named=True)

@@ -71,30 +71,30 @@ def error_motion(
         base.check_new(force, plot)
         chosen, inputs = changed(given, settings)
         chosen = chosen if fidelity is None else with_fidelity(chosen, model=fidelity)
-        found, code = base.so_far(partial(
+        motion, code = base.so_far(partial(
             computed, chosen, rpm, 1e-3 * at, revolutions, against, inputs=inputs,  # type: ignore[arg-type]
             track=partial(steps, what="error motion", unit="speeds"),
         ))  # fmt: skip
         drawn = available("matplotlib", "a picture", "no polar.png", base.tell)
         with base.Writing() as files:
-            files += found.save(output, direction, picture=drawn)
+            files += motion.save(output, direction, picture=drawn)
             if plot is not None:
-                save(found.polar(direction), plot)
+                save(motion.polar(direction), plot)
                 files.append(plot)
     if as_json:
-        base.print_json(found.summary() | {"files": files})
+        base.print_json(motion.summary() | {"files": files})
         return base.end(code, files)
-    place = f"{found.scene.name} at {at:g} mm, against the {found.against}"
-    show(f"error motion, {place}", *found.table())
-    show("largest lines, amplitudes", *found.lines())
-    if len(found.speeds[0].nose.rates) > 1:
-        show("asynchronous width, lines of one bearing alone", *found.per_bearing())
-    show("asynchronous width, lines of one source alone", *found.per_source())
-    for one in found.speeds:
+    place = f"{motion.scene.name} at {at:g} mm, against the {motion.against}"
+    show(f"error motion, {place}", *motion.table())
+    show("largest lines, amplitudes", *motion.lines())
+    if len(motion.speeds[0].nose.rates) > 1:
+        show("asynchronous width, lines of one bearing alone", *motion.per_bearing())
+    show("asynchronous width, lines of one source alone", *motion.per_source())
+    for one in motion.speeds:
         typer.echo(
             f"{one.rpm:g} r/min: the lines hold {_PERCENT * one.explained:.0f} % of the energy of the "
             "asynchronous radial motion"
         )
-    for line in found.remarks():
+    for line in motion.remarks():
         base.tell(f"remark: {line}")
     base.end(code, files, named=True)

@@ -42,25 +42,25 @@ def fits(
         if plot is not None:
             check_picture(plot)
         check_new(force, output, plot)
-        found = study(
+        result = study(
             source_of(scene, at_speed(speed, settings, scene)), partial(steps, what="fits", unit="columns")
         )
-        drawn = None if plot is None else curves(found, partial(steps, what="curves", unit="fits"))
+        drawn = None if plot is None else curves(result, partial(steps, what="curves", unit="fits"))
         with Writing() as files:
             if output is not None:
                 output.parent.mkdir(parents=True, exist_ok=True)
-                numbers = [one.number for one in found.columns[0].bearings]
-                rows = [[str(number), *row] for number in numbers for row in fit_rows(found, number)]
-                write_csv(output, ("bearing", *head(found)), rows)
+                numbers = [bearing.number for bearing in result.columns[0].bearings]
+                rows = [[str(number), *row] for number in numbers for row in fit_rows(result, number)]
+                write_csv(output, ("bearing", *head(result)), rows)
                 files.append(output)
             if plot is not None and drawn is not None:
-                save(picture(found, drawn), plot)
+                save(picture(result, drawn), plot)
                 files.append(plot)
     if as_json:
-        print_json(found.summary() | {"files": files})
+        print_json(result.summary() | {"files": files})
         return end(0, files)
-    for table in shown_tables(found):
+    for table in shown_tables(result):
         show(*table)
-    for line in found.remarks:
+    for line in result.remarks:
         typer.echo(line)
     end(0, files, named=True)

@@ -100,23 +100,23 @@ def identify(
         source = source_of(scene, settings)
         code = 0
         try:
-            found = search(
+            result = search(
                 source, measured, free or [], background=background, fidelity=fidelity, seeds=seeds or SEEDS,
                 starts=starts or STARTS, duration=duration, settle=settle, few=few, accept=accept,
                 folder=folder, workers=workers,
             )  # fmt: skip
         except Stopped as stop:
-            found, code = stop.found, base.INTERRUPTED
+            result, code = stop.found, base.INTERRUPTED
             base.tell(
                 "interrupted: these are the best values so far; the same command with --force goes on, from "
                 f"{folder / 'runs.jsonl'}"
             )
-        files = _write(found, path, scene if source == scene else None, plot, as_json, anyway)
+        files = _write(result, path, scene if source == scene else None, plot, as_json, anyway)
     base.end(code, files)
 
 
 def _write(
-    found: "Identified", path: Path, scene: Path | None, plot: Path | None, as_json: bool, anyway: bool
+    result: "Identified", path: Path, scene: Path | None, plot: Path | None, as_json: bool, anyway: bool
 ) -> base.Writing:  # fmt: skip
     """Print values, levels and remarks, and write the files, which are returned."""
     from fmu_bearing.identification.files import misfit_words, write_all
@@ -124,25 +124,25 @@ def _write(
     from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
 
-    refused = bool(found.doubts) and not anyway
+    refused = bool(result.doubts) and not anyway
     with base.Writing() as files:
         if not refused:
-            files += write_all(found, path, scene, base.tell, anyway=anyway)
+            files += write_all(result, path, scene, base.tell, anyway=anyway)
         if plot is not None and not refused:
             from fmu_bearing.identification.picture import identified_picture, save
 
-            save(identified_picture(found), plot)
+            save(identified_picture(result), plot)
             files.append(plot)
     if as_json:
-        base.print_json(found.summary() | {"files": files})
+        base.print_json(result.summary() | {"files": files})
     else:
-        show("Measured and computed levels", *table(Compared, found.compared))
-        show("Identified values", *table(Estimate, found.estimates))
-        typer.echo(misfit_words(found))
-        for remark in (*(() if refused else found.doubts), *found.remarks):
+        show("Measured and computed levels", *table(Compared, result.compared))
+        show("Identified values", *table(Estimate, result.estimates))
+        typer.echo(misfit_words(result))
+        for remark in (*(() if refused else result.doubts), *result.remarks):
             typer.echo(f"* {remark}")
         if files:
             typer.echo(f"written: {', '.join(map(str, files))}")
     if refused:
-        write_all(found, path, scene, base.tell)  # which says why not
+        write_all(result, path, scene, base.tell)  # which says why not
     return files

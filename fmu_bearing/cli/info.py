@@ -66,10 +66,10 @@ def info(
         given = source_of(scene, at_speed(speed, settings, scene))
         warm = _warm(given, temperatures, ambient, cooling)
         point = operating_point(given if warm is None else warm.scene)
-    found = verdicts(point)
-    lines = cautions(point, found)
+    judgements = verdicts(point)
+    lines = cautions(point, judgements)
     if as_json:
-        judged = {"verdicts": found, "cautions": lines, "measured_elsewhere": measured_elsewhere()}
+        judged = {"verdicts": judgements, "cautions": lines, "measured_elsewhere": measured_elsewhere()}
         seats = {} if point.scene.fit is None else {"fits": _seats(point)}
         steady = {} if warm is None else {"temperatures": warm}
         print_json(point.summary() | judged | seats | steady)
@@ -83,7 +83,7 @@ def info(
     _show_heat(point)
     if warm is not None:
         _show_temperatures(warm)
-    _show_verdicts(found, len(point.bearings))
+    _show_verdicts(judgements, len(point.bearings))
     typer.echo("computed figures over what others measured or print:")
     for figure, words in measured_elsewhere().items():
         typer.echo(f"{figure}: {words}")
@@ -144,20 +144,20 @@ def _show_bearing(point: "BearingPoint") -> None:
     show("oil and ratings", ("", "value", "source"), _ratings(point))
 
 
-def _show_set(found: "Statics") -> None:
+def _show_set(statics: "Statics") -> None:
     """Print what the bearings of a set carry, and how stiff they hold the shaft."""
     from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
     from fmu_bearing.steady.statics import BearingLoad
 
-    scene = found.scene
+    scene = statics.scene
     _show_heading(
         f"{scene.name}: {bearings_words(scene)}, {materials_words(scene)}; "
         f"{scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
-    show("bearings: load; largest ball load, angle, pressure", *table(BearingLoad, found.bearings))
-    show("shaft", ("", "value"), _shaft(found))
+    show("bearings: load; largest ball load, angle, pressure", *table(BearingLoad, statics.bearings))
+    show("shaft", ("", "value"), _shaft(statics))
 
 
 def _seats(point: "OperatingPoint") -> "Column":
@@ -173,10 +173,10 @@ def _show_fits(point: "OperatingPoint") -> None:
     from fmu_bearing.design.fit_table import STATE_COLUMNS, state_rows
     from fmu_bearing.results.table import show
 
-    for one in _seats(point).bearings:
-        name = f", bearing {one.number}" if len(point.bearings) > 1 else ""
-        words = "; ".join(f"{ring} ring {seat.words}" for ring, seat in one.seats.items())
-        show(f"fits{name}: {words}", STATE_COLUMNS, state_rows(one))
+    for bearing in _seats(point).bearings:
+        name = f", bearing {bearing.number}" if len(point.bearings) > 1 else ""
+        words = "; ".join(f"{ring} ring {seat.words}" for ring, seat in bearing.seats.items())
+        show(f"fits{name}: {words}", STATE_COLUMNS, state_rows(bearing))
 
 
 def _show_heat(point: "OperatingPoint") -> None:
@@ -189,19 +189,19 @@ def _show_heat(point: "OperatingPoint") -> None:
     show(CAPTION, *point.torque_range.table())
 
 
-def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
+def _show_verdicts(judgements: "tuple[Verdict, ...]", bearings: int) -> None:
     """Print the verdicts: of several bearings side by side, what is not good marked, then on the whole."""
     from fmu_bearing.design.verdicts import shared_label, side_by_side
     from fmu_bearing.results.table import show
 
     one_by_one = ("figure", "value", "verdict", "limit (source)")
-    rows = [[one.label, one.text, one.judgement, f"{one.limit} ({one.source})"] for one in found]
+    rows = [[one.label, one.text, one.judgement, f"{one.limit} ({one.source})"] for one in judgements]
     if bearings == 1:
         show("verdicts", one_by_one, rows)
         return
-    together = [row for row, one in zip(rows, found, strict=True) if one.bearing is None]
+    together = [row for row, one in zip(rows, judgements, strict=True) if one.bearing is None]
     rows = []
-    for same in side_by_side(found):
+    for same in side_by_side(judgements):
         first = next(one for one in same if one is not None)
         cells = [
             "" if one is None else one.text + (f" {one.judgement}" if one.advice else "") for one in same
@@ -211,34 +211,34 @@ def _show_verdicts(found: "tuple[Verdict, ...]", bearings: int) -> None:
     show("verdicts on the set", one_by_one, together)
 
 
-def _shaft(found: "Statics") -> list[list[str]]:
+def _shaft(statics: "Statics") -> list[list[str]]:
     """Rows of the table of the shaft."""
     from fmu_bearing.results.table import tenths
 
-    x, y, z, by, bz = 1e6 * found.displacement
+    x, y, z, by, bz = 1e6 * statics.displacement
     rows = [
         ["nose moves by x, y, z, um", ", ".join(tenths(value) for value in (x, y, z))],
         ["and tilts about y, z, urad", ", ".join(tenths(value) for value in (by, bz))],
-        ["axial stiffness, N/um", f"{1e-6 * found.axial_stiffness:.1f}"],
-        ["radial stiffness, N/um", f"{1e-6 * found.radial_stiffness:.1f}"],
-        ["tilt stiffness, N m/mrad", f"{1e-3 * found.tilt_stiffness:.2f}"],
-        ["radial stiffness at the nose, N/um", f"{1e-6 * found.nose_stiffness:.1f}"],
+        ["axial stiffness, N/um", f"{1e-6 * statics.axial_stiffness:.1f}"],
+        ["radial stiffness, N/um", f"{1e-6 * statics.radial_stiffness:.1f}"],
+        ["tilt stiffness, N m/mrad", f"{1e-3 * statics.tilt_stiffness:.2f}"],
+        ["radial stiffness at the nose, N/um", f"{1e-6 * statics.nose_stiffness:.1f}"],
     ]
     for words, key in (
         ("preload at standstill and 20 degC, N", "cold"),
         ("preload at the temperatures, N", "warm"),
         ("preload at speed too, N", "running"),
     ):
-        if key in found.preloads:
-            rows.append([words, ", ".join(f"{force:.1f}" for force in found.preloads[key])])
-    for way, one in found.lift_off.items():
+        if key in statics.preloads:
+            rows.append([words, ", ".join(f"{force:.1f}" for force in statics.preloads[key])])
+    for way, one in statics.lift_off.items():
         rows.append(
             [f"axial load {way} that unloads bearing {one.bearing} at standstill, N", f"{abs(one.load):.0f}"]
         )
-    if found.spacing is not None:
-        rows.append(["spacing of both directions, mm", f"{1e3 * found.spacing:.1f}"])
-    if found.neutral_spacing is not None:
-        rows.append(["temperature-neutral spacing, mm", f"{1e3 * found.neutral_spacing:.1f}"])
+    if statics.spacing is not None:
+        rows.append(["spacing of both directions, mm", f"{1e3 * statics.spacing:.1f}"])
+    if statics.neutral_spacing is not None:
+        rows.append(["temperature-neutral spacing, mm", f"{1e3 * statics.neutral_spacing:.1f}"])
     return rows
 
 
@@ -277,16 +277,16 @@ def _ratings(point: "BearingPoint") -> list[list[str]]:
     from fmu_bearing.design.rating import unrated
 
     rows = [["viscosity of the oil, mm2/s", f"{point.viscosity:.1f}", "at its temperature"]]
-    found = point.rating
-    if found is None:
+    rating = point.rating
+    if rating is None:
         return [*rows, ["C, C0, life", "none", unrated(point.scene)]]
-    rows.append(["C, N", f"{found.dynamic:.0f}", "ISO 281"])
+    rows.append(["C, N", f"{rating.dynamic:.0f}", "ISO 281"])
     ceramic = point.scene.materials.kind == "hybrid"
     words = "ISO 76; ceramic balls 0.7 of it (GMN)" if ceramic else "ISO 76"
-    rows.append(["C0, N", f"{found.static:.0f}", words])
-    if found.equivalent is not None:
-        rows.append(["P, N", f"{found.equivalent:.0f}", "ISO 281"])
-    if found.factors is not None:
-        e, x, y, y0 = found.factors
+    rows.append(["C0, N", f"{rating.static:.0f}", words])
+    if rating.equivalent is not None:
+        rows.append(["P, N", f"{rating.equivalent:.0f}", "ISO 281"])
+    if rating.factors is not None:
+        e, x, y, y0 = rating.factors
         rows.append(["e, X, Y, Y0", f"{e:.2f}, {x:.2f}, {y:.2f}, {y0:.2f}", "ISO 281, ISO 76; single row"])
     return rows

@@ -88,7 +88,7 @@ def find(
     check_file(path)
     check_new(force, path)
     bands = _bands(asked.measured or "")
-    found = surface(
+    surfaces = surface(
         bearing, bands.get("L"), bands.get("M"), bands.get("H"), lines=_lines(asked.lines),
         at_most=asked.at_most, unit=unit,
         deviation=DEVIATION if asked.deviation is None else _share(asked.deviation),
@@ -96,18 +96,18 @@ def find(
         bar=partial(steps, what="sources of the vibration test, once per bearing", unit="runs"),
     )  # fmt: skip
     with Writing() as files:
-        write_surface(found, path)
+        write_surface(surfaces, path)
         files.append(path)
     if as_json:
-        law = {name: one._asdict() for name, one in found.law._asdict().items()}
+        law = {name: one._asdict() for name, one in surfaces.law._asdict().items()}
         print_json({
-            "bearing": found.bearing, "measured": found.measured, "law": law,
-            "order_12_nm": found.order()._asdict(), "correlation": found.correlation,
-            "remarks": list(found.remarks), "files": files,
+            "bearing": surfaces.bearing, "measured": surfaces.measured, "law": law,
+            "order_12_nm": surfaces.order()._asdict(), "correlation": surfaces.correlation,
+            "remarks": list(surfaces.remarks), "files": files,
         })  # fmt: skip
         return end(0, files)
-    show(f"surfaces of {found.words}", *found.rows())
-    for line in found.remarks:
+    show(f"surfaces of {surfaces.words}", *surfaces.rows())
+    for line in surfaces.remarks:
         typer.echo(line)
     end(0, files, named=True)
 
@@ -115,11 +115,11 @@ def find(
 def _bands(text: str) -> dict[str, float]:
     from fmu_bearing.vibration_test.rig import BANDS
 
-    found = _pairs("--measured", text.split(","), "L=41,M=42,H=54")
-    for name in found:
+    values = _pairs("--measured", text.split(","), "L=41,M=42,H=54")
+    for name in values:
         if name not in BANDS:
             raise Refusal(f"--measured {name}: bands are {', '.join(BANDS)}; lines are given with --line")
-    return found
+    return values
 
 
 def _lines(given: Sequence[str]) -> dict[str, float]:
@@ -128,17 +128,17 @@ def _lines(given: Sequence[str]) -> dict[str, float]:
 
 def _pairs(option: str, given: Sequence[str], example: str) -> dict[str, float]:
     """Return numbers by name; `Refusal` for text that is none."""
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for text in given:
         name, _, number = (part.strip() for part in text.partition("="))
         try:
             value = float(number)
         except ValueError:
             raise Refusal(f'{option} {text}: write name and number, as "{example}"') from None
-        if name in found:
+        if name in values:
             raise Refusal(f"{option} {name} is given twice: keep one")
-        found[name] = value
-    return found
+        values[name] = value
+    return values
 
 
 def _share(text: str) -> float:

@@ -63,8 +63,8 @@ def modes(
                 "--plot draws a Campbell diagram, and the scene's shaft does not turn: give --speeds"
             )
         with work(f"modes of {chosen.name}"):
-            found = at_speed(chosen, inputs | ({} if turning is None else {"shaft_speed": turning}))
-        free = at_speed(chosen, inputs | {"shaft_speed": 0.0}, friction=False) if found.rpm == 0.0 else None
+            study = at_speed(chosen, inputs | ({} if turning is None else {"shaft_speed": turning}))
+        free = at_speed(chosen, inputs | {"shaft_speed": 0.0}, friction=False) if study.rpm == 0.0 else None
         diagram = None
         if speeds is not None or plot is not None or output is not None and chosen.operation.speed_rpm:
             rows = None if speeds is None else parse_values("speeds", speeds)
@@ -75,33 +75,33 @@ def modes(
             )  # fmt: skip
         with base.Writing() as files:
             if output is not None:
-                _write(output, found, diagram, files)
+                _write(output, study, diagram, files)
             if plot is not None and diagram is not None:
                 save(diagram.picture(), plot)
                 files.append(plot)
     if as_json:
-        base.print_json(_summary(found, diagram, 1e3 * highest) | {"files": files})
+        base.print_json(_summary(study, diagram, 1e3 * highest) | {"files": files})
         return base.end(0, files)
-    _show(found, 1e3 * highest, "contacts stick" if free else "")
+    _show(study, 1e3 * highest, "contacts stick" if free else "")
     if free:
         _show(free, 1e3 * highest, "without friction")
     if diagram is not None:
         _show_crossings(diagram)
-    for line in dict.fromkeys(found.cautions() + (diagram.cautions() if diagram else [])):
+    for line in dict.fromkeys(study.cautions() + (diagram.cautions() if diagram else [])):
         base.tell(f"caution: {line}")
     base.end(0, files, named=True)
 
 
-def _show(found: "Modes", highest: float, words: str) -> None:
+def _show(study: "Modes", highest: float, words: str) -> None:
     from fmu_bearing.modal.modes.mode import Mode
     from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
 
     typer.echo(
-        f"{found.scene.name}: {found.scene.bearing.designation}, {found.rpm:,.0f} r/min, fidelity full "
+        f"{study.scene.name}: {study.scene.bearing.designation}, {study.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
-    show("modes", *table(Mode, found.records(highest)))
+    show("modes", *table(Mode, study.records(highest)))
 
 
 def _show_crossings(diagram: "Campbell") -> None:
@@ -115,23 +115,23 @@ def _show_crossings(diagram: "Campbell") -> None:
     typer.echo(f"{len(diagram.crossings())} crossings, {len(counted)} of them count. {diagram.verdict()}")
 
 
-def _summary(found: "Modes", diagram: "Campbell | None", highest: float) -> dict[str, Any]:
-    result = found.summary() | {
-        "modes": found.table(highest), "apart": found.table(highest, apart=True),
+def _summary(study: "Modes", diagram: "Campbell | None", highest: float) -> dict[str, Any]:
+    result = study.summary() | {
+        "modes": study.table(highest), "apart": study.table(highest, apart=True),
     }  # fmt: skip
     if diagram is not None:
         result |= diagram.summary()
-        result["cautions"] = list(dict.fromkeys(found.cautions() + diagram.cautions()))
+        result["cautions"] = list(dict.fromkeys(study.cautions() + diagram.cautions()))
     return result
 
 
-def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list[Path]) -> None:
+def _write(folder: Path, study: "Modes", diagram: "Campbell | None", files: list[Path]) -> None:
     """Write tables, and for a diagram its picture and page; add each to the files."""
     from fmu_bearing.results.base import write_rows
     from fmu_bearing.results.picture_parts import save
 
     folder.mkdir(parents=True, exist_ok=True)
-    files.append(write_rows(folder / "modes.csv", found.records()))
+    files.append(write_rows(folder / "modes.csv", study.records()))
     if diagram is None:
         base.tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
         return
@@ -140,12 +140,12 @@ def _write(folder: Path, found: "Modes", diagram: "Campbell | None", files: list
     if available("matplotlib", "a picture", "no campbell.png", base.tell):
         save(diagram.picture(), folder / "campbell.png")
         files.append(folder / "campbell.png")
-    if found.on_shaft:
+    if study.on_shaft:
         if available("matplotlib", "a picture", "no shaft.png", base.tell):
-            save(found.picture(), folder / "shaft.png")
+            save(study.picture(), folder / "shaft.png")
             files.append(folder / "shaft.png")
         return  # the page draws one bearing
     if available("plotly", "a page", "no modes.html", base.tell):
         from fmu_bearing.reports.modes.modes_section import modes_page
 
-        files.append(modes_page(diagram, folder / "modes.html", found))
+        files.append(modes_page(diagram, folder / "modes.html", study))

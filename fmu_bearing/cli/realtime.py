@@ -60,9 +60,13 @@ def realtime(
             raise base.Refusal("--silent and --microphones are refused together: give one of them")
         if output is not None:
             base.check_new(force, check_file(output, ".csv", "the table"))
-        held = base.shaft_speed(speed, scene)
+        constant = base.shaft_speed(speed, scene)
         speeds = (
-            (held, held) if held is not None else base.span(run_up, scene) if run_up is not None else None
+            (constant, constant)
+            if constant is not None
+            else base.span(run_up, scene)
+            if run_up is not None
+            else None
         )
         found, code = base.so_far(partial(
             time_it, source_of(scene, settings), step, duration=duration, speeds=speeds,

@@ -132,7 +132,7 @@ def plot(
 def _doubt(run: "Run", start: dict[str, float], table: bool) -> str:
     """Return why a run's figures are in doubt: those that it has of levels and velocities, or all of them."""
     from fmu_bearing.cautions import in_doubt, largest_of
-    from fmu_bearing.modal.campbell.weak import doubt, is_of_levels, is_of_motion
+    from fmu_bearing.modal.campbell.doubts import doubt, is_of_levels, is_of_motion
 
     assert run.scene is not None
     found = doubt(run.scene, start)
@@ -171,4 +171,4 @@ def _begun(
         return source, {}
     scene = read_scene(source)
     scene = scene if fidelity is None else with_fidelity(scene, model=fidelity)
-    return changed(scene, settings, [one.name for one in parameters(scene)])
+    return changed(scene, settings, [variable.name for variable in parameters(scene)])

@@ -169,7 +169,7 @@ def new(
             stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
-        found = [one for one in origins(path) if one.assumed]
+        found = [origin for origin in origins(path) if origin.assumed]
     cautions = _findings(path)[1]
     if isinstance(chosen, Dimensions) and (doubt := balls_of(chosen, kind, designation).doubt):
         cautions = [doubt, *cautions]
@@ -204,22 +204,22 @@ def check(
         for file in paths:
             if not file.is_file():  # nothing to check: a refusal, no finding
                 read_scene(file)
-        found = {str(path): _findings(path) for path in paths}
-    rows = {path: () if scene is None else exclusions_of(scene) for path, (scene, _) in found.items()}
+        findings = {str(path): _findings(path) for path in paths}
+    rows = {path: () if scene is None else exclusions_of(scene) for path, (scene, _) in findings.items()}
     if as_json:
         print_json({
             path: {"ok": scene is not None, "findings": lines, "cannot": list(map(_cannot, rows[path]))}
-            for path, (scene, lines) in found.items()
+            for path, (scene, lines) in findings.items()
         })  # fmt: skip
     else:
-        for path, (scene, lines) in found.items():
+        for path, (scene, lines) in findings.items():
             for line in lines:
                 typer.echo(f"{'error' if scene is None else 'caution'}: {line}", err=scene is None)
             if scene is not None:
                 typer.echo(f"{path}: a scene, with an equilibrium at its operating point")
             for row in rows[path]:
                 typer.echo(row.words())
-    if any(scene is None for scene, _ in found.values()):
+    if any(scene is None for scene, _ in findings.values()):
         raise typer.Exit(FOUND)
 
 
@@ -282,7 +282,7 @@ def show(
 
     with refusals():
         scene = read_scene(path)
-        values = [one for one in origins(path) if one.assumed or not assumed]
+        values = [origin for origin in origins(path) if origin.assumed or not assumed]
         known = not scene.bends or available("skfem", BENDING, "fidelity and sizes", tell)
         sizes = _sizes(scene) if known else {}
     if as_json:
@@ -387,7 +387,7 @@ def _remark(one: Origin) -> str:
 
 def _sizes(found: Scene) -> dict[str, Any]:
     """Return fidelity, method, sound and sizes of a scene, in words."""
-    from fmu_bearing.prepare.still import longest_internal_step
+    from fmu_bearing.prepare.step_limits import longest_internal_step
 
     auto = found.fidelity.model == "auto"
     model = _silent(found)

@@ -53,7 +53,7 @@ def changed(
     from fmu_bearing.interface.inputs import inputs_of
     from fmu_bearing.sweeps.axes import plain_value
 
-    units = {one.name: one.unit for one in inputs_of(scene)}
+    units = {variable.name: variable.unit for variable in inputs_of(scene)}
     named = _with_units(units, parameters)
     keys: dict[str, Any] = {}
     inputs: dict[str, float] = {}
@@ -83,16 +83,16 @@ def start_of(
     from fmu_bearing.interface.names import known
 
     named = _with_units(units, parameters)
-    found = {}
+    values = {}
     for setting in settings or ():
         key, text = pair(setting)
         if key in named:
             name, value = _in_si(setting, named[key], units)
-            found[name] = value
+            values[name] = value
         else:
             of_speeds = {name for name, unit in units.items() if unit == "rad/s"}
             known(key, [one for one in named if one not in of_speeds], "input or parameter")
-    return found
+    return values
 
 
 def _with_units(units: Mapping[str, str], parameters: Collection[str]) -> dict[str, tuple[str, str]]:
@@ -148,12 +148,12 @@ def numbers(name: str, text: str | None) -> list[float] | None:
     if text is None:
         return None
     try:
-        found = parse_values(name, text)
+        values = parse_values(name, text)
     except SweepError:
-        found = [text]
-    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in found):
+        values = [text]
+    if not all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
         raise Refusal(f"--{name} {text} is refused: write {AXIS}")
-    return [float(value) for value in found]
+    return [float(value) for value in values]
 
 
 def at_speed(rpm: float | None, settings: list[str] | None, scene: "Path | Scene") -> list[str] | None:
@@ -186,7 +186,7 @@ def source_of(source: Path, settings: list[str] | None, fidelity: str | None = N
         waves = _waves(scene, float(asked[-1])) if asked else {}
     except ValueError:  # which the scene refuses
         waves = {}
-    if any("lowest_speed_rpm" in one for one in settings or ()):
+    if any("lowest_speed_rpm" in setting for setting in settings or ()):
         waves = {}
     return scene_with(scene, [*(settings or ()), *(f"{key}={rpm!r}" for key, rpm in waves.items())], fidelity)
 
@@ -217,7 +217,7 @@ def _as_keys(scene: "Scene", inputs: dict[str, float]) -> dict[str, float]:
     """Return the keys that hold these inputs, with their values in the keys' units."""
     from fmu_bearing.scene.units import UNITS, split_unit
 
-    found = {}
+    keys = {}
     for name, value in inputs.items():
         key = _key_of(scene, name)
         if key is None:
@@ -226,8 +226,8 @@ def _as_keys(scene: "Scene", inputs: dict[str, float]) -> dict[str, float]:
                 "and stiffness take it"
             )
         factor, offset = UNITS[split_unit(key)[1]]
-        found[key] = (value - offset) / factor
-    return found
+        keys[key] = (value - offset) / factor
+    return keys
 
 
 def _key_of(scene: "Scene", name: str) -> str | None:
@@ -253,7 +253,7 @@ def _check_key(
 
     if _table(key) in type(scene).model_fields:
         return  # the scene itself says what is wrong with it
-    keys = [one for one in fields_of(scene) if getattr(scene, _table(one)) is not None]
+    keys = [field for field in fields_of(scene) if getattr(scene, _table(field)) is not None]
     if scene.fit is None:  # whose keys have names of other tables, as preload
         keys = [one for one in keys if ".fit." not in one]
     if scene.assembly.can_preload:  # in place of the force that the scene has

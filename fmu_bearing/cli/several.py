@@ -73,34 +73,34 @@ def several(
             f"interrupted: what is finished is kept; the same command runs the {stop.missing} that are left"
         )
         raise typer.Exit(base.INTERRUPTED) from None
-    found = evaluated(layout, outcomes)
+    indices = evaluated(layout, outcomes)
     early = any(not outcome.lasting for outcome in outcomes.values())
-    base.end(base.ENDED_EARLY if early else 0, _report(found, picture, output, as_json))
+    base.end(base.ENDED_EARLY if early else 0, _report(indices, picture, output, as_json))
 
 
-def _report(found: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> base.Writing:
+def _report(indices: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> base.Writing:
     """Write table and picture; print the table; return what was written."""
     from fmu_bearing.results.picture_parts import save
     from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.index_picture import index_picture
 
     with base.Writing() as written:
-        written += found.write(output)
-        save(index_picture(found), picture)
+        written += indices.write(output)
+        save(index_picture(indices), picture)
         written.append(picture)
-    columns, cells = found.table()
+    columns, cells = indices.table()
     if as_json:
         files = dict(zip(("page", "csv", "picture"), written, strict=False))
-        base.print_json(found.summary() | {"indices": base.named(columns, cells), "files": files})
+        base.print_json(indices.summary() | {"indices": base.named(columns, cells), "files": files})
         return written
-    size = len(found.keys)
+    size = len(indices.keys)
     for at in range(0, len(cells), size):  # a table per figure: it fits the terminal
         name, unit = cells[at][:2]
-        title = f"{found.layout.plan.scene.name}: what {name} rests on"
-        if found.layout.method == "morris":
+        title = f"{indices.layout.plan.scene.name}: what {name} rests on"
+        if indices.layout.method == "morris":
             title += f", {unit}" if unit else ""
         show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
-    for line in (found.conditions(), *found.remarks()):
+    for line in (indices.conditions(), *indices.remarks()):
         typer.echo(textwrap.fill(line, 80))
     if written:
         typer.echo(f"written: {', '.join(map(str, written))}")

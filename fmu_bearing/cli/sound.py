@@ -213,7 +213,7 @@ def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Positi
     """Return microphones by name and places (m) from text (mm); None: those of the scene."""
     if not at:
         return None if names is None else list(names)
-    found: list[str | Position] = list(names or ())
+    places: list[str | Position] = list(names or ())
     for text in at:
         try:
             x, y, z = (1e-3 * float(part) for part in text.split(","))
@@ -221,8 +221,8 @@ def _places(names: list[str] | None, at: list[str] | None) -> "list[str | Positi
             raise base.Refusal(
                 f"--microphone-at {text} is refused: write three numbers in mm, as 0,1000,0"
             ) from None
-        found.append((x, y, z))
-    return found
+        places.append((x, y, z))
+    return places
 
 
 def _heading(recording: "Recording") -> str:

@@ -84,24 +84,24 @@ def stiffness(
             raise base.Refusal(
                 "--mirrored is for one bearing: of a set the scene gives the direction of each bearing"
             )
-        found, code = base.so_far(partial(
+        table, code = base.so_far(partial(
             table_of, chosen, asked["speeds"], asked["frequencies"], preloads=asked["preloads"],
             inputs=inputs, spacing=_spacing(spacing), track=partial(steps, what="stiffness", unit="speeds"),
         ))  # fmt: skip
         with base.Writing() as files:
-            files += found.save(target) if form != "ross" else _elements(found, target, mirrored)
+            files += table.save(target) if form != "ross" else _elements(table, target, mirrored)
             if plot is not None:
-                save(found.picture(), plot)
+                save(table.picture(), plot)
                 files.append(plot)
     if as_json:
-        base.print_json(_document(found, form) | {"files": files})
+        base.print_json(_document(table, form) | {"files": files})
         return base.end(code, files)
-    if found.nose is not None:
-        _show_nose(found.nose)
-    _show(found)
-    for one in found.bearings if form == "ross" else ():
+    if table.nose is not None:
+        _show_nose(table.nose)
+    _show(table)
+    for one in table.bearings if form == "ross" else ():
         _show_planes(one)
-    for line in found.cautions():
+    for line in table.cautions():
         base.tell(f"caution: {line}")
     base.end(code, files, named=True)
 
@@ -127,17 +127,17 @@ def _target(form: str, output: Path | None, asked: dict[str, list[float] | None]
     return target
 
 
-def _elements(found: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
+def _elements(table: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
     """Write three elements per bearing and preload, and return the files."""
     files: list[Path] = []
-    for one, file in zip(found.bearings, found.files(target), strict=True):
-        for preload in one.preloads:
-            name = file if len(one.preloads) == 1 else file.with_stem(f"{file.stem}-{preload:.12g}N")
-            files += one.to_ross(name, preload, mirrored=mirrored or one.sign < 0)
+    for bearing, file in zip(table.bearings, table.files(target), strict=True):
+        for preload in bearing.preloads:
+            name = file if len(bearing.preloads) == 1 else file.with_stem(f"{file.stem}-{preload:.12g}N")
+            files += bearing.to_ross(name, preload, mirrored=mirrored or bearing.sign < 0)
     return files
 
 
-def _show_nose(found: "NoseStiffness") -> None:
+def _show_nose(table: "NoseStiffness") -> None:
     """Print the static stiffness of a set's shaft."""
     from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.nose_stiffness import NAMED
@@ -146,69 +146,69 @@ def _show_nose(found: "NoseStiffness") -> None:
         [
             f"{speed:g}",
             f"{preload:g}",
-            *(f"{factor * found.named(attribute)[i, k]:.2f}" for _, attribute, _, factor in NAMED),
+            *(f"{factor * table.named(attribute)[i, k]:.2f}" for _, attribute, _, factor in NAMED),
         ]
-        for i, speed in enumerate(found.speeds)
-        for k, preload in enumerate(found.preloads)
+        for i, speed in enumerate(table.speeds)
+        for k, preload in enumerate(table.preloads)
     ]
     columns = ("r/min", "N", *(f"K {words}" for words, *_ in NAMED))
-    show(f"{found.scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
+    show(f"{table.scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
 
 
-def _show(found: "Stiffness") -> None:
+def _show(table: "Stiffness") -> None:
     """Print the tables of the bearings at their middle frequency."""
     from fmu_bearing.results.table import show
 
-    at, several = len(found.frequencies) // 2, found.nose is not None
+    at, several = len(table.frequencies) // 2, table.nose is not None
     rows = []
-    for one in found.bearings:
-        for i, speed in enumerate(found.speeds):
-            for k, preload in enumerate(found.preloads):
-                stiff, damped = one.K[i, k, at].diagonal(), one.C[i, k, at].diagonal()
-                row = [str(one.number)] if several else []
+    for bearing in table.bearings:
+        for i, speed in enumerate(table.speeds):
+            for k, preload in enumerate(table.preloads):
+                stiff, damped = bearing.K[i, k, at].diagonal(), bearing.C[i, k, at].diagonal()
+                row = [str(bearing.number)] if several else []
                 row += [f"{speed:g}", f"{preload:g}", f"{1e-6 * stiff[0]:.2f}", f"{1e-6 * stiff[1]:.1f}"]
                 row += [f"{1e-3 * stiff[4]:.3f}", f"{damped[0]:.1f}", f"{damped[1]:.1f}"]
                 rows.append([*row, f"{1e3 * damped[4]:.2f}"])
     units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
     columns = ("bearing", *_COLUMNS) if several else _COLUMNS
-    show(f"{found.scene.name} at {found.frequencies[at]:.4g} Hz: {units}", columns, rows)
-    apart = max(one.against_static() for one in found.bearings)
+    show(f"{table.scene.name} at {table.frequencies[at]:.4g} Hz: {units}", columns, rows)
+    apart = max(bearing.against_static() for bearing in table.bearings)
     typer.echo(
-        f"K for frequency to 0 differs from K at {found.frequencies[0]:.4g} Hz by at most "
+        f"K for frequency to 0 differs from K at {table.frequencies[0]:.4g} Hz by at most "
         f"{_PERCENT * apart:.2g} %"
     )
 
 
-def _show_planes(found: "BearingStiffness") -> None:
+def _show_planes(table: "BearingStiffness") -> None:
     """Print where the three planes are and how far they are from the bearing, at the worst frequency."""
     from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.planes import ERRORS
 
-    name = f"bearing {found.number}: " if found.on_shaft else ""
+    name = f"bearing {table.number}: " if table.on_shaft else ""
     rows = []
-    for preload in found.preloads:
-        off = _PERCENT * found.plane_errors(float(preload)).max(axis=1)
-        for speed, one in zip(found.speeds, off, strict=True):
+    for preload in table.preloads:
+        off = _PERCENT * table.plane_errors(float(preload)).max(axis=1)
+        for speed, one in zip(table.speeds, off, strict=True):
             rows.append([f"{speed:g}", f"{preload:g}", *(f"{value:.2g}" for value in one)])
     show(f"{name}error of the three planes, %, at the worst frequency", ("r/min", "N", *ERRORS), rows)
-    places = found.planes(float(found.preloads[0])).places
+    places = table.planes(float(table.preloads[0])).places
     typer.echo(
         f"planes at {', '.join(f'{1e3 * place:.4g}' for place in places)} mm from the centre of the balls; "
         "the axial stiffness is in the middle one"
     )
 
 
-def _document(found: "Stiffness", form: str) -> dict[str, Any]:
+def _document(table: "Stiffness", form: str) -> dict[str, Any]:
     """Return all numbers by name, for machines."""
-    result = found.summary()
-    for one, document in zip(found.bearings, result["bearings"], strict=True):
+    result = table.summary()
+    for bearing, document in zip(table.bearings, result["bearings"], strict=True):
         if form == "ross":
             document["planes"] = [
                 {
                     "preload_N": float(preload),
-                    "places_mm": [1e3 * place for place in one.planes(float(preload)).places],
-                    "errors": one.plane_errors(float(preload)),
+                    "places_mm": [1e3 * place for place in bearing.planes(float(preload)).places],
+                    "errors": bearing.plane_errors(float(preload)),
                 }
-                for preload in one.preloads
+                for preload in bearing.preloads
             ]
     return result

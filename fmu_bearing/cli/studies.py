@@ -233,14 +233,14 @@ def changes(
 
     with base.refusals(), work(f"changes of {scene.stem}"):
         source = source_of(scene, at_speed(speed, settings, scene), fidelity)
-        found, code = base.so_far(partial(
+        study, code = base.so_far(partial(
             changing, source, seeds=seeds, levels=levels, radiation_model=radiation_model, tell=base.tell
         ))  # fmt: skip
     if as_json:
-        base.print_json(found.summary())
+        base.print_json(study.summary())
         return base.end(code)
-    show(f"{found.scene.name}: what to change", *found.table())
-    for line in (f"unchanged: {found.unchanged()}", found.resonance(), found.conditions(), *found.remarks()):
+    show(f"{study.scene.name}: what to change", *study.table())
+    for line in (f"unchanged: {study.unchanged()}", study.resonance(), study.conditions(), *study.remarks()):
         if line:
             typer.echo(textwrap.fill(line, 80))
     base.end(code)

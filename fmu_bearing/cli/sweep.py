@@ -167,7 +167,7 @@ def _write(
             save_picture(sweep_picture(data, drawn), picture)
             files["picture"] = picture
     bad = {key: outcome.reason for key, outcome in outcomes.items() if outcome.reason}
-    found = extremes(data)
+    ranges = extremes(data)
     if as_json:
         base.print_json(
             {
@@ -177,12 +177,12 @@ def _write(
                 "refused": len(bad),
                 "reasons": sorted(set(bad.values())),
                 "axes": {axis.key: axis.values for axis in made.axes},
-                "figures": {row["figure"]: row for row in found},
+                "figures": {row["figure"]: row for row in ranges},
                 "files": files,
             }
         )
         return written
-    rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in found]
+    rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in ranges]
     show(str(data.attrs["title"]), COLUMNS, rows)
     counted = f"{len(outcomes)} of {len(made.tasks)} points"
     typer.echo(f"{counted}, {len(bad)} refused; written: {', '.join(map(str, files.values()))}")

@@ -102,21 +102,21 @@ def vibration(
         base.check_new_in(force, output, *FILES)
         need("matplotlib", "a picture")
         allowed = None if limits is None else _limits(limits)
-        found, code = base.so_far(partial(
+        test_, code = base.so_far(partial(
             test, bearing, seeds, rigid=rigid,
             speed_rpm=speed, load_N=load, limits=allowed, unit=known[unit],
             bar=partial(steps, what="vibration test", unit="runs"),
         ))  # fmt: skip
         with base.Writing() as files:
-            files += found.save(output, known[unit])
+            files += test_.save(output, known[unit])
     if as_json:
-        base.print_json(found.summary() | {"files": files})
+        base.print_json(test_.summary() | {"files": files})
         return base.end(code, files)
-    at = found.scene.operation.speed_rpm
-    heading = f"{found.scene.name}: vibration test, {at:g} r/min, {found.scene.mounted.preload_N:g} N"
-    show(heading, *found.table(known[unit]))
-    show(f"strongest lines, {_SHOWN} of each band", *found.lines_table(_SHOWN))
-    for remark in found.remarks:
+    at = test_.scene.operation.speed_rpm
+    heading = f"{test_.scene.name}: vibration test, {at:g} r/min, {test_.scene.mounted.preload_N:g} N"
+    show(heading, *test_.table(known[unit]))
+    show(f"strongest lines, {_SHOWN} of each band", *test_.lines_table(_SHOWN))
+    for remark in test_.remarks:
         typer.echo(remark)
     base.end(code, files, named=True)
 

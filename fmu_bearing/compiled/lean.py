@@ -75,14 +75,14 @@ def modules(functions: Iterable[Any]) -> list[llvm.ModuleRef]:
 
     A kernel is in it once, whichever of them reach it, and also if a unit before had it.
     """
-    found: dict[int, Any] = {}
+    code: dict[int, Any] = {}
     due = [function._library for function in functions]
     while due:
         library = due.pop()
-        if id(library) not in found:
-            found[id(library)] = library
+        if id(library) not in code:
+            code[id(library)] = library
             due += [one for one in library._linking_libraries if isinstance(one, Library)]
-    return [llvm.parse_assembly(text) for one in found.values() for text in getattr(one, "texts", ())]
+    return [llvm.parse_assembly(text) for one in code.values() for text in getattr(one, "texts", ())]
 
 
 def _nothing(*arguments: Any, **named: Any) -> None:
@@ -212,7 +212,7 @@ def _remember_calls() -> None:
             return resolve(self, context, args, kws)
         plain = tuple(map(types.unliteral, args))
         numbers = all(isinstance(one, types.Number | types.Boolean | types.Array) for one in plain)
-        literal = not numbers or any(one.prefer_literal for one in self.templates)
+        literal = not numbers or any(template.prefer_literal for template in self.templates)
         key = self, context, tuple(args) if literal else plain
         if key not in known:
             known[key] = resolve(self, context, args, kws)

@@ -56,9 +56,9 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
         # Of the machine that generated it: `optimise` sets each target's. Read with it, as the layout gives
         # loads and stores their alignment, which is the same on all platforms.
         part.triple = part.data_layout = ""
-        for one in part.functions:
-            if one.name in names:
-                one.name = names[one.name]
+        for function in part.functions:
+            if function.name in names:
+                function.name = names[function.name]
     whole = _linked(parts)
     whole.verify()
     return whole.as_bitcode()
@@ -67,8 +67,8 @@ def portable_code(unit: str, tell: Callable[[float], None], lean: bool) -> bytes
 def _linked(parts: list[Any]) -> Any:
     """Link modules in pairs, then what they gave in pairs: one by one costs the square of their number."""
     while len(parts) > 1:
-        for one, other in zip(parts[::2], parts[1::2], strict=False):
-            one.link_in(other)
+        for part, other in zip(parts[::2], parts[1::2], strict=False):
+            part.link_in(other)
         parts = parts[::2]
     return parts[0]
 
@@ -122,7 +122,7 @@ def _counted(entries: list[Any], tell: Callable[[float], None]) -> Iterator[None
 
 def _reached(entries: list[Any]) -> set[Any]:
     """Python functions of all kernels that functions reach through globals, modules' names and closures."""
-    found: set[Any] = set()
+    kernels: set[Any] = set()
     due = list(entries)
     while due:
         function = due.pop()
@@ -132,7 +132,7 @@ def _reached(entries: list[Any]) -> set[Any]:
         values += [cell.cell_contents for cell in function.__closure__ or ()]
         for value in values:
             kernel = getattr(value, "py_func", None)
-            if kernel is not None and kernel not in found:
-                found.add(kernel)
+            if kernel is not None and kernel not in kernels:
+                kernels.add(kernel)
                 due.append(kernel)
-    return found
+    return kernels

@@ -60,10 +60,10 @@ _SECONDS = {
 @functools.cache
 def sources_key() -> str:
     """Hash (64 hex digits) of all sources that objects are made from."""
-    found = hashlib.sha256(engine_digest())
+    digest = hashlib.sha256(engine_digest())
     for name in _MAKERS:
-        found.update((Path(__file__).parent / f"{name}.py").read_bytes())
-    return found.hexdigest()
+        digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
+    return digest.hexdigest()
 
 
 def folder() -> Path:
@@ -90,16 +90,16 @@ def objects(platform: Platform, units: Iterable[str], sets: Iterable[str]) -> di
         If others can write to the folder that they are kept in.
     """
     wanted = {(unit, one): object_name(unit, platform.name, one) for unit in units for one in sets}
-    found = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}
-    if len(found) < len(wanted):
+    by_key = {key: data for key, name in wanted.items() if (data := _there(name)) is not None}
+    if len(by_key) < len(wanted):
         with disk_cache.alone(folder(), _tell):
             for key, name in wanted.items():  # another process may have made them meanwhile
-                if key not in found and (data := _there(name)) is not None:
-                    found[key] = data
-            missing = [key for key in wanted if key not in found]
+                if key not in by_key and (data := _there(name)) is not None:
+                    by_key[key] = data
+            missing = [key for key in wanted if key not in by_key]
             if missing:
-                found |= _compile(platform, missing)
-    return found
+                by_key |= _compile(platform, missing)
+    return by_key
 
 
 def kept(platform: Platform, units: Iterable[str], suffix: str) -> bool:

@@ -83,7 +83,7 @@ def improve(
     # Numba's code keeps every variable in memory: in registers it is a fifth as long for all that follows
     _simplify(module, target)
     tell(_THROUGH[0])
-    if any(one.is_declaration and one.name.startswith(_PYTHON) for one in module.functions):
+    if any(function.is_declaration and function.name.startswith(_PYTHON) for function in module.functions):
         _optimise(module, target, speed=2, loops=False)  # against the paths of errors
     _optimise(module, target, speed=1 if once else 3, loops=not once)
     tell(_THROUGH[1])

@@ -53,8 +53,8 @@ ENTRIES = {
     "runge_kutta": Entry("study", "pcywk", 4),
     "first_order": Entry("study", "pcxwfyd", 3),
     "first_order_jacobian": Entry("study", "pcxwbyd", 3),
-    "held": Entry("study", "pucdgqw"),
-    "answer_set": Entry("study", "psw", 1),
+    "forces_at_displacement": Entry("study", "pucdgqw"),
+    "solve_at_state": Entry("study", "psw", 1),
     "play": Entry("study", "pswmzr", 7),
     "closed_part": Entry("sound", "xoenfgcwr", 1),
     "remainder": Entry("sound", "xoengbdtwr", 1),
@@ -186,7 +186,7 @@ def _study() -> dict[str, Callable[..., Any]]:
         )  # fmt: skip
         return 0
 
-    def held(p, u, c, d, g, q, w, n):
+    def forces_at_displacement(p, u, c, d, g, q, w, n):
         of_bearing, inputs, held_values = carray(p, (n[0],)), carray(u, (n[1],)), carray(c, (n[2],))
         conditions(of_bearing, inputs, inputs[speed], held_values)
         work = carray(w, (n[6],))
@@ -197,7 +197,7 @@ def _study() -> dict[str, Callable[..., Any]]:
             carray(q, (n[5],)), work,
         )  # fmt: skip
 
-    def answer_set(p, s, w, n, gh):
+    def solve_at_state(p, s, w, n, gh):
         return newton_of_set(carray(p, (n[0],)), carray(s, (n[1],)), carray(w, (n[2],)), gh)
 
     def play(p, s, w, m, z, r, n, samples, columns, weighting, start, mics, numbers, first):
@@ -216,8 +216,8 @@ def _study() -> dict[str, Callable[..., Any]]:
         "runge_kutta": runge_kutta,
         "first_order": first_order,
         "first_order_jacobian": first_order_jacobian,
-        "held": held,
-        "answer_set": answer_set,
+        "forces_at_displacement": forces_at_displacement,
+        "solve_at_state": solve_at_state,
         "play": play,
     }
 

@@ -66,7 +66,7 @@ class Curves:
 
 
 @one_thread
-def curves(found: Fits, track: Callable[[Sequence[Take]], Iterable[Take]] = iter) -> tuple[Curves, ...]:
+def curves(study: Fits, track: Callable[[Sequence[Take]], Iterable[Take]] = iter) -> tuple[Curves, ...]:
     """Return the curves of each bearing; preloads are computed in full at six places of each axis.
 
     Raises
@@ -74,30 +74,31 @@ def curves(found: Fits, track: Callable[[Sequence[Take]], Iterable[Take]] = iter
     EngineError
         Where there is no equilibrium; a ``ValueError``.
     """
-    if len(found.columns) < len(TAKES):
-        raise EngineError(next(one for one in found.remarks if one.startswith("no column: ")))
-    count = len(found.columns[0].bearings)
-    forced = not found.columns[0].bearings[0].preloads
+    if len(study.columns) < len(TAKES):
+        raise EngineError(next(remark for remark in study.remarks if remark.startswith("no column: ")))
+    count = len(study.columns[0].bearings)
+    forced = not study.columns[0].bearings[0].preloads
     over_speed, over_warmth = (np.zeros((len(TAKES), len(_SPEEDS), count)) for _ in range(2))
     for k, take in enumerate(track(TAKES)):
-        run = started(found.column(take).point.scene)
-        names = [one.prefix + "contact.inner.angle_mean" for one in found.scene.bearings()]
-        for held, shares in (
+        run = started(study.column(take).point.scene)
+        names = [bearing.prefix + "contact.inner.angle_mean" for bearing in study.scene.bearings()]
+        for carried_values, shares in (
             (over_speed, [(share, 1.0) for share in _SPEEDS]),
             (over_warmth, [(1.0, share) for share in _WARMTHS]),
         ):
             for i, (speed, warmth) in enumerate(shares):
                 at = unloaded(run, float(speed), float(warmth))
-                held[k, i] = [at.get(name) for name in names] if forced else carried(at)
+                carried_values[k, i] = [at.get(name) for name in names] if forced else carried(at)
     warm = [
-        one.point.scene.operation.inner_ring_temperature_degC != _COLD for one in found.columns[0].bearings
+        bearing.point.scene.operation.inner_ring_temperature_degC != _COLD
+        for bearing in study.columns[0].bearings
     ]
     return tuple(
         Curves(
             number + 1,
             forced,
-            _along(found, number, over_speed[:, :, number], _SPEEDS, by_speed=True),
-            _along(found, number, over_warmth[:, :, number], _WARMTHS, by_speed=False)
+            _along(study, number, over_speed[:, :, number], _SPEEDS, by_speed=True),
+            _along(study, number, over_warmth[:, :, number], _WARMTHS, by_speed=False)
             if warm[number]
             else None,
         )
@@ -106,12 +107,12 @@ def curves(found: Fits, track: Callable[[Sequence[Take]], Iterable[Take]] = iter
 
 
 def _along(
-    found: Fits, number: int, held: NDArray[np.float64], shares: NDArray[np.float64], by_speed: bool
+    study: Fits, number: int, carried_values: NDArray[np.float64], shares: NDArray[np.float64], by_speed: bool
 ) -> Axis:
     """Return the curves of one bearing, from 0, over speed or warmth."""
     fine = np.linspace(shares[0], shares[-1], _FINE)
-    own = [column.bearings[number].together for column in found.columns]
-    apart = [column.bearings[number].apart for column in found.columns]
+    own = [column.bearings[number].together for column in study.columns]
+    apart = [column.bearings[number].apart for column in study.columns]
     warm = own[0].scene.operation.inner_ring_temperature_degC - _COLD
 
     def scaled(share: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -126,7 +127,7 @@ def _along(
         scaled(fine),
         scaled(shares),
         np.array(angles),
-        held,
+        carried_values,
         np.array([[2.0 * at.interference for at in row] for row in seats]),
         np.array([[at.hoop for at in row] for row in seats]),
     )

@@ -27,7 +27,7 @@ _SPEED, _TEMPERATURE = "speed, 1000 r/min", "inner ring, degC; all parts in prop
 _SCENE: dict[str, Any] = {"color": "0.35", "linestyle": ":", "linewidth": 1.2}
 
 
-def picture(found: Fits, curves: Sequence[Curves]) -> "Figure":
+def picture(study: Fits, curves: Sequence[Curves]) -> "Figure":
     """Draw two rows of panels per bearing, over speed and over temperature.
 
     Light bands reach from min to max, dark ones over the probable interferences; lines are the mean.
@@ -39,16 +39,16 @@ def picture(found: Fits, curves: Sequence[Curves]) -> "Figure":
     """
     figure = empty((12.0, 6.6 * len(curves)))
     panels = figure.subplots(2 * len(curves), 3, squeeze=False)
-    for k, one in enumerate(curves):
+    for k, curve in enumerate(curves):
         upper, lower = panels[2 * k], panels[2 * k + 1]
-        name = f"bearing {one.number}: " if len(curves) > 1 else ""
-        held = "contact angle under load, deg" if one.held_by_force else "preload, N"
-        factor = _DEGREES if one.held_by_force else 1.0
-        scene = found.columns[_MEAN].bearings[k].point.scene
+        name = f"bearing {curve.number}: " if len(curves) > 1 else ""
+        quantity = "contact angle under load, deg" if curve.held_by_force else "preload, N"
+        factor = _DEGREES if curve.held_by_force else 1.0
+        scene = study.columns[_MEAN].bearings[k].point.scene
         rpm, warm = scene.operation.speed_rpm, scene.operation.inner_ring_temperature_degC
         for (left, right), axis, words, scale, at in (
-            (upper[:2], one.speed, _SPEED, 1e-3, rpm),
-            (lower[:2], one.temperature, _TEMPERATURE, 1.0, warm),
+            (upper[:2], curve.speed, _SPEED, 1e-3, rpm),
+            (lower[:2], curve.temperature, _TEMPERATURE, 1.0, warm),
         ):
             if axis is None:
                 for panel in (left, right):
@@ -57,19 +57,19 @@ def picture(found: Fits, curves: Sequence[Curves]) -> "Figure":
             _band(left, scale * axis.fine, _DEGREES * axis.free_angle)
             _band(right, scale * axis.coarse, factor * axis.held)
             label(left, words, "free contact angle, deg", f"{name}free contact angle")
-            label(right, words, held, f"{name}{held.split(',')[0]}")
+            label(right, words, quantity, f"{name}{quantity.split(',')[0]}")
             for panel in (left, right):
                 panel.axvline(scale * at, **_SCENE)
-            if not one.held_by_force:
+            if not curve.held_by_force:
                 right.set_ylim(bottom=0.0)
-        if "inner" in found.columns[_MEAN].bearings[k].seats:
-            _hoop(upper[2], found, k, one.speed, name)
-            _interference(lower[2], found, k, one.speed, name)
+        if "inner" in study.columns[_MEAN].bearings[k].seats:
+            _hoop(upper[2], study, k, curve.speed, name)
+            _interference(lower[2], study, k, curve.speed, name)
         else:
             for panel in (upper[2], lower[2]):
                 _empty(panel, "the inner ring has no seat")
     figure.suptitle(
-        f"{found.scene.name}, {found.words(1)}\nlight: min to max; dark: probable; line: mean; dotted: the "
+        f"{study.scene.name}, {study.words(1)}\nlight: min to max; dark: probable; line: mean; dotted: the "
         "scene's speed and temperature",
         fontsize="medium",
     )
@@ -83,18 +83,18 @@ def _band(panel: "Axes", x: NDArray[np.float64], y: NDArray[np.float64]) -> None
     panel.plot(x, y[_MEAN], color=_COLOUR)
 
 
-def _hoop(panel: "Axes", found: Fits, number: int, axis: Axis, name: str) -> None:
+def _hoop(panel: "Axes", study: Fits, number: int, axis: Axis, name: str) -> None:
     """Draw the hoop stress over speed, and where the chance of breaking has its limits."""
     _band(panel, 1e-3 * axis.fine, 1e-6 * GROOVE * axis.hoop)
     label(panel, _SPEED, "MPa", f"{name}hoop stress, inner ring, x {GROOVE:g}")
-    one = found.columns[_MEAN].bearings[number].point.scene
+    one = study.columns[_MEAN].bearings[number].point.scene
     panel.axvline(1e-3 * one.operation.speed_rpm, **_SCENE)
     ring, top = one.materials.inner_ring, panel.get_ylim()[1]
     if ring.bending_strength_MPa is None or ring.weibull_modulus is None:
         if not one.materials.steel_rings:
             _note(panel, "no strength given: ask the maker for\nbending_strength_MPa and weibull_modulus")
     else:
-        fit = found.columns[_MEAN].bearings[number].apart.seats["inner"].fit
+        fit = study.columns[_MEAN].bearings[number].apart.seats["inner"].fit
         strength = f"{ring.bending_strength_MPa:g} MPa in bending, m = {ring.weibull_modulus:g}"
         for chance, colour in ((SAFE, OTHERS[4]), (UNSAFE, OTHERS[1])):
             stress = limit(fit, chance, 1e6 * ring.bending_strength_MPa, ring.weibull_modulus)
@@ -114,17 +114,17 @@ def limit(fit: Fit, chance: float, strength: float, modulus: float) -> float:
     return float(brentq(beyond, 0.0, strength * _FAR, xtol=1.0))
 
 
-def _interference(panel: "Axes", found: Fits, number: int, axis: Axis, name: str) -> None:
+def _interference(panel: "Axes", study: Fits, number: int, axis: Axis, name: str) -> None:
     """Draw the interference over speed, and the speed at which the mean lets go where it is near."""
     _band(panel, 1e-3 * axis.fine, 1e6 * axis.interference)
     label(panel, _SPEED, "interference on diameter, um", f"{name}interference, inner ring")
-    point = found.columns[_MEAN].bearings[number]
+    point = study.columns[_MEAN].bearings[number]
     panel.axvline(1e-3 * point.point.scene.operation.speed_rpm, **_SCENE)
     panel.axhline(0.0, color="0.35", linewidth=1.0)
     low, high = panel.get_ylim()
     panel.set_ylim(low - 0.3 * (high - low), high)  # room for the words
     words = []
-    for column in found.columns:
+    for column in study.columns:
         loss = column.bearings[number].seats["inner"].loss_speed
         at = "never" if loss is None else "loose" if loss == 0.0 else f"{loss / RPM:,.0f}"
         words.append(f"{column.take}: {at}")

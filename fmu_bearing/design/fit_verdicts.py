@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from fmu_bearing.design.mounted import GROOVE, Mounted, mounted, taken
+from fmu_bearing.design.mounted import GROOVE, Mounted, mounted, with_interference
 from fmu_bearing.design.operating_point import BearingPoint
 from fmu_bearing.design.verdict import Judgement, Verdict, overall, unjudged
 from fmu_bearing.engine.constants import RPM
@@ -30,7 +30,8 @@ def fit_verdicts(point: BearingPoint) -> Iterator[Verdict]:
     if point.scene.fit is None:
         return
     own, low, high = (
-        mounted(one) for one in (point.scene, taken(point.scene, "min"), taken(point.scene, "max"))
+        mounted(one)
+        for one in (point.scene, with_interference(point.scene, "min"), with_interference(point.scene, "max"))
     )
     if "inner" in own.seats:
         yield _hoop(own, high)
@@ -44,27 +45,27 @@ def fit_verdicts(point: BearingPoint) -> Iterator[Verdict]:
 
 
 def mounted_preload(
-    point: BearingPoint, found: Mapping[str, float], judged: Iterable[Verdict]
+    point: BearingPoint, loads: Mapping[str, float], judged: Iterable[Verdict]
 ) -> Iterator[Verdict]:
     """Yield the verdict on the preload from drawing to speed: that on the pressure and life it leads to.
 
-    ``found``: see `mounted.preloads`; ``judged``: the verdicts on this bearing.
+    ``loads``: see `mounted.preloads`; ``judged``: the verdicts on this bearing.
     """
-    if not found:
+    if not loads:
         return
-    key, label = "mounted_preload", f"preload {', '.join(found)}, N"
-    text, running = ", ".join(f"{force:.0f}" for force in found.values()), found["running"]
+    key, label = "mounted_preload", f"preload {', '.join(loads)}, N"
+    text, running = ", ".join(f"{force:.0f}" for force in loads.values()), loads["running"]
     relevant = [one for one in judged if one.key in ("pressure", "life")]
     worst = overall(relevant)
     if worst == "not judged":
         one = unjudged(key, label, "judged by pressure and life, which have no limit here", running, text)
         yield replace(one, bearing=point.load.number)
         return
-    advice, first = "", next(iter(found))
+    advice, first = "", next(iter(loads))
     if worst != "good":
         beyond = " and ".join(one.label for one in relevant if one.judgement == worst)
         advice = (
-            f"preload {found[first]:.0f} N {first} is {running:.0f} N at the operating point, where {beyond} "
+            f"preload {loads[first]:.0f} N {first} is {running:.0f} N at the operating point, where {beyond} "
             "is beyond its limit: take looser fits, or ask for a lighter preload of the loose bearing"
         )
     yield Verdict(
@@ -109,8 +110,8 @@ def _hoop(own: Mounted, high: Mounted) -> Verdict:
 def _loss(own: Mounted, low: Mounted) -> Verdict:
     label, source = "speed of fit loss over speed, inner", "computed at the least interference"
     speed = abs(own.speed)
-    found = [one.loss_speed("inner") for one in (own, low)]
-    shares = [math.inf if at is None or (at > 0.0 and speed == 0.0) else _over(at, speed) for at in found]
+    speeds = [one.loss_speed("inner") for one in (own, low)]
+    shares = [math.inf if at is None or (at > 0.0 and speed == 0.0) else _over(at, speed) for at in speeds]
     margin = min(shares)
     text = ", ".join(
         ("never" if math.isinf(share) else f"{share:.2f}") + words
@@ -120,7 +121,7 @@ def _loss(own: Mounted, low: Mounted) -> Verdict:
     advice = ""
     if judgement != "good":
         least = 2e6 * low.at("inner", low.speed).interference
-        at = found[1] if found[1] is not None else 0.0
+        at = speeds[1] if speeds[1] is not None else 0.0
         advice = (
             f"the fit of the inner ring lets go at {at / RPM:.0f} r/min with the least interference "
             f"({least:+.1f} um at the operating point): take a tighter class, pair shafts and rings by their "
@@ -155,10 +156,10 @@ def _over(at: float, speed: float) -> float:
 
 def _gap(own: Mounted, low: Mounted, high: Mounted) -> Verdict:
     """Return how the outer ring sits: a loose one is wanted where it has to slide."""
-    found = [2e6 * one.at("outer", one.speed).interference for one in (own, low, high)]
-    text = f"{found[0]:+.1f} ({found[1]:+.1f} to {found[2]:+.1f})"
+    interferences = [2e6 * one.at("outer", one.speed).interference for one in (own, low, high)]
+    text = f"{interferences[0]:+.1f} ({interferences[1]:+.1f} to {interferences[2]:+.1f})"
     why = "+ tight; an outer ring that slides needs a gap, one that is fixed none"
-    return unjudged("fit_loss_outer", "outer ring in its housing, um", why, 1e-6 * found[0], text)
+    return unjudged("fit_loss_outer", "outer ring in its housing, um", why, 1e-6 * interferences[0], text)
 
 
 def _creep(point: BearingPoint, own: Mounted) -> Iterator[Verdict]:

@@ -7,7 +7,15 @@ from typing import Any, get_args
 
 import numpy as np
 
-from fmu_bearing.design.mounted import RINGS, Mounted, gaps, mounted, preloads, taken, with_fit
+from fmu_bearing.design.mounted import (
+    RINGS,
+    Mounted,
+    axial_gaps,
+    mounted,
+    preloads,
+    with_fit,
+    with_interference,
+)
 from fmu_bearing.design.operating_point import BearingPoint, OperatingPoint, operating_point
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
@@ -68,11 +76,11 @@ class SeatPoint(Result):
     @property
     def interference(self) -> dict[str, float]:
         """On diameter (m), as drawn and by state."""
-        return {"drawn": self.drawn} | {key: 2.0 * one.interference for key, one in self.states.items()}
+        return {"drawn": self.drawn} | {key: 2.0 * state.interference for key, state in self.states.items()}
 
     def of_state(self, name: str) -> dict[str, float]:
         """Return ``pressure``, ``hoop`` (Pa) or ``race`` (m) by state."""
-        return {key: getattr(one, name) for key, one in self.states.items()}
+        return {key: getattr(state, name) for key, state in self.states.items()}
 
 
 @dataclass(frozen=True)
@@ -155,7 +163,7 @@ class Fits(Result):
     def words(self, number: int) -> str:
         """Return where the interferences of a bearing come from; ``number``: from 1."""
         middle = self.columns[len(self.columns) // 2]
-        (mean,) = [one for one in middle.bearings if one.number == number]
+        (mean,) = [bearing for bearing in middle.bearings if bearing.number == number]
         return "; ".join(f"{ring} ring {seat.words}" for ring, seat in mean.seats.items())
 
 
@@ -224,32 +232,32 @@ def fitted(scene: SceneSource) -> Scene:
     SceneError
         For one without.
     """
-    found = still_of(scene_of(scene))
-    if found.fit is None:
-        table = f"{found.assembly.table}.fit"
+    still = still_of(scene_of(scene))
+    if still.fit is None:
+        table = f"{still.assembly.table}.fit"
         raise SceneError(
-            f"{found.name}: has no fit, its rings are as drawn: add [{table}] with [{table}.shaft] or "
+            f"{still.name}: has no fit, its rings are as drawn: add [{table}] with [{table}.shaft] or "
             f'[{table}.housing], as shaft_class = "js4" with bearing_class = "P4", or interference_um = 2.0'
         )
-    return found
+    return still
 
 
 def _tolerated(fit: Fit) -> list[Side]:
     """Seats whose interference follows from classes."""
-    found = [(side, getattr(fit, side.seat)) for side in SIDES]
-    return [side for side, seat in found if seat is not None and getattr(seat, side.class_key) is not None]
+    seats = [(side, getattr(fit, side.seat)) for side in SIDES]
+    return [side for side, seat in seats if seat is not None and getattr(seat, side.class_key) is not None]
 
 
 def _scenes(scene: Scene) -> tuple[dict[Take, Scene], tuple[str, ...]]:
     """Return the scene of each column, and how they were found."""
     fit = scene.fit
     assert fit is not None
-    found = {take: taken(scene, take) for take in TAKES}
+    scenes = {take: with_interference(scene, take) for take in TAKES}
     sides = _tolerated(fit)
     if not sides:
-        return found, ("interferences are given, not classes: all columns are equal",)
+        return scenes, ("interferences are given, not classes: all columns are equal",)
     if len(sides) == 1:
-        return found, ()
+        return scenes, ()
     for take, pair in _probable(scene).items():
         changes = {
             side.seat: getattr(fit, side.seat).model_copy(
@@ -257,8 +265,8 @@ def _scenes(scene: Scene) -> tuple[dict[Take, Scene], tuple[str, ...]]:
             )
             for side, um in zip(sides, pair, strict=True)
         }
-        found[take] = with_fit(scene, fit.model_copy(update=changes))
-    return found, (
+        scenes[take] = with_fit(scene, fit.model_copy(update=changes))
+    return scenes, (
         "two seats: at min and max both are at their limits; probable figures that depend on both rings are "
         f"those of the pair of interferences than which 0.135 % of {DRAWS} draws are looser or tighter",
     )
@@ -296,30 +304,30 @@ def _without_own(scene: Scene) -> Scene:
         return scene
     spindle = set_of(scene)
     none = dict.fromkeys(f"{side.seat}_interference_um" for side in SIDES)
-    bearings = tuple(one.model_copy(update=none) for one in spindle.bearing)
+    bearings = tuple(bearing.model_copy(update=none) for bearing in spindle.bearing)
     return scene.model_copy(update={"spindle": spindle.model_copy(update={"bearing": bearings})})
 
 
 def _um(scene: Scene, side: Side, take: Take) -> float:
     """Return the interference (um) of a seat after loss by roughness."""
-    found = interferences(scene, take)[SIDES.index(side)]
-    assert found is not None
-    return found.um
+    interference_um = interferences(scene, take)[SIDES.index(side)]
+    assert interference_um is not None
+    return interference_um.um
 
 
 def column_at(scene: Scene, take: Take, point: OperatingPoint) -> Column:
     """Return a column from its operating point; each seat has its own interference of that take."""
     bearings = []
-    for k, (one, member) in enumerate(zip(point.bearings, scene.bearings(), strict=True)):
+    for k, (bearing, member) in enumerate(zip(point.bearings, scene.bearings(), strict=True)):
         fit = member.scene.fit
         assert fit is not None
-        own = mounted(with_fit(one.scene, fit.model_copy(update={"take": take})))
-        found = {ring: _seat(own, scene, k, ring, take) for ring in own.seats}
-        joint = mounted(one.scene)
+        own = mounted(with_fit(bearing.scene, fit.model_copy(update={"take": take})))
+        seats = {ring: _seat(own, scene, k, ring, take) for ring in own.seats}
+        joint = mounted(bearing.scene)
         angles = {key: joint.free_angle(share * joint.speed, warm) for key, (share, warm) in STATES.items()}
         drawing = {"drawing": math.radians(joint.scene.bearing.contact_angle_deg)}
-        loads, apart = preloads(point, k), gaps(point)
-        bearings.append(FitPoint(k + 1, found, drawing | angles, loads, apart, one, own, joint))
+        loads, apart = preloads(point, k), axial_gaps(point)
+        bearings.append(FitPoint(k + 1, seats, drawing | angles, loads, apart, bearing, own, joint))
     return Column(take, tuple(bearings), point)
 
 

@@ -157,8 +157,8 @@ def _raised(rule: str, first: float, force: float, cured: set[str]) -> str:
 def _wrong(scene: Scene) -> set[str]:
     """Return what is not good at a scene's operating point: keys of verdicts, and that it is not steady."""
     point = operating_point(scene)
-    found = {one.key for one in verdicts(point) if one.judgement in ("watch", "change")}
-    return found | ({_WHIRL} if UNSTEADY in point.remarks else set())
+    keys = {verdict.key for verdict in verdicts(point) if verdict.judgement in ("watch", "change")}
+    return keys | ({_WHIRL} if UNSTEADY in point.remarks else set())
 
 
 def _at(scene: Scene, speed: float | None = None, force: float | None = None) -> Scene:

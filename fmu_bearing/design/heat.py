@@ -78,9 +78,9 @@ def heat_of(output: Callable[[str], float], speed: float, cage: bool) -> Heat:
     return Heat(**{"cage": sum(goes.values()) - sum(arises.values())} | arises | goes)
 
 
-def heat_in_all(found: Iterable[Heat]) -> Heat:
+def heat_in_all(heats: Iterable[Heat]) -> Heat:
     """Return the sum of the heat of several bearings."""
-    every = list(found)
+    every = list(heats)
     return Heat(*(sum(getattr(one, field.name) for one in every) for field in fields(Heat)))
 
 
@@ -105,15 +105,15 @@ def heat_table(
 
     ``ranges``: of the torques, in rows beside them; None: without these rows.
     """
-    torques = [1e3 * one.friction_torque for one in bearings]
-    heats = [one.heat for one in bearings]
+    torques = [1e3 * bearing.friction_torque for bearing in bearings]
+    heats = [bearing.heat for bearing in bearings]
     columns: tuple[str, ...] = ("", "value")
     if len(heats) > 1:
         columns = ("", *(f"bearing {k + 1}" for k in range(len(heats))), "all")
         torques, heats = [*torques, sum(torques)], [*heats, heat_in_all(heats)]
     words = {"inner_race": "of it in the inner race", "outer_race": "of it in the outer race"}
     words = ARISES | {"total": "in all"} | words | {name: f"of it to {_the(name)}" for name in GOES}
-    rows = [[f"{text}, W", *(f"{getattr(one, name):.2f}" for one in heats)] for name, text in words.items()]
+    rows = [[f"{text}, W", *(f"{getattr(heat, name):.2f}" for heat in heats)] for name, text in words.items()]
     rows = [["friction torque, N mm", *(f"{torque:.2f}" for torque in torques)], *rows]
     if ranges is not None:
         at = 1 + next(k for k, row in enumerate(rows) if row[0] == "in all, W")

@@ -98,8 +98,8 @@ def mounted(scene: Scene) -> Mounted:
         For a ring whose section leaves no wall.
     """
     drawn = loose(scene)
-    found = {ring: seat for ring, seat in zip(RINGS, seats(drawn), strict=True) if seat is not None}
-    return Mounted(drawn, found)
+    seats_by_ring = {ring: seat for ring, seat in zip(RINGS, seats(drawn), strict=True) if seat is not None}
+    return Mounted(drawn, seats_by_ring)
 
 
 def with_fit(scene: Scene, fit: Fit) -> Scene:
@@ -109,7 +109,7 @@ def with_fit(scene: Scene, fit: Fit) -> Scene:
     return scene.model_copy(update={table: whole.model_copy(update={"fit": fit})})
 
 
-def taken(scene: Scene, take: Take) -> Scene:
+def with_interference(scene: Scene, take: Take) -> Scene:
     """Return a scene with another interference of those that its classes allow."""
     assert scene.fit is not None, "a scene without a fit"
     return with_fit(scene, scene.fit.model_copy(update={"take": take}))
@@ -124,13 +124,13 @@ def preloads(point: OperatingPoint, number: int) -> dict[str, float]:
     scene, carried = point.scene, point.statics.preloads
     if not carried or scene.fit is None:
         return {}
-    found = {}
+    loads = {}
     if held_loose(scene):
-        found["drawing"] = scene.assembly.usual_N[number]
-    return found | {key: carried[own][number] for key, own in _PRELOADS.items()}
+        loads["drawing"] = scene.assembly.usual_N[number]
+    return loads | {key: carried[own][number] for key, own in _PRELOADS.items()}
 
 
-def gaps(point: OperatingPoint) -> dict[str, float]:
+def axial_gaps(point: OperatingPoint) -> dict[str, float]:
     """Return how far (m) balls are loose along the axis, by those states of `preloads` in which they are."""
     found = point.statics.gaps
     return {key: found[own] for key, own in _PRELOADS.items() if own in found}

@@ -160,7 +160,7 @@ class OperatingPoint(Result):
     @property
     def heat(self) -> Heat:
         """Of all bearings together, W."""
-        return heat_in_all(one.heat for one in self.bearings)
+        return heat_in_all(bearing.heat for bearing in self.bearings)
 
     @cached_property
     def torque_range(self) -> TorqueRange:
@@ -180,10 +180,10 @@ class OperatingPoint(Result):
 
     def _with_ranges(self) -> list[dict[str, Any]]:
         """Return the bearings with the ranges of their torque (N m) and heat (W)."""
-        found = self.torque_range
+        ranges = self.torque_range
         return [
-            one.summary() | {"friction_torque_range_N_m": torque, "heat_range_W": found.heat(torque)}
-            for one, torque in zip(self.bearings, found.bearings, strict=True)
+            bearing.summary() | {"friction_torque_range_N_m": torque, "heat_range_W": ranges.heat(torque)}
+            for bearing, torque in zip(self.bearings, ranges.bearings, strict=True)
         ]
 
 
@@ -221,15 +221,17 @@ def operating_point(scene: SceneSource, tell: Tell = silent) -> OperatingPoint:
     32.9 W
     """
     scene = still_of(scene_of(scene))
-    found = point(scene, tell=tell)
+    statics = point(scene, tell=tell)
     rigid = scene.with_rigid_rings()
     settled = started(scene, fidelity="response")
     bearings = tuple(
-        _figures(_alone(rigid, one, found.statics), one, part, load, found, settled)
-        for one, part, load in zip(rigid.bearings(), parts(found.run), found.statics.bearings, strict=True)
+        _figures(_alone(rigid, bearing, statics.statics), bearing, part, load, statics, settled)
+        for bearing, part, load in zip(
+            rigid.bearings(), parts(statics.run), statics.statics.bearings, strict=True
+        )
     )
-    whirl, steady = _whirl(rigid, found.system), found.system.steady
-    return OperatingPoint(scene, bearings, found.statics, _life_of(bearings), whirl, steady)
+    whirl, steady = _whirl(rigid, statics.system), statics.system.steady
+    return OperatingPoint(scene, bearings, statics.statics, _life_of(bearings), whirl, steady)
 
 
 def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
@@ -239,9 +241,9 @@ def _whirl(scene: Scene, system: Linearised) -> tuple[float, float] | None:
     return self_excitation(scene, solved(scene, system))
 
 
-def _alone(scene: Scene, one: SceneBearing[Scene], found: Statics) -> Scene:
+def _alone(scene: Scene, one: SceneBearing[Scene], statics: Statics) -> Scene:
     """Return the scene of one bearing with the preload and temperatures that it has in its set."""
-    assembly, cold = scene.assembly, found.preloads.get("cold")
+    assembly, cold = scene.assembly, statics.preloads.get("cold")
     if not assembly.joined:
         return scene
     carried = 0.0 if cold is None else max(cold[one.number - 1], 0.0)
@@ -307,7 +309,7 @@ def _life_of(bearings: Sequence[BearingPoint]) -> float | None:
     Ten of a hundred sets have lost a bearing by then: with lives L, the sum of L^(-10/9) is that of the set
     (Lundberg and Palmgren 1947; Weibull's exponent 10/9 of point contact, ISO 281).
     """
-    lives = [one.life for one in bearings]
+    lives = [bearing.life for bearing in bearings]
     if any(life is None for life in lives):
         return None
     total = sum(life**-_SLOPE for life in lives if life is not None and math.isfinite(life))

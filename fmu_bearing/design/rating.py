@@ -60,9 +60,9 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
         life = iso281.hours(iso281.basic_life(dynamic, load), speed_rpm)
     angle = scene.bearing.contact_angle_deg
     still, steep = iso76.static_load(angle, axial, radial), iso76.axial_factor(angle)
-    found = iso281.factors(angle, relative)
+    factors = iso281.factors(angle, relative)
     return Rating(
-        dynamic, static, load, life, still, None if found is None or steep is None else (*found, steep)
+        dynamic, static, load, life, still, None if factors is None or steep is None else (*factors, steep)
     )
 
 

@@ -145,7 +145,7 @@ def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductanc
     flow = _FLOWS[scene.lubricant.supply] * b.pitch_diameter_mm / _PITCH
     size = b.outside_diameter_mm * b.width_mm / (_OUTSIDE * _WIDTH)
     water = 20.0 * size if cooling is None else cooling
-    found = [
+    links = [
         Conductance(
             "inner_ring", "outer_ring", inside * outside / whole, "spots of contact, through the balls"
         ),
@@ -154,15 +154,15 @@ def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductanc
         Conductance("outer_ring", "housing", 4.4 * size, "seat, 4000 W/(m2 K)"),
     ]
     if scene.assembly.joined:
-        found.append(Conductance("inner_ring", "shaft", 2.7 * seat, "seat, 5000 W/(m2 K)"))
-        found.append(Conductance("shaft", "ambient", 0.87 * shaft, "moving air, 100 W/(m2 K)"))
+        links.append(Conductance("inner_ring", "shaft", 2.7 * seat, "seat, 5000 W/(m2 K)"))
+        links.append(Conductance("shaft", "ambient", 0.87 * shaft, "moving air, 100 W/(m2 K)"))
     else:
         away = 1.0 / (1.0 / (2.7 * seat) + 1.0 / (0.73 * shaft)) / _JOINED
-        found.append(Conductance("inner_ring", "ambient", away, "seat and shaft in moving air, 100 W/(m2 K)"))
+        links.append(Conductance("inner_ring", "ambient", away, "seat and shaft in moving air, 100 W/(m2 K)"))
     if flow:
-        found.append(Conductance("oil", "ambient", flow, f"flow of the supply ({scene.lubricant.supply})"))
+        links.append(Conductance("oil", "ambient", flow, f"flow of the supply ({scene.lubricant.supply})"))
     rule = "cooling water by the size, 1000 W/(m2 K)" if cooling is None else "as given"
-    return (*found, Conductance("housing", "ambient", water, rule))
+    return (*links, Conductance("housing", "ambient", water, rule))
 
 
 #: Of the reference, 0.57 W/K in two digits where the two in series have 0.5746.
@@ -194,8 +194,8 @@ def _heats(scene: Scene) -> tuple[Heat, ...]:
     settled, speed = started(scene, fidelity="response"), scene.operation.speed_rpm * RPM
     cage = scene.bearing.cage is not None
     return tuple(
-        heat_of(lambda name, prefix=one.prefix: settled.get(prefix + name), speed, cage)  # type: ignore[misc]
-        for one in scene.bearings()
+        heat_of(lambda name, prefix=bearing.prefix: settled.get(prefix + name), speed, cage)  # type: ignore[misc]
+        for bearing in scene.bearings()
     )
 
 
@@ -204,20 +204,20 @@ def _settled(
 ) -> tuple[dict[tuple[int, str], float], tuple[Heat, ...]]:
     """Return temperatures (degC) and heats where neither changes; ``factor``: of all conductances."""
     heats = _heats(scene)
-    found = network(heats, links, ambient, factor)
+    degC = network(heats, links, ambient, factor)
     for _ in range(_MOST):
-        if max(found.values()) > HOTTEST:
+        if max(degC.values()) > HOTTEST:
             break
-        heats = _heats(at(scene, found))
+        heats = _heats(at(scene, degC))
         new = network(heats, links, ambient, factor)
-        if max(abs(new[place] - found[place]) for place in found) < _ENOUGH:
+        if max(abs(new[place] - degC[place]) for place in degC) < _ENOUGH:
             return new, heats
-        found = {place: (1.0 - _SHARE) * found[place] + _SHARE * new[place] for place in found}
-    number, node = max(found, key=lambda place: found[place])
+        degC = {place: (1.0 - _SHARE) * degC[place] + _SHARE * new[place] for place in degC}
+    number, node = max(degC, key=lambda place: degC[place])
     whose = f" of bearing {number}" if number and len(heats) > 1 else ""
     raise ValueError(
         f"{scene.name}: no steady temperature: {node.replace('_', ' ')}{whose} reaches "
-        f"{found[number, node]:.0f} degC, and {HOTTEST:g} are the limit: lower speed or preload, give "
+        f"{degC[number, node]:.0f} degC, and {HOTTEST:g} are the limit: lower speed or preload, give "
         "another supply (lubricant.supply), or more cooling (--cooling, W/K)"
     )
 
@@ -226,7 +226,7 @@ def network(
     heats: Sequence[Heat], links: Sequence[Conductance], ambient: float, factor: float = 1.0
 ) -> dict[tuple[int, str], float]:
     """Return the temperatures (degC) at which a network gives off these heats (W)."""
-    shared = [name for name in ("housing", "shaft") if any(name in (one.one, one.other) for one in links)]
+    shared = [name for name in ("housing", "shaft") if any(name in (link.one, link.other) for link in links)]
     places = [(k, node) for k in range(1, len(heats) + 1) for node in _NODES] + [(0, name) for name in shared]
     at_place = {place: k for k, place in enumerate(places)}
     matrix, right = np.zeros((len(places), len(places))), np.zeros(len(places))

@@ -176,17 +176,17 @@ def torque_range(scene: SceneSource) -> TorqueRange:
     require(scene, "statics")
     run = started(scene, fidelity="response")
     first = parts(run)[0].p
-    found = []
+    inputs = []
     for name, (words, ends_of) in _INPUTS.items():
         ends = ends_of(scene, first)
         if ends is not None:
             low, high = (End(text, values, _torques_with(scene, values)) for text, values in ends)
-            found.append(Input(name, words, low, high))
-    return TorqueRange(scene, _torques(scene, run.get), tuple(found))
+            inputs.append(Input(name, words, low, high))
+    return TorqueRange(scene, _torques(scene, run.get), tuple(inputs))
 
 
 def _torques(scene: Scene, output: Callable[[str], float]) -> tuple[float, ...]:
-    return tuple(output(f"{one.prefix}friction_torque") for one in scene.bearings())
+    return tuple(output(f"{bearing.prefix}friction_torque") for bearing in scene.bearings())
 
 
 def _torques_with(scene: Scene, values: _Values) -> tuple[float, ...]:
@@ -199,9 +199,9 @@ def _torques_with(scene: Scene, values: _Values) -> tuple[float, ...]:
 
 def _range(settled: float, ends: Iterable[Sequence[float]]) -> Range:
     """Return a value's range from its values at the ends of each input: roots of squares."""
-    changes = [[value - settled for value in one] for one in ends]
-    down = math.hypot(*(min([0.0, *one]) for one in changes))
-    up = math.hypot(*(max([0.0, *one]) for one in changes))
+    changes = [[value - settled for value in end] for end in ends]
+    down = math.hypot(*(min([0.0, *change]) for change in changes))
+    up = math.hypot(*(max([0.0, *change]) for change in changes))
     return Range(settled - down, settled + up)
 
 
@@ -290,7 +290,7 @@ def _widest(key: str, own: float, ends: tuple[float, float]) -> _Ends:
 
 def _ends(values: Iterable[_Values]) -> _Ends:
     """Return both ends with their values as words."""
-    low, high = ((" / ".join(f"{value:.4g}" for value in one.values()), one) for one in values)
+    low, high = ((" / ".join(f"{value:.4g}" for value in value.values()), value) for value in values)
     return low, high
 
 

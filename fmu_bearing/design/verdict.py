@@ -44,9 +44,9 @@ class Verdict(Result):
     """Of which bearing, from 1; None: of all together."""
 
 
-def overall(found: Iterable[Verdict]) -> Judgement:
+def overall(verdicts: Iterable[Verdict]) -> Judgement:
     """Return the gravest of the judgements; ``not judged`` where no figure has a limit."""
-    return min((one.judgement for one in found), key=JUDGEMENTS.index, default="not judged")
+    return min((one.judgement for one in verdicts), key=JUDGEMENTS.index, default="not judged")
 
 
 def unjudged(key: str, label: str, why: str, value: float | None = None, text: str = "-") -> Verdict:

@@ -15,7 +15,7 @@ from fmu_bearing.design.operating_point import RINGS, BearingPoint, OperatingPoi
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
 from fmu_bearing.formulas import iso76, iso281, makers
-from fmu_bearing.modal.campbell.weak import whirl_words
+from fmu_bearing.modal.campbell.doubts import whirl_words
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 
 #: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, not a standard.
@@ -52,25 +52,25 @@ def verdicts(point: OperatingPoint) -> tuple[Verdict, ...]:
     pressure, inner race, GPa 1.89 limit: 1.50 heaviest class; 2.0 marks races
     preload class, N 500: 2.8 x heavy limit: light 29.8, medium 89.4, heavy 179
     """
-    found: list[Verdict] = []
+    judged: list[Verdict] = []
     for place, bearing in enumerate(point.bearings):
         own = bearing_verdicts(bearing)
-        found += [*own, *mounted_preload(bearing, preloads(point, place), own)]
-    return *found, *_set_life(point), *_lift_off(point), _whirl(point)
+        judged += [*own, *mounted_preload(bearing, preloads(point, place), own)]
+    return *judged, *_set_life(point), *_lift_off(point), _whirl(point)
 
 
 def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
     """Return the verdicts on one bearing."""
-    found = [
+    judged = [
         _pressure(bearing),
         *_static_safety(bearing),
         *_life(bearing),
         *_preload(bearing),
         _speed(bearing),
     ]
-    found += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
-    found += fit_verdicts(bearing)
-    return [replace(one, bearing=bearing.load.number) for one in found]
+    judged += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
+    judged += fit_verdicts(bearing)
+    return [replace(one, bearing=bearing.load.number) for one in judged]
 
 
 def shared_label(one: Verdict) -> str:
@@ -78,13 +78,13 @@ def shared_label(one: Verdict) -> str:
     return one.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
 
 
-def side_by_side(found: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
+def side_by_side(judged: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
     """Yield the verdicts on each figure of the bearings; None where a bearing has no such figure.
 
     A bearing without load has neither life nor static safety.
     """
     tables: dict[int, dict[str, Verdict]] = {}
-    for one in found:
+    for one in judged:
         if one.bearing is not None:
             tables.setdefault(one.bearing, {})[one.key] = one
     for key in max(tables.values(), key=len):
@@ -94,28 +94,28 @@ def side_by_side(found: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:
 _NUMBER = re.compile(r"[0-9.]+")
 
 
-def cautions(point: OperatingPoint, found: Iterable[Verdict] | None = None) -> list[str]:
+def cautions(point: OperatingPoint, judged: Iterable[Verdict] | None = None) -> list[str]:
     """Return what a designer should look at: of the statics, of each bearing, of the whole.
 
     What holds for several bearings of a set is said once, with the figures of the others behind.
 
-    ``found``: `verdicts` of the point, where they are known.
+    ``judged``: `verdicts` of the point, where they are known.
     """
     lines = point.statics.cautions()
     said: dict[tuple[str, ...], list[Verdict]] = {}
-    for one in verdicts(point) if found is None else found:
+    for one in verdicts(point) if judged is None else judged:
         if one.advice:
             said.setdefault((one.key, one.judgement, _NUMBER.sub("", one.advice)), []).append(one)
-    for alike in said.values():
-        first = alike[0]
+    for same in said.values():
+        first = same[0]
         if first.bearing is None or not point.bearings[0].on_shaft:
             lines.append(first.advice)
             continue
-        numbers = [str(one.bearing) for one in alike]
+        numbers = [str(one.bearing) for one in same]
         named = f"bearing {numbers[0]}"
-        if alike[1:]:
+        if same[1:]:
             named = f"bearings {', '.join(numbers[:-1])} and {numbers[-1]}"
-        others = [f"bearing {one.bearing}: {one.text}" for one in alike[1:] if one.advice != first.advice]
+        others = [f"bearing {one.bearing}: {one.text}" for one in same[1:] if one.advice != first.advice]
         lines.append(f"{named}: {first.advice}" + (f" ({'; '.join(others)})" if others else ""))
     return lines
 
@@ -212,9 +212,9 @@ def _life(point: BearingPoint) -> Iterator[Verdict]:
     if hours is not None and math.isfinite(hours):
         note = "; hybrid: no modified life" if scene.materials.kind == "hybrid" else ""
         if point.radial > _SIDEWAYS * point.axial:  # a quarter of the life depends on it
-            held = "held by tilt_support" if scene.mounted.tilt_support else "free to tilt"
-            held = "held by the shaft" if point.on_shaft else held
-            note = f"; inner ring {held}{note}"
+            support = "held by tilt_support" if scene.mounted.tilt_support else "free to tilt"
+            support = "held by the shaft" if point.on_shaft else support
+            note = f"; inner ring {support}{note}"
         source = f"ISO 16281, computed ball loads; clean oil, full film{note}"
         yield judged_life("life", "L10r", hours, required, source)
         if scene.materials.kind == "steel" and load is None:
@@ -283,10 +283,10 @@ def _speed(point: BearingPoint) -> Verdict:
         return unjudged("speed", label, why, number, text)
     factor, mounted = 1.0, "on springs"
     if point.scene.mounted.preload_mode == "rigid":
-        found = preload_classes(point.scene)
-        if found is None:
+        classes = preload_classes(point.scene)
+        if classes is None:
             return unjudged("speed", label, f"rigid pair: {unclassed(point.scene)}", number, text)
-        name = makers.preload_class(point.scene.mounted.preload_N, found.loads) or "heavy"
+        name = makers.preload_class(point.scene.mounted.preload_N, classes.loads) or "heavy"
         factor, mounted = makers.RIGID_SPEED[name], f"as a rigid {name} pair"
     limit = factor * single
     supply, whose = ("grease", "NSK") if point.scene.lubricant.greased else ("oil", "GMN, NSK")
@@ -401,9 +401,9 @@ def _set_life(point: OperatingPoint) -> Iterator[Verdict]:
 
 def _lift_off(point: OperatingPoint) -> Iterator[Verdict]:
     """Yield the load that unloads a bearing over the axial force given, where the set has both."""
-    found = point.statics
-    force = float(found.load[0])
-    first = found.lift_off.get("+x" if force > 0.0 else "-x") if force else None
+    statics = point.statics
+    force = float(statics.load[0])
+    first = statics.lift_off.get("+x" if force > 0.0 else "-x") if force else None
     if first is None:
         return
     margin, advice = first.load / force, ""

@@ -81,30 +81,30 @@ class Solid:
         return self.material.youngs_modulus / self.material.density / radius**2
 
     def modes(
-        self, order: int, count: int, held: bool = False
+        self, order: int, count: int, clamped: bool = False
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lowest ``count`` modes of one harmonic: frequencies (Hz), shapes in columns, rigid ones at 0 Hz.
 
         The shapes' modal masses per pi are 1; same input, same bits (ARPACK starts from a fixed vector).
-        ``held``: the seat's cylinder is fixed in all directions.
+        ``clamped``: the seat's cylinder is fixed in all directions.
         """
         start = 1.0 + np.arange(self.mass.shape[0]) % _COMPONENTS  # has parts along X, R and T
         start += 0.1 * np.cos(np.arange(len(start)))
         stiffness, mass = self.stiffness(order), self.mass
         moving = np.arange(len(start))
-        if held:
+        if clamped:
             moving = np.setdiff1d(moving, self.nodes[:, self.grid.seat_row].ravel())
             stiffness, mass = stiffness[moving][:, moving], mass[moving][:, moving]
-        values, found = eigsh(
+        values, vectors = eigsh(
             stiffness, k=count, M=mass, sigma=-_SHIFT * self.scale, which="LM", v0=start[moving]
         )
         ascending = np.argsort(values)
         values = values[ascending]
         values[np.abs(values) < _RIGID * self.scale] = 0.0
-        shapes = found[:, ascending]
-        if held:
+        shapes = vectors[:, ascending]
+        if clamped:
             shapes = np.zeros((len(start), count))
-            shapes[moving] = found[:, ascending]
+            shapes[moving] = vectors[:, ascending]
         return np.sqrt(values) / (2.0 * np.pi), shapes
 
 

@@ -93,7 +93,7 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
     flexure = scene.mounted.flexure
     if flexure is None:
         return ()
-    found = []
+    modes = []
     rings = (
         (INNER, flexure.inner_ring, scene.materials.inner_ring),
         (OUTER, flexure.outer_ring, scene.materials.outer_ring),
@@ -105,8 +105,8 @@ def ring_modes(scene: Scene) -> tuple[RingMode, ...]:
             except ValueError as problem:
                 raise ValueError(f"{problem}, or leave the ring out of the table flexure") from None
             constants = elastic(material)
-            found += [in_plane_mode(section, constants, order) for order in orders]
-    return tuple(found)
+            modes += [in_plane_mode(section, constants, order) for order in orders]
+    return tuple(modes)
 
 
 def elastic(material: Material) -> Elastic:

@@ -11,10 +11,10 @@ from fmu_bearing.engine.fidelities.condensed.publish import find_contacts
 from fmu_bearing.engine.fidelities.full.march import march
 from fmu_bearing.engine.fidelities.full.port_derivative import port_derivative
 from fmu_bearing.engine.fidelities.full.start import start
-from fmu_bearing.engine.fidelities.live import copy_live
 from fmu_bearing.engine.fidelities.response.march import march_response, start_response
 from fmu_bearing.engine.fidelities.rings.restart import march_rings
 from fmu_bearing.engine.fidelities.rings.start import start_rings
+from fmu_bearing.engine.fidelities.state_copy import copy_live
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, P, U
 from fmu_bearing.engine.readout.contacts import keep_contacts, knows_balls
@@ -23,7 +23,7 @@ from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import bearing_inputs, inputs, spread_choices
 from fmu_bearing.engine.spindle.outputs import observe_set
 from fmu_bearing.engine.spindle.port import has_port
-from fmu_bearing.engine.spindle.sound import finish
+from fmu_bearing.engine.spindle.sound_sum import finish
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK, OTHER_FIDELITY, RIGID_ONLY
 
 _LARGEST = 1e15  # of any input, in its unit
@@ -59,7 +59,7 @@ def usable(p, u, w):
     if not u[U.PEDESTAL] > 0.0:
         return False
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing_inputs(p, u, b, given)
         if not in_range(p, given):
             return False
@@ -79,7 +79,7 @@ def computed(p):
         return False
     if p[P.FIDELITY] == RESPONSE and p[int(p[P.SET]) + SP.LINED] == 0.0:
         return False
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         r = members.row(p, b)
         follows = p[r + SP.ROW_DRIVEN] == SP.DRIVEN
         if p[r + SP.ROW_SEAT] == SP.PEDESTAL and follows == (p[P.FIDELITY] == FULL):
@@ -90,10 +90,10 @@ def computed(p):
 @kernel
 def bends(p):
     """Whether a ring has flexural modes."""
-    found = False
-    for b in range(members.count(p)):
-        found = found or members.parameters(p, b)[P.MODES] != 0.0
-    return found
+    flexible = False
+    for b in range(members.bearing_count(p)):
+        flexible = flexible or members.parameters(p, b)[P.MODES] != 0.0
+    return flexible
 
 
 @kernel
@@ -102,7 +102,7 @@ def keep(p, s, w):
 
     Contacts of balls that nobody reads stay as they are: see `knows_balls`.
     """
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
         if not knows_balls(p, sb):
             continue

@@ -293,12 +293,12 @@ def _emit_store(context, builder, sig, args):
 @_define(gather, four, types.Array, types.Integer, bits)
 def _emit_gather(context, builder, sig, args):
     first = _place(context, builder, sig.args[0], *args[:2], sig.args[1])
-    found = ir.Constant(_VECTORS[four], ir.Undefined)
+    vector = ir.Constant(_VECTORS[four], ir.Undefined)
     for i in range(FOUR):
         number = ir.Constant(_INDEX, i)
         place = builder.gep(first, [builder.extract_element(args[2], number)], inbounds=True)
-        found = builder.insert_element(found, builder.load(place), number)
-    return found
+        vector = builder.insert_element(vector, builder.load(place), number)
+    return vector
 
 
 @kernel

@@ -7,12 +7,12 @@ import pathlib
 
 def digest(*folders: pathlib.Path, suffixes: tuple[str, ...] = (".py",)) -> bytes:
     """Hash (32 bytes) of all sources in folders, by name and content; order of the folders counts."""
-    found = hashlib.sha256()
+    hashed = hashlib.sha256()
     for folder in folders:
         for path in sorted(one for one in folder.rglob("*") if one.suffix in suffixes):
-            found.update(path.relative_to(folder.parent).as_posix().encode() + b"\0")
-            found.update(path.read_bytes() + b"\0")
-    return found.digest()
+            hashed.update(path.relative_to(folder.parent).as_posix().encode() + b"\0")
+            hashed.update(path.read_bytes() + b"\0")
+    return hashed.digest()
 
 
 @functools.cache

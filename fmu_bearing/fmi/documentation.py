@@ -63,18 +63,18 @@ def templates() -> Path:
 def pages(model: "Model", flavour: str = FLAVOURS[0]) -> dict[str, bytes]:
     """Return the files of the ``documentation`` folder of an FMU of a flavour, by path below it."""
     folder = templates() / "documentation"
-    found: dict[str, bytes] = {
+    files: dict[str, bytes] = {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in folder.rglob("*")
         if path.is_file() and not path.name.startswith(".")
     }
-    page = Template(found["index.html"].decode("utf-8")).substitute(_fields(model, flavour))
-    found["index.html"] = page.encode("utf-8")
+    page = Template(files["index.html"].decode("utf-8")).substitute(_fields(model, flavour))
+    files["index.html"] = page.encode("utf-8")
     if flavour == "python":
         needs = _NEEDS.format(python="3.11", package=_package_version())
-        found["externalDependencies.txt"] = needs.encode("utf-8")
-        found["licenses/pythonfmu.txt"] = _pythonfmu_licence()
-    return found
+        files["externalDependencies.txt"] = needs.encode("utf-8")
+        files["licenses/pythonfmu.txt"] = _pythonfmu_licence()
+    return files
 
 
 def _fields(model: "Model", flavour: str) -> dict[str, str]:
@@ -113,7 +113,7 @@ def _subject(scene: "Scene") -> dict[str, str]:
         about = _BEARING.format(balls=balls)
         return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
     count = len(assembly.members)
-    places = ", ".join(f"{one.position_mm:g} mm ({one.carries})" for one in assembly.members)
+    places = ", ".join(f"{member.position_mm:g} mm ({member.carries})" for member in assembly.members)
     arrangement = escape(assembly.arrangement)
     words = {"count": str(count), "balls": balls, "arrangement": arrangement, "places": places}
     if scene.on_other_shaft:

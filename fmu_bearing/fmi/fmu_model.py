@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from fmu_bearing.interface import flat, fmu_variables, variables
 from fmu_bearing.prepare.model import Model
-from fmu_bearing.prepare.reading import without_unread
+from fmu_bearing.prepare.unread_outputs import without_unread
 
 __all__ = ["FmuModel", "as_fmu_model"]
 
@@ -16,9 +16,9 @@ class FmuModel(Model):
     @property
     def left_out(self) -> frozenset[str]:
         """Names of what the scene's bearing has, and its FMU does not."""
-        every = (one.name for one in variables(self.scene, 0.0))
+        every = (variable.name for variable in variables(self.scene, 0.0))
         named = {flat(name) if self.is_flat else name for name in every}
-        return frozenset(named.difference(one.name for one in self.variables))
+        return frozenset(named.difference(variable.name for variable in self.variables))
 
     @property
     def is_flat(self) -> bool:

@@ -266,14 +266,14 @@ def _python_parts(model: "Model") -> dict[str, bytes]:
 
 def _binaries(name: str) -> dict[str, bytes]:
     """Return pythonfmu's libraries under the name FMI wants."""
-    found = {}
+    libraries = {}
     for platform in (files("pythonfmu") / "resources" / "binaries").iterdir():
         if platform.is_dir():
             for file in platform.iterdir():
                 suffix = Path(file.name).suffix
                 if suffix in (".so", ".dll", ".dylib"):
-                    found[f"binaries/{platform.name}/{name}{suffix}"] = file.read_bytes()
-    return found
+                    libraries[f"binaries/{platform.name}/{name}{suffix}"] = file.read_bytes()
+    return libraries
 
 
 def _zip(inside: dict[str, bytes]) -> bytes:

@@ -197,7 +197,7 @@ def _drive(loaded: ctypes.CDLL, made: c_void_p, references: Sequence[int]) -> li
     loaded.fmi2GetReal.argtypes = (c_void_p, POINTER(c_uint), c_size_t, POINTER(c_double))
     count = len(references)
     asked, values = (c_uint * count)(*references), (c_double * count)()
-    answers = [
+    statuses = [
         loaded.fmi2SetupExperiment(made, 0, 0.0, 0.0, 0, 0.0),
         loaded.fmi2EnterInitializationMode(made),
         loaded.fmi2ExitInitializationMode(made),
@@ -205,9 +205,9 @@ def _drive(loaded: ctypes.CDLL, made: c_void_p, references: Sequence[int]) -> li
     rows = []
     for i in range(STEPS + 1):
         if i:
-            answers.append(loaded.fmi2DoStep(made, (i - 1) * STEP_SIZE, STEP_SIZE, 1))
-        answers.append(loaded.fmi2GetReal(made, asked, count, values))
-        if any(answers):
+            statuses.append(loaded.fmi2DoStep(made, (i - 1) * STEP_SIZE, STEP_SIZE, 1))
+        statuses.append(loaded.fmi2GetReal(made, asked, count, values))
+        if any(statuses):
             raise NoReference(f"the model does not run at its start values beyond {i * STEP_SIZE:.4g} s")
         rows.append(list(values))
     return rows

@@ -100,7 +100,7 @@ def _terminals(scene: Scene) -> Iterator[Terminal]:
     yield _SHAFT
     if scene.assembly.joined:
         yield _RIGID if scene.on_other_shaft else _NOSE
-    for prefix in (one.prefix for one in scene.bearings()):
+    for prefix in (bearing.prefix for bearing in scene.bearings()):
         for name, words in _PORTS:
             heat = (
                 ("T", f"{prefix}{name}_temperature", "signal"),

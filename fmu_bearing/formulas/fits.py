@@ -116,13 +116,13 @@ class Fit(NamedTuple):
         """
         square = speed**2
         left = self._still(d_0, ring_temperature_K, partner_temperature_K) + self.spin * square
-        held = max(0.0, left)
-        pressure = self.pressure * held
+        remaining = max(0.0, left)
+        pressure = self.pressure * remaining
         return State(
             interference=left,
             pressure=pressure,
             hoop=self.hoop * pressure + self.hoop_spin * square,
-            race=self.share * held + self.race_spin * square,
+            race=self.share * remaining + self.race_spin * square,
         )
 
     def loss_speed(self, d_0: float, ring_temperature_K: float, partner_temperature_K: float) -> float | None:

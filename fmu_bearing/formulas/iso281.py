@@ -106,10 +106,10 @@ def equivalent_load(angle_deg: float, relative: float, axial: float, radial: flo
 
     ``relative``: f0 Fa / C0.
     """
-    found = factors(angle_deg, relative)
-    if found is None:
+    row = factors(angle_deg, relative)
+    if row is None:
         return None
-    return radial if axial <= found.e * radial else found.x * radial + found.y * axial
+    return radial if axial <= row.e * radial else row.x * radial + row.y * axial
 
 
 def basic_life(rating: float, load: float) -> float:

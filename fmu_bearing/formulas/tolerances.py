@@ -173,9 +173,9 @@ def _known(key: str, name: str, names: tuple[str, ...]) -> None:
 
 def _parts(name: str) -> tuple[str, int]:
     """Letter and grade of a class."""
-    found = re.fullmatch(r"([A-Za-z]+)(\d+)", name)
-    assert found is not None
-    return found[1], int(found[2])
+    match = re.fullmatch(r"([A-Za-z]+)(\d+)", name)
+    assert match is not None
+    return match[1], int(match[2])
 
 
 def _step(what: str, diameter: float) -> int:

@@ -120,9 +120,9 @@ def identify(
     start = scene_of(scene)
     require(start, "identification")
     measured = read_data(data, start, background, accept=accept)
-    held = {key for one in measured for key, _ in one.conditions}
+    conditions = {key for one in measured for key, _ in one.conditions}
     return search(
-        start, measured, free_numbers(start, free, held),
+        start, measured, free_numbers(start, free, conditions),
         fidelity=fidelity, seeds=seeds, starts=starts, duration=duration, settle=settle, few=few,
         folder=None if folder is None else pathlib.Path(folder), workers=workers, progress=progress,
     )  # fmt: skip

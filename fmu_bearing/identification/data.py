@@ -116,18 +116,18 @@ def read_data(
     if not rows:
         raise IdentifyError(f"{_name(source)} holds no measured value: give rows with {', '.join(COLUMNS)}")
     loud = {_identity(row): row for row in (*rows, *extra) if row.quantity.text.startswith(BACKGROUND)}
-    found = []
+    data = []
     for row in rows:
         if row.quantity.text.startswith(BACKGROUND):
             continue
         noise = loud.pop(_identity(row, BACKGROUND), None)
-        found.append(row if noise is None else replace(row, background=noise.value))
+        data.append(row if noise is None else replace(row, background=noise.value))
     if loud:
         lost = ", ".join(f"{row.source} ({row.label})" for row in list(loud.values())[:3])
         raise IdentifyError(f"background without a measured value beside it: {lost}")
-    if not found:
+    if not data:
         raise IdentifyError(f"{_name(source)} holds backgrounds only: give measured values too")
-    return tuple(found)
+    return tuple(data)
 
 
 def _questions(row: Datum) -> Iterable[str]:
@@ -172,7 +172,7 @@ def _rows(source: Source, scene: Scene, problems: list[str], background: bool = 
     listed = list(source) if isinstance(source, Sequence) and not isinstance(source, str) else None
     if listed and all(isinstance(one, Datum) for one in listed):
         return [_as_background(one) for one in listed] if background else listed
-    found = []
+    rows = []
     reader = _Reader(scene, background)
     try:
         table = list(_records(source))
@@ -187,17 +187,17 @@ def _rows(source: Source, scene: Scene, problems: list[str], background: bool = 
             return []
     for where, row in table:
         try:
-            found.append(reader.read(where, row))
+            rows.append(reader.read(where, row))
         except IdentifyError as problem:
             problems += [f"{where}: {line}" for line in str(problem).splitlines()]
     twice: dict[Any, Datum] = {}
-    for one in found:
+    for one in rows:
         first = twice.setdefault(_identity(one), one)
         if first is not one:
             problems.append(
                 f"{one.source}: {one.label} was given before, in {first.source}; give a mean once"
             )
-    return found
+    return rows
 
 
 def _records(source: Source) -> Iterable[tuple[str, dict[str, Any]]]:
@@ -299,19 +299,19 @@ class _Reader:
         return name, self.places[name]
 
     def _conditions(self, row: dict[str, Any]) -> tuple[tuple[str, float], ...]:
-        found = {}
+        conditions = {}
         for column, cell in row.items():
             key = self.keys.get(column, column)
             if (column in COLUMNS and column not in CONDITIONS) or _blank(cell):
                 continue
-            if key in found:
+            if key in conditions:
                 raise IdentifyError(f"{column} and {key} are the same condition: give one column")
             value = _number(row, column)
             low, high = limits(self.fields[key])
             if not low <= value <= high:
                 raise IdentifyError(f"{column} = {value:g} lies outside {low:g} to {high:g}")
-            found[key] = value
-        return tuple(sorted(found.items()))
+            conditions[key] = value
+        return tuple(sorted(conditions.items()))
 
 
 def _blank(cell: Any) -> bool:

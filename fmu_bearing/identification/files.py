@@ -21,7 +21,7 @@ from fmu_bearing.scene.read import read_scene
 from fmu_bearing.scene.values import steps
 
 
-def identified_toml(found: Identified, text: str | None = None) -> str:
+def identified_toml(result: Identified, text: str | None = None) -> str:
     """Return a scene file with the identified values, their uncertainties as remarks.
 
     Parameters
@@ -36,10 +36,10 @@ def identified_toml(found: Identified, text: str | None = None) -> str:
     SceneError
         If the text is not a scene.
     """
-    document = tomlkit.parse(found.start.to_toml() if text is None else text)
-    for one in found.estimates:
-        for key in one.free.keys:
-            _set(document, key, found.values[key], one.words)
+    document = tomlkit.parse(result.start.to_toml() if text is None else text)
+    for estimate in result.estimates:
+        for key in estimate.free.keys:
+            _set(document, key, result.values[key], estimate.words)
     made = tomlkit.dumps(document)
     read_scene_text(made, "the identified scene")  # what is written can be read
     return made
@@ -80,7 +80,7 @@ def output_paths(target: str | os.PathLike[str]) -> tuple[pathlib.Path, pathlib.
 
 
 def write_all(
-    found: Identified, target: str | os.PathLike[str], source: str | os.PathLike[str] | None = None,
+    result: Identified, target: str | os.PathLike[str], source: str | os.PathLike[str] | None = None,
     tell: Tell = silent, *, anyway: bool = False,
 ) -> list[pathlib.Path]:  # fmt: skip
     """Write the scene, and in a folder of its name tables, a report and, with Matplotlib, a picture.
@@ -95,7 +95,7 @@ def write_all(
     tell : callable
         Takes a line where the picture is left out.
     anyway : bool
-        Write although values and data contradict each other (``found.doubts``).
+        Write although values and data contradict each other (``result.doubts``).
 
     Returns
     -------
@@ -108,64 +108,64 @@ def write_all(
         With the doubts, unless ``anyway``.
     """
     path, folder = output_paths(target)
-    if found.doubts and not anyway:
+    if result.doubts and not anyway:
         way_out = (
             f"{path} is not written: correct the data, free other keys, or write it --anyway (anyway=True)"
         )
-        raise IdentifyError("\n".join((*found.doubts, way_out)))
+        raise IdentifyError("\n".join((*result.doubts, way_out)))
     text = None
     if source is not None:
         read_scene(source)
         text = anchored(pathlib.Path(source).read_text("utf-8-sig"), pathlib.Path(source).parent)
-    write_whole(path, identified_toml(found, text).encode("utf-8"))
+    write_whole(path, identified_toml(result, text).encode("utf-8"))
     folder.mkdir(parents=True, exist_ok=True)
     files = [path]
     for name, columns_and_rows in (
-        ("levels.csv", table(Compared, found.compared)),
-        ("values.csv", table(Estimate, found.estimates)),
-        ("jacobian.csv", jacobian_table(found)),
+        ("levels.csv", table(Compared, result.compared)),
+        ("values.csv", table(Estimate, result.estimates)),
+        ("jacobian.csv", jacobian_table(result)),
     ):
         write_csv(folder / name, *columns_and_rows)
         files.append(folder / name)
-    write_whole(folder / "report.md", report(found).encode("utf-8"))
+    write_whole(folder / "report.md", report(result).encode("utf-8"))
     files.append(folder / "report.md")
     if available("matplotlib", "a picture", "levels.png", tell):
         from fmu_bearing.identification.picture import identified_picture, save
 
-        save(identified_picture(found), folder / "levels.png")
+        save(identified_picture(result), folder / "levels.png")
         files.append(folder / "levels.png")
     return files
 
 
-def jacobian_table(found: Identified) -> tuple[list[str], list[list[str]]]:
+def jacobian_table(result: Identified) -> tuple[list[str], list[list[str]]]:
     """Columns and rows of the slopes: dB per unit of ln(value), or per width of the bounds."""
-    fitted = [one.datum.label for one in found.compared if one.datum.fit]
-    units = ["dB per ln" if one.free.log else "dB per width of the bounds" for one in found.estimates]
-    heads = ["value", *(f"{one.key}, {unit}" for one, unit in zip(found.estimates, units, strict=True))]
-    rows = [[label, *(f"{v:.2f}" for v in row)] for label, row in zip(fitted, found.jacobian, strict=True)]
+    fitted = [one.datum.label for one in result.compared if one.datum.fit]
+    units = ["dB per ln" if one.free.log else "dB per width of the bounds" for one in result.estimates]
+    heads = ["value", *(f"{one.key}, {unit}" for one, unit in zip(result.estimates, units, strict=True))]
+    rows = [[label, *(f"{v:.2f}" for v in row)] for label, row in zip(fitted, result.jacobian, strict=True)]
     return heads, rows
 
 
-def report(found: Identified) -> str:
+def report(result: Identified) -> str:
     """Return all tables and sentences as a page of Markdown."""
-    keys = [one.key for one in found.estimates]
+    keys = [estimate.key for estimate in result.estimates]
     correlation = [
-        [key, *(f"{v:+.2f}" for v in row)] for key, row in zip(keys, found.correlation, strict=True)
+        [key, *(f"{v:+.2f}" for v in row)] for key, row in zip(keys, result.correlation, strict=True)
     ]
     directions = [
         [f"{value:.3g}", *(f"{v:+.2f}" for v in row)]
-        for value, row in zip(found.singular_values, found.directions, strict=True)
+        for value, row in zip(result.singular_values, result.directions, strict=True)
     ]
     parts = [
-        f"# Identification of {found.scene.name}\n",
-        misfit_words(found) + "\n",
-        markdown(*table(Estimate, found.estimates)),
+        f"# Identification of {result.scene.name}\n",
+        misfit_words(result) + "\n",
+        markdown(*table(Estimate, result.estimates)),
         "## Remarks\n",
-        "".join(f"* {remark}\n" for remark in (*found.doubts, *found.remarks)) or "None.\n",
+        "".join(f"* {remark}\n" for remark in (*result.doubts, *result.remarks)) or "None.\n",
         "## Levels\n",
-        markdown(*table(Compared, found.compared)),
+        markdown(*table(Compared, result.compared)),
         "## Slopes of the fitted levels\n",
-        markdown(*jacobian_table(found)),
+        markdown(*jacobian_table(result)),
         "## Correlation\n",
         markdown(["", *keys], correlation),
         "## Singular values and their directions\n",
@@ -176,14 +176,14 @@ def report(found: Identified) -> str:
     return "\n".join(parts)
 
 
-def misfit_words(found: Identified) -> str:
+def misfit_words(result: Identified) -> str:
     """Return one sentence on the misfit before and after, fitted and checked."""
     words = []
     for fit, name in ((True, "fitted"), (False, "checked")):
-        count = sum(one.datum.fit is fit for one in found.compared)
+        count = sum(one.datum.fit is fit for one in result.compared)
         if count:
-            before, after = found.rms(fit, before=True), found.rms(fit)
+            before, after = result.rms(fit, before=True), result.rms(fit)
             words.append(f"{count} {name} values: {before:.1f} dB rms before, {after:.1f} dB after")
-    seeds = "one seed" if len(found.seeds) == 1 else f"{len(found.seeds)} seeds"
-    ended = "" if found.complete else " (interrupted)"
-    return f"{'; '.join(words)}; searched with fidelity {found.fidelity}, averaged over {seeds}{ended}."
+    seeds = "one seed" if len(result.seeds) == 1 else f"{len(result.seeds)} seeds"
+    ended = "" if result.complete else " (interrupted)"
+    return f"{'; '.join(words)}; searched with fidelity {result.fidelity}, averaged over {seeds}{ended}."

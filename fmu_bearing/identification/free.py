@@ -81,7 +81,7 @@ class Free:
         return {key: value / self.start * own for key, own in zip(self.keys, self.starts, strict=True)}
 
 
-def free_numbers(scene: Scene, wanted: Wanted, held: Iterable[str] = ()) -> tuple[Free, ...]:
+def free_numbers(scene: Scene, wanted: Wanted, conditions: Iterable[str] = ()) -> tuple[Free, ...]:
     """Return the free numbers of a scene.
 
     Parameters
@@ -103,8 +103,8 @@ def free_numbers(scene: Scene, wanted: Wanted, held: Iterable[str] = ()) -> tupl
     given = wanted if isinstance(wanted, Mapping) else _parsed(wanted)
     if not given:
         raise IdentifyError(f"no key is free: give {_SYNTAX}, such as --free imperfections.unbalance_um")
-    problems, found = [], []
-    taken: dict[str, str] = {key: "a condition of the data" for key in held}
+    problems, numbers = [], []
+    taken: dict[str, str] = {key: "a condition of the data" for key in conditions}
     for key, bounds in given.items():
         try:
             one = _free(scene, key, bounds)
@@ -112,21 +112,21 @@ def free_numbers(scene: Scene, wanted: Wanted, held: Iterable[str] = ()) -> tupl
                 if each in taken:
                     raise IdentifyError(f"{each} is {taken[each]} already: it cannot be free under '{key}'")
                 taken[each] = f"free under '{key}'"
-            found.append(one)
+            numbers.append(one)
         except IdentifyError as problem:
             problems += str(problem).splitlines()
     if problems:
         raise IdentifyError("\n".join(problems))
-    return tuple(found)
+    return tuple(numbers)
 
 
 def _parsed(texts: Sequence[str]) -> dict[str, Bounds]:
     if isinstance(texts, str):
         texts = [texts]
-    found: dict[str, Bounds] = {}
+    by_key: dict[str, Bounds] = {}
     for text in texts:
         key, equals, rest = (part.strip() for part in text.partition("="))
-        if key in found:
+        if key in by_key:
             raise IdentifyError(f"{key} is free twice: give it once")
         bounds: Bounds = None
         if equals:
@@ -135,8 +135,8 @@ def _parsed(texts: Sequence[str]) -> dict[str, Bounds]:
             except ValueError:
                 raise IdentifyError(f"free key '{text}' is refused: write {_SYNTAX}") from None
             bounds = (low, high)
-        found[key] = bounds
-    return found
+        by_key[key] = bounds
+    return by_key
 
 
 def _free(scene: Scene, key: str, bounds: Bounds) -> Free:

@@ -17,7 +17,7 @@ from fmu_bearing.identification.free import Free, scene_values
 from fmu_bearing.identification.quantities import LINE
 from fmu_bearing.identification.run_cache import RunCache
 from fmu_bearing.identification.sensors import Sensors
-from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.prepare.sound_block import sound_key
 from fmu_bearing.recording.channels.sources import bodies_of
 from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.run.figures import THIRD_OCTAVE, code_digest
@@ -97,7 +97,7 @@ class Levels:
         values = scene_values(self.free, x)
         asked = [group for group, rows in self.groups.items() if check or any(self.data[k].fit for k in rows)]
         jobs = [(k, seed, group) for k, seed in enumerate(seeds) for group in asked]
-        found = np.full((len(seeds), len(self.data)), np.nan)
+        computed = np.full((len(seeds), len(self.data)), np.nan)
 
         def run(job: tuple[int, int, tuple[tuple[str, float], ...]]) -> tuple[float, ...]:
             return self._run(values | dict(job[2]), job[1], fidelity, self.groups[job[2]])
@@ -112,8 +112,8 @@ class Levels:
                     pool.shutdown(cancel_futures=True)
                     raise
         for (k, _, group), levels in zip(jobs, rows, strict=True):
-            found[k, self.groups[group]] = levels
-        return found
+            computed[k, self.groups[group]] = levels
+        return computed
 
     def with_background(self, raw: NDArray[np.float64], offset: NDArray[np.float64]) -> NDArray[np.float64]:
         """Levels (dB) with an offset (dB) of the bearing's sound, and the background, shape of ``raw``."""
@@ -173,7 +173,7 @@ class Levels:
 
     def _sensors_of(self, scene: Scene, made: Recording) -> Sensors:
         """Paths of the geometry: made once, as boundary elements take seconds."""
-        key = f"{sound_key(scene)} {[one.position for one in scene.bearings()]} {bodies_of(scene)}"
+        key = f"{sound_key(scene)} {[bearing.position for bearing in scene.bearings()]} {bodies_of(scene)}"
         with self._lock:
             if key not in self._sensors:
                 if len(self._sensors) > 2:  # a free geometry: few are needed again

@@ -20,7 +20,7 @@ _ROOM = 3.0  # dB beyond the outermost level
 _NARROW, _WIDE = 5.0, 1e3  # high over low: ticks in even steps; at 1, 2, 5 of each decade; of decades alone
 
 
-def identified_picture(found: Identified, truth: Mapping[str, float] | None = None) -> "Figure":
+def identified_picture(result: Identified, truth: Mapping[str, float] | None = None) -> "Figure":
     """Draw computed over measured levels, before and after, fitted and checked; and values with intervals.
 
     Parameters
@@ -31,38 +31,38 @@ def identified_picture(found: Identified, truth: Mapping[str, float] | None = No
     """
     figure = empty((11.0, 4.8))
     left, right = figure.subplots(1, 2, width_ratios=(1.1, 1.0))
-    _levels(left, found)
-    _values(right, found, truth or {})
+    _levels(left, result)
+    _values(right, result, truth or {})
     return figure
 
 
-def _levels(ax: "Axes", found: Identified) -> None:
-    measured = [one.datum.value for one in found.compared]
-    computed = [v for one in found.compared for v in (one.before, one.after) if math.isfinite(v)]
+def _levels(ax: "Axes", result: Identified) -> None:
+    measured = [one.datum.value for one in result.compared]
+    computed = [v for one in result.compared for v in (one.before, one.after) if math.isfinite(v)]
     low, high = min(measured + computed) - _ROOM, max(measured + computed) + _ROOM
     ax.plot([low, high], [low, high], color="0.4", linewidth=0.8)
     for fit, name, marker, colour in _ROLES:
-        rows = [one for one in found.compared if one.datum.fit is fit]
+        rows = [one for one in result.compared if one.datum.fit is fit]
         if not rows:
             continue
-        x = [one.datum.value for one in rows]
-        ax.plot(x, [one.before for one in rows], marker, color=colour, fillstyle="none", alpha=0.5,
-                label=f"{name}, before ({found.rms(fit, before=True):.1f} dB rms)")  # fmt: skip
-        spread, std = [one.spread for one in rows], [one.datum.std for one in rows]
-        ax.errorbar(x, [one.after for one in rows], spread, std, marker, color=colour, elinewidth=0.6,
-                    markersize=5, label=f"{name}, after ({found.rms(fit):.1f} dB rms)")  # fmt: skip
+        x = [row.datum.value for row in rows]
+        ax.plot(x, [row.before for row in rows], marker, color=colour, fillstyle="none", alpha=0.5,
+                label=f"{name}, before ({result.rms(fit, before=True):.1f} dB rms)")  # fmt: skip
+        spread, std = [row.spread for row in rows], [row.datum.std for row in rows]
+        ax.errorbar(x, [row.after for row in rows], spread, std, marker, color=colour, elinewidth=0.6,
+                    markersize=5, label=f"{name}, after ({result.rms(fit):.1f} dB rms)")  # fmt: skip
     ax.set_xlim(low, high)
     ax.set_ylim(low, high)
     ax.set_aspect("equal")
     ax.legend(frameon=False, fontsize=8)
-    weighted = [one.datum.quantity.kind == A_LEVEL for one in found.compared]
+    weighted = [one.datum.quantity.kind == A_LEVEL for one in result.compared]
     unit = "dB(A)" if all(weighted) else "dB, dB(A)" if any(weighted) else "dB"
-    label(ax, f"measured, {unit}", f"computed, {unit}", found.scene.name)
+    label(ax, f"measured, {unit}", f"computed, {unit}", result.scene.name)
 
 
-def _values(ax: "Axes", found: Identified, truth: Mapping[str, float]) -> None:
+def _values(ax: "Axes", result: Identified, truth: Mapping[str, float]) -> None:
     """Draw each value over its start, with two standard deviations; grey: not determined; cross: truth."""
-    shown = [one for one in found.estimates if one.free.log]
+    shown = [estimate for estimate in result.estimates if estimate.free.log]
     for place, one in enumerate(reversed(shown)):
         colour = OTHERS[0] if one.determined else "0.6"
         low, high = one.interval()

@@ -114,8 +114,8 @@ def _channel(text: str, body: str, scene: Scene | None) -> tuple[int, int]:
     bearing, ring = bodies[name]
     if of_set is not None and RINGS[ring] == "outer_ring":
         seat = bearings_of(of_set)[bearing].seat
-        held = seat == "fixed" or (seat == "sliding" and axis != "x")
-        if held and not set_of(of_set).housing.moves:
+        seated = seat == "fixed" or (seat == "sliding" and axis != "x")
+        if seated and not set_of(of_set).housing.moves:
             raise IdentifyError(
                 f"quantity '{text}': this ring is held in a housing that does not move; give the housing's "
                 "mass_kg in [spindle.housing], or measure inner_ring, which moves with the shaft"

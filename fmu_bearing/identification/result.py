@@ -163,8 +163,8 @@ class Identified(Result):
     def correlation(self) -> NDArray[np.float64]:
         """Correlation of the coordinates, shape (free keys, free keys)."""
         deviations = np.sqrt(np.diag(self.covariance))
-        found: NDArray[np.float64] = self.covariance / np.outer(deviations, deviations)
-        return found
+        correlation: NDArray[np.float64] = self.covariance / np.outer(deviations, deviations)
+        return correlation
 
     def rms(self, fit: bool = True, before: bool = False) -> float:
         """Root mean square of computed minus measured (dB), fitted or checked values; NaN: there are none."""
@@ -182,9 +182,9 @@ class Identified(Result):
         return tuple(_doubts(self)) if self.complete else ()
 
     def __getitem__(self, key: str) -> Estimate:
-        for one in self.estimates:
-            if key == one.key or key in one.free.keys:
-                return one
+        for estimate in self.estimates:
+            if key == estimate.key or key in estimate.free.keys:
+                return estimate
         raise KeyError(f"'{key}' was not free; free: {', '.join(one.key for one in self.estimates)}")
 
     def records(self) -> tuple[Estimate, ...]:
@@ -199,8 +199,8 @@ class Identified(Result):
         }
 
 
-def _doubts(found: Identified) -> Iterator[str]:
-    off = [(abs(one.after - one.datum.value) / one.sigma, one) for one in found.compared]
+def _doubts(result: Identified) -> Iterator[str]:
+    off = [(abs(one.after - one.datum.value) / one.sigma, one) for one in result.compared]
     far = sorted((pair for pair in off if pair[0] > FAR), key=lambda pair: -pair[0])
     for sigmas, one in far[:_MOST]:
         role = "fitted" if one.datum.fit else "checked"
@@ -211,14 +211,14 @@ def _doubts(found: Identified) -> Iterator[str]:
         )
     if len(far) > _MOST:
         yield f"and {len(far) - _MOST} more values beyond {FAR:g} standard deviations"
-    before, after = found.rms(before=True), found.rms()
-    if after > before + _VISIBLE and _sigma(found, True) < after:
+    before, after = result.rms(before=True), result.rms()
+    if after > before + _VISIBLE and _sigma(result, True) < after:
         yield (
             f"fitted values are {after:.1f} dB rms off, {before:.1f} dB before: data that contradict each "
             "other, or that these keys cannot explain"
         )
-    checked, count = found.rms(fit=False), sum(not one.datum.fit for one in found.compared)
-    usual = max(after, _sigma(found, False)) if count else math.inf
+    checked, count = result.rms(fit=False), sum(not one.datum.fit for one in result.compared)
+    usual = max(after, _sigma(result, False)) if count else math.inf
     if checked > max(2.0, 1.0 + 2.0 / math.sqrt(max(count, 1))) * usual:
         yield (
             f"checked values are {checked:.1f} dB rms off, fitted ones {after:.1f} dB: the values found do "
@@ -226,7 +226,7 @@ def _doubts(found: Identified) -> Iterator[str]:
         )
 
 
-def _sigma(found: Identified, fit: bool) -> float:
+def _sigma(compared: Identified, fit: bool) -> float:
     """Rms (dB) of the standard deviations of fitted or checked values; NaN: there are none."""
-    squares = [one.sigma**2 for one in found.compared if one.datum.fit is fit]
+    squares = [one.sigma**2 for one in compared.compared if one.datum.fit is fit]
     return float(np.sqrt(np.mean(squares))) if squares else math.nan

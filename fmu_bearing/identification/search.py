@@ -71,7 +71,7 @@ def search(
     IdentifyError
         For settings that are refused, too few data, and a scene that cannot be run as it is.
     Stopped
-        On Ctrl-C, with the best so far as ``found``.
+        On Ctrl-C, with the best so far as ``state``.
     """
     for name, value in (("seeds", seeds), ("starts", starts), ("workers", workers)):
         if not (isinstance(value, int) and value >= 1):
@@ -93,11 +93,11 @@ def search(
             own, data, free, duration=duration, settle=settle, folder=folder, workers=workers,
             finished_run=display.ran,
         )  # fmt: skip
-        found = _Search(levels, chosen, seeds, starts, display)
+        state = _Search(levels, chosen, seeds, starts, display)
         try:
-            return found.run()
+            return state.run()
         except KeyboardInterrupt:
-            raise Stopped(found.interrupted()) from None
+            raise Stopped(state.interrupted()) from None
 
 
 def check_count(fitted: int, free: int, few: bool) -> None:
@@ -198,17 +198,17 @@ class _Search:
         if self.starts > 1:
             self.display.say("places within the bounds")
             tries += self._promising(self.starts - 1)
-        found = []
+        ends = []
         for number, x in enumerate(tries):
             self.display.say(f"start {number + 1} of {len(tries)}")
             end = self._descend(x, self.seeds[:1], **_ROUGH)
-            found.append((self._cost(end, self.seeds), number, end))
-        return _distinct([end for _, _, end in sorted(found, key=lambda one: one[:2])])[:3]
+            ends.append((self._cost(end, self.seeds), number, end))
+        return _distinct([end for _, _, end in sorted(ends, key=lambda one: one[:2])])[:3]
 
     def _ranked(self, ends: Sequence[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
         """Return the ends of searches with all seeds from these places, the best first."""
-        found = [self._descend(end, self.seeds, **_ROUGH) for end in ends]
-        return _distinct(sorted(found, key=lambda end: self._cost(end, self.seeds)))
+        ranked = [self._descend(end, self.seeds, **_ROUGH) for end in ends]
+        return _distinct(sorted(ranked, key=lambda end: self._cost(end, self.seeds)))
 
     def _rivals(self, x: NDArray[np.float64], spread: Spread) -> list[str]:
         """Sentences on other solutions that the data do not rule out at two standard deviations."""
@@ -346,7 +346,7 @@ class _Search:
 
     def _growth(self, x: NDArray[np.float64], spread: Spread) -> NDArray[np.float64]:
         """Square of the weighted change a deviation away over what slopes predict, on the smaller side."""
-        here, found = self._mean(x, self.seeds), np.ones(len(x))
+        here, growth = self._mean(x, self.seeds), np.ones(len(x))
         for k, direction in enumerate(spread.directions):
             deviation = min(float(spread.deviations[k]) / spread.scale, _FAR)
             if deviation < _NEAR:  # levels are straight there
@@ -357,8 +357,8 @@ class _Search:
                 change = self.white @ (self._mean(there, self.seeds) - here)[self.fit]
                 if part > 0.2 and np.isfinite(change).all():
                     expected = (part * deviation * spread.singular_values[k]) ** 2
-                    found[k] = min(found[k], float(change @ change) / max(expected, 1e-12))
-        return found
+                    growth[k] = min(growth[k], float(change @ change) / max(expected, 1e-12))
+        return growth
 
     def interrupted(self) -> Identified:
         """Return the best so far; nothing more is run, and the uncertainty is unknown."""

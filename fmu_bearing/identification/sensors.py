@@ -45,8 +45,8 @@ class Sensors:
         self.size = recording.size
         self.energies = recording.radiation_model.startswith("paper")
         channels = recording.history.shape[1]
-        found = recording.paths(self.positions) if places else ()
-        self.transfers = [Transfer(circle, channels) for circle in found]
+        paths = recording.paths(self.positions) if places else ()
+        self.transfers = [Transfer(circle, channels) for circle in paths]
         #: Channels of each bearing; a set's follow one another.
         self.each = channels // (1 if recording.scene is None else len(recording.scene.bearings()))
         # the papers' own channels hold no accelerations of bodies
@@ -71,10 +71,10 @@ class Sensors:
     def at(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Responses of all microphones to the used channels, shape (mics, channels, frequencies)."""
         parts = [transfer(frequency) for transfer in self.transfers]
-        found = np.zeros((len(self.positions), len(self.used), len(frequency)), complex)
+        responses = np.zeros((len(self.positions), len(self.used), len(frequency)), complex)
         for transfer, part in zip(self.transfers, parts, strict=True):
-            found[list(transfer.circle.members)] = part[:, self.used]
-        return found
+            responses[list(transfer.circle.members)] = part[:, self.used]
+        return responses
 
     def channel(self, quantity: Quantity) -> int:
         """Place of a body's acceleration among all channels."""
@@ -92,7 +92,7 @@ class Sensors:
         spectra = scipy.fft.rfft(channels.T * self.window, axis=1)[:, self.keep] * self.scale
         squares = self.squares(self.response, spectra)
         lines = _Lines(self, channels, recording.bearing_kinematics())
-        found = np.empty(len(rows))
+        levels = np.empty(len(rows))
         for k, row in enumerate(rows):
             quantity = row.quantity
             if quantity.kind == LINE:
@@ -104,8 +104,8 @@ class Sensors:
                     bins = np.abs(spectra[self.place(quantity)] * self.inverse) ** 2
                 square = float(bins @ self._weight(quantity.kind, quantity.frequency))
             reference = REFERENCE_PRESSURE if row.position is not None else VELOCITY_REFERENCE
-            found[k] = 10.0 * np.log10(square / reference**2 + _FLOOR)
-        return found
+            levels[k] = 10.0 * np.log10(square / reference**2 + _FLOOR)
+        return levels
 
     def squares(
         self, response: NDArray[np.complex128], spectra: NDArray[np.complex128]

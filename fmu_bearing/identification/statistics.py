@@ -47,8 +47,8 @@ class Spread:
     def deviations(self) -> NDArray[np.float64]:
         """Standard deviation along each direction."""
         with np.errstate(divide="ignore"):
-            found: NDArray[np.float64] = self.scale / self.singular_values
-        return found
+            deviations: NDArray[np.float64] = self.scale / self.singular_values
+        return deviations
 
 
 def shrunk_covariance(samples: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -78,8 +78,8 @@ def shrunk_covariance(samples: NDArray[np.float64]) -> NDArray[np.float64]:
     share = 1.0 if squares == 0.0 else min(1.0, max(0.0, float(variance[beside].sum()) / squares))
     shrunk = (1.0 - share) * correlation
     np.fill_diagonal(shrunk, 1.0)
-    found: NDArray[np.float64] = shrunk * np.outer(deviation, deviation)
-    return found
+    covariance: NDArray[np.float64] = shrunk * np.outer(deviation, deviation)
+    return covariance
 
 
 def level_covariance(
@@ -102,8 +102,8 @@ def level_covariance(
 def whitener(covariance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the symmetric inverse root: residuals become independent, and each stays by its value."""
     values, vectors = np.linalg.eigh(covariance)
-    found: NDArray[np.float64] = (vectors / np.sqrt(values)) @ vectors.T
-    return found
+    root: NDArray[np.float64] = (vectors / np.sqrt(values)) @ vectors.T
+    return root
 
 
 def uncertainty(jacobian: NDArray[np.float64], residual: NDArray[np.float64]) -> Spread:
@@ -114,9 +114,9 @@ def uncertainty(jacobian: NDArray[np.float64], residual: NDArray[np.float64]) ->
     count, keys = jacobian.shape
     left = count - keys
     scale = 1.0 if left <= 0 else max(1.0, math.sqrt(float(residual @ residual) / left))
-    _, found, directions = np.linalg.svd(jacobian, full_matrices=True)
+    _, singular_values, directions = np.linalg.svd(jacobian, full_matrices=True)
     values = np.zeros(keys)
-    values[: len(found)] = found
+    values[: len(singular_values)] = singular_values
     tiny = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
     inverse = np.where(values > tiny, 1.0 / np.maximum(values, tiny), 1e9)
     covariance = scale**2 * (directions.T * inverse**2) @ directions
@@ -159,19 +159,19 @@ def remarks(
     free: Sequence[Free], spread: Spread, values: Sequence[float], fitted: int
 ) -> list[str]:  # fmt: skip
     """Say what the data cannot distinguish, what is at a bound, and what they cannot determine."""
-    found = []
+    said = []
     names = [one.key for one in free]
     if fitted < 3 * len(free):
         keys = "key" if len(free) == 1 else "keys"
         left = "nothing is left over that could contradict them" if fitted <= len(free) else (
             "little is left over that could contradict them"
         )  # fmt: skip
-        found.append(
+        said.append(
             f"{fitted} fitted values carry {fitted // 3} free keys, three each, and {len(free)} {keys} are "
             f"free: the result repeats the values, {left}"
         )
     if spread.scale > 1.2:
-        found.append(
+        said.append(
             f"residuals are {spread.scale:.1f} times what the standard deviations of data and seeds allow: "
             "the uncertainties are widened by that, and the model may lack something"
         )
@@ -179,7 +179,7 @@ def remarks(
     for one, value in zip(free, values, strict=True):
         side = at_bound(one, value)
         if side:
-            found.append(
+            said.append(
                 f"{one.key} is at its {side} bound, {one.low if side == 'low' else one.high:g}: the best "
                 "value may lie beyond, and its uncertainty is not an interval about it"
             )
@@ -190,31 +190,31 @@ def remarks(
             continue
         parts = [i for i in np.argsort(-np.abs(direction)) if abs(direction[i]) > _NAMED]
         if len(parts) == 1:
-            found.append(f"the data do not determine {names[parts[0]]}: {_reach(free[parts[0]], deviation)}")
+            said.append(f"the data do not determine {names[parts[0]]}: {_reach(free[parts[0]], deviation)}")
         else:
-            found.append(
+            said.append(
                 f"the data do not distinguish {' and '.join(names[i] for i in parts)}: "
                 f"{_together(names, direction, parts)} changes no level by more than its uncertainty, over a "
                 f"factor of {_factor(deviation)} either way"
             )
-    found += _pairs(names, spread.covariance, known)
-    return found
+    said += _pairs(names, spread.covariance, known)
+    return said
 
 
 def _pairs(names: Sequence[str], covariance: NDArray[np.float64], known: Sequence[bool]) -> list[str]:
     """Sentences on pairs of determined keys that move the levels in the same way."""
     deviation = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(deviation, deviation)
-    found = []
+    sentences = []
     for i in range(len(names)):
         for k in range(i):
             if abs(correlation[i, k]) >= _ALIKE and known[i] and known[k]:
                 way = "trade against each other" if correlation[i, k] < 0.0 else "rise and fall together"
-                found.append(
+                sentences.append(
                     f"{names[k]} and {names[i]} {way} (correlation {correlation[i, k]:+.2f}): both are known "
                     "less well than one would be with the other fixed"
                 )
-    return found
+    return sentences
 
 
 def _reach(one: Free, deviation: float) -> str:

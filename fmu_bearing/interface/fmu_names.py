@@ -70,19 +70,19 @@ def fmu_variables(scene: Scene, variables: Sequence[Variable]) -> tuple[Variable
 
 def _outputs(asked: Sequence[str], names: list[str], usual: list[str], inputs: list[str]) -> list[str]:
     """Return the names of the outputs that names, patterns and words for groups ask for."""
-    found = [_ALWAYS]
+    outputs = [_ALWAYS]
     for word in asked:
         group = [name for pattern in GROUPS.get(word, ()) for name in matching(pattern, names)]
         if word == USUAL:
-            found += usual
+            outputs += usual
         elif word not in GROUPS:
-            found += _chosen("outputs", [word], names, inputs)
+            outputs += _chosen("outputs", [word], names, inputs)
         elif group:
-            found += group
+            outputs += group
         else:
             missing = ", ".join(GROUPS[word])
             raise SceneError(f"fmu.outputs: this scene has nothing of '{word}' ({missing}); leave it out")
-    return found
+    return outputs
 
 
 def _chosen(key: str, patterns: Sequence[str], names: list[str], others: list[str]) -> list[str]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.elastic.shaft import placed
+from fmu_bearing.elastic.shaft import rigid_transform
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SP, Q, U
 from fmu_bearing.formulas.iso76 import static_rating
@@ -112,8 +112,8 @@ def input_values(scene: Scene) -> NDArray[np.float64]:
     u[U.PRELOAD] = scene.assembly.preload_N
     rings = operation.inner_ring_temperature, operation.outer_ring_temperature
     u[U.OIL_T], u[U.INNER_T], u[U.OUTER_T] = operation.oil_temperature, *rings
-    for k, one in enumerate(members):
-        at, own = U.BEARINGS + k * U.ROW, si(one)
+    for k, member in enumerate(members):
+        at, own = U.BEARINGS + k * U.ROW, si(member)
         u[at + U.OIL] = operation.oil_temperature
         u[at + U.INNER] = _or(own.inner_ring_temperature, rings[0])
         u[at + U.OUTER] = _or(own.outer_ring_temperature, rings[1])
@@ -125,7 +125,7 @@ def input_values(scene: Scene) -> NDArray[np.float64]:
     else:
         spindle = set_of(scene)
         force = np.array([spindle.load.force_x_N, spindle.load.force_y_N, spindle.load.force_z_N, 0.0, 0.0])
-        u[U.NOSE : U.NOSE + SP.PLANE] = placed(1.0, 1e-3 * spindle.load.position_mm).T @ force
+        u[U.NOSE : U.NOSE + SP.PLANE] = rigid_transform(1.0, 1e-3 * spindle.load.position_mm).T @ force
         shaft = si(spindle.shaft.model_copy(update={"sections_mm": None, "material": None}))
         housing = si(spindle.housing.model_copy(update={"material": None}))
         partners, pedestal = (shaft.temperature, housing.temperature), housing.pedestal_stiffness
@@ -142,8 +142,8 @@ def led_inputs(scene: Scene) -> range:
 def largest_moment(scene: Scene, start: NDArray[np.float64]) -> float:
     """Return the largest moment on the nose (N m): bearings cannot carry more, or twice the scene's own."""
     bearings = scene.bearings()
-    ratings = sum(static_rating(*one.scene.bearing.for_ratings) for one in bearings)
-    reach = max(one.position + 1e-3 * one.scene.bearing.pitch_diameter_mm for one in bearings)
+    ratings = sum(static_rating(*bearing.scene.bearing.for_ratings) for bearing in bearings)
+    reach = max(bearing.position + 1e-3 * bearing.scene.bearing.pitch_diameter_mm for bearing in bearings)
     own = np.abs(start[U.NOSE + Q.INNER_BY : U.NOSE + SP.PLANE]).max()
     return float(f"{max(_OVERLOAD * ratings * reach, 2.0 * own):.2g}")
 
@@ -211,7 +211,7 @@ def _of_shaft(scene: Scene, start: NDArray[np.float64]) -> list[Row]:
     if spindle.housing.moves:
         text = "Radial stiffness under the housing; the other directions keep their ratio to it"
         rows.append((U.PEDESTAL, "pedestal_stiffness", text, _SPRING))
-    elif any(one.seat == "pedestal" for one in spindle.bearing):
+    elif any(bearing.seat == "pedestal" for bearing in spindle.bearing):
         text = "Radial stiffness under each outer ring on a pedestal; other directions keep their ratio to it"
         rows.append((U.PEDESTAL, "pedestal_stiffness", text, _SPRING))
     if spindle.shaft.external:

@@ -40,9 +40,9 @@ def _by_quantity(name: str, names: Sequence[str]) -> str:
 
 def _some(names: Iterable[str]) -> str:
     """List names, those that differ by an index once, at most `_MOST`."""
-    found = list(dict.fromkeys(_INDEX.sub("[*]", name) for name in names))
-    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
-    return ", ".join(found[:_MOST]) + more
+    listed = list(dict.fromkeys(_INDEX.sub("[*]", name) for name in names))
+    more = f" and {len(listed) - _MOST} more" if len(listed) > _MOST else ""
+    return ", ".join(listed[:_MOST]) + more
 
 
 def matching(pattern: str, names: Iterable[str]) -> list[str]:
@@ -70,10 +70,10 @@ def chosen_names(
     if not listed or not all(isinstance(pattern, str) for pattern in patterns):
         raise UnknownName(f"variables are given as a list of names, not as {described(patterns)}")
     every = list(names)
-    found: dict[str, None] = {}
+    chosen: dict[str, None] = {}
     for pattern in patterns:
         matches = matching(pattern, every)
         if not matches:
             known(pattern, [*every, *words], "variable")
-        found |= dict.fromkeys(matches)
-    return list(found)
+        chosen |= dict.fromkeys(matches)
+    return list(chosen)

@@ -172,15 +172,15 @@ def _housing(scene: Scene, causality: str) -> list[Variable]:
 
 def _microphone_variables(scene: Scene, causality: str) -> list[Variable]:
     """Return the variables of the microphones: as for a single bearing, of the sum over the set."""
-    found = microphones(scene, causality, _own(scene, SP.z_mics(_count(scene))))
+    variables = microphones(scene, causality, _own(scene, SP.z_mics(_count(scene))))
     if scene.sound is None or scene.sound.radiator != "housing":
-        return found
+        return variables
     shown = tuple(f".spl_{part}" for part in ("inner_ring", "cage", "balls"))
     return [
         replace(one, description=one.description.replace(" at microphone", " of bearing 1 at microphone"))
         if one.name.endswith(shown)
         else one
-        for one in found
+        for one in variables
     ]
 
 

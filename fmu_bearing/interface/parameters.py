@@ -120,12 +120,12 @@ def _turning(scene: Scene, polar: float, rings: tuple[float, float, float]) -> l
 def _arrangement(members: Sequence[SetBearing]) -> list[Variable]:
     """Return where each bearing of a set is, and which way it carries."""
     table = []
-    for b, one in enumerate(members, start=1):
+    for b, member in enumerate(members, start=1):
         words = f"Bearing {b}: ball plane from the shaft's nose, towards +X"
-        place = si(one).position
+        place = si(member).position
         table.append(_constant(f"bearing[{b}].position", words, place, "m", nominal=0.1))
         words = f"Bearing {b}: 1 where it carries force on the shaft towards +X, -1 where towards -X"
-        table.append(_whole(f"bearing[{b}].direction", words, one.sign))
+        table.append(_whole(f"bearing[{b}].direction", words, member.sign))
     return table
 
 

@@ -154,8 +154,8 @@ class AtSpeed(Result):
             self._fit.lines, _semi_axis(a[:, 1], a[:, 2]), np.abs(a[:, 0]), _semi_axis(a[:, 3], a[:, 4]),
             strict=True,
         )  # fmt: skip
-        found = (MotionLine(origin, float(r), float(x), float(t)) for origin, r, x, t in rows)
-        return tuple(sorted(found, key=lambda one: -one.radial))
+        lines = (MotionLine(origin, float(r), float(x), float(t)) for origin, r, x, t in rows)
+        return tuple(sorted(lines, key=lambda one: -one.radial))
 
     @cached_property
     def per_source(self) -> tuple[Part, ...]:
@@ -183,18 +183,18 @@ class AtSpeed(Result):
 
     def remarks(self) -> list[str]:
         """Return which lines an average takes for synchronous, and which the fit does not part."""
-        found = [] if self.nose.scene.imperfections else ["the scene has no imperfections: give a grade"]
-        return found + [*self._near_whole(), *self._not_apart(), *self._shared()]
+        sentences = [] if self.nose.scene.imperfections else ["the scene has no imperfections: give a grade"]
+        return sentences + [*self._near_whole(), *self._not_apart(), *self._shared()]
 
     def _near_whole(self) -> Iterable[str]:
         limit = 1.0 / self.revolutions
-        largest = max(one.radial for one in self.lines)
+        largest = max(line.radial for line in self.lines)
         near = [
-            one.origin
-            for one in self.lines
-            if one.origin.bearing
-            and one.origin.off_whole < limit
-            and one.radial > max(_SMALL * largest, _NOTHING)
+            line.origin
+            for line in self.lines
+            if line.origin.bearing
+            and line.origin.off_whole < limit
+            and line.radial > max(_SMALL * largest, _NOTHING)
         ]
         if near:
             words = ", ".join(f"{self._named(one)} ({one.off_whole:.4f})" for one in near[:_NAMED])
@@ -211,7 +211,7 @@ class AtSpeed(Result):
         if growth.max() <= _APART:
             return
         worst = self._fit.lines[whole[np.argmax(growth)]]
-        others = [one for one in self._fit.lines if one.bearing]
+        others = [line for line in self._fit.lines if line.bearing]
         nearest = min(others, key=lambda one: (abs(one.order - worst.order), one.terms))
         apart = abs(nearest.order - worst.order)
         needed = f"; {int(1.0 / apart) + 1} revolutions do" if 0.0 < apart < 1.0 / self.revolutions else ""
@@ -223,13 +223,13 @@ class AtSpeed(Result):
 
     def _shared(self) -> Iterable[str]:
         """Say where the fit cannot tell the largest line of a bearing from the same of another bearing."""
-        largest = next((one.origin for one in self.lines if one.origin.bearing), None)
+        largest = next((line.origin for line in self.lines if line.origin.bearing), None)
         if largest is None:
             return
         others = [
-            one
-            for one in self._fit.lines
-            if one.name == largest.name and one.bearing not in (0, largest.bearing)
+            line
+            for line in self._fit.lines
+            if line.name == largest.name and line.bearing not in (0, largest.bearing)
         ]
         if not others:
             return
@@ -276,7 +276,7 @@ class AtSpeed(Result):
         motion = self._sum_of(lambda one: one.bearing == bearing and source in ("", one.source))
 
         def width(*directions: str) -> float:
-            signals = (self._along(motion, one) for one in directions)
+            signals = (self._along(motion, direction) for direction in directions)
             return max(asynchronous(revolutions_of(one, PER_REVOLUTION)) for one in signals)
 
         return Part(
@@ -292,7 +292,7 @@ class AtSpeed(Result):
 
     def _places(self, chosen: Callable[[Origin], bool]) -> NDArray[np.int_]:
         """Return the places of some lines in the fit."""
-        return np.array([k for k, one in enumerate(self._fit.lines) if chosen(one)], dtype=int)
+        return np.array([k for k, line in enumerate(self._fit.lines) if chosen(line)], dtype=int)
 
     def _along(self, motion: NDArray[np.float64], direction: str) -> NDArray[np.float64]:
         """Return motion, shape (points, 5), in one direction."""

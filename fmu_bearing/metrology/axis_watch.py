@@ -35,10 +35,10 @@ class AxisWatch(RatesWatch):
 
     def outputs(self, scene: Scene) -> dict[str, NDArray[np.float64]]:
         """Return the values of all calls by name; of a single bearing tilts, too."""
-        found = super().outputs(scene)
+        values = super().outputs(scene)
         if not scene.assembly.joined:
-            found |= dict(zip(OUTER_TILTS, np.array(self._tilts).T, strict=True))
-        return found
+            values |= dict(zip(OUTER_TILTS, np.array(self._tilts).T, strict=True))
+        return values
 
 
 def frequencies(rates: NDArray[np.float64], scene: Scene) -> tuple[KinematicFrequencies, ...]:

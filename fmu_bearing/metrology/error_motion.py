@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from fmu_bearing.files import check_folder
 from fmu_bearing.instance import number
 from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, MotionLine, Part
-from fmu_bearing.metrology.nose import FEWEST, MOST, followed
-from fmu_bearing.modal.campbell.weak import doubt
+from fmu_bearing.metrology.nose import FEWEST, MOST, nose_of_run
+from fmu_bearing.modal.campbell.doubts import doubt
 from fmu_bearing.modal.modes.points import given
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Result, table
@@ -75,15 +75,15 @@ class ErrorMotion(Result):
             "synchronous, by line", "fundamental, by line", "residual, by line",
         ]  # fmt: skip
         rows = []
-        for one in self.speeds:
-            for found in one.values:
+        for speed in self.speeds:
+            for found in speed.values:
                 unit, factor = DIRECTIONS[found.direction]
                 figures = (
                     found.asynchronous, found.synchronous, found.synchronous_by_line, found.fundamental,
                     found.residual_by_line,
                 )  # fmt: skip
                 shown = ["-" if math.isnan(value) else f"{factor * value:.4f}" for value in figures]
-                rows.append([f"{one.rpm:g}", f"{one.revolutions}", found.direction, unit, *shown])
+                rows.append([f"{speed.rpm:g}", f"{speed.revolutions}", found.direction, unit, *shown])
         return columns, rows
 
     def lines(self, count: int = _LINES) -> Table:
@@ -119,8 +119,8 @@ class ErrorMotion(Result):
 
     def remarks(self) -> list[str]:
         """Return what the values do not say: lines near whole orders, the lower bound, doubts."""
-        found = [line for one in self.speeds for line in one.remarks()]
-        return list(dict.fromkeys([*found, *([self.doubt] if self.doubt else []), BOUND]))
+        sentences = [line for speed in self.speeds for line in speed.remarks()]
+        return list(dict.fromkeys([*sentences, *([self.doubt] if self.doubt else []), BOUND]))
 
     def save(
         self, folder: str | os.PathLike[str], direction: str = "rotating", *, picture: bool = True
@@ -138,8 +138,8 @@ class ErrorMotion(Result):
         target.mkdir(parents=True, exist_ok=True)
         tables = (self.table(), self.lines(_LISTED), self.per_bearing(), self.per_source())
         files = [target / name for name in FILES[: len(tables)]]
-        for file, found in zip(files, tables, strict=True):
-            write_csv(file, *found)
+        for file, rows in zip(files, tables, strict=True):
+            write_csv(file, *rows)
         if picture:
             files.append(target / FILES[-1])
             save(self.polar(direction), files[-1])
@@ -152,7 +152,7 @@ class ErrorMotion(Result):
         heads: Sequence[str] | None = None,
     ) -> Table:
         """Return columns and rows of what there is at each speed."""
-        rows = [[f"{one.rpm:g}", *row] for one in self.speeds for row in table(kind, of(one), heads)[1]]
+        rows = [[f"{speed.rpm:g}", *row] for speed in self.speeds for row in table(kind, of(speed), heads)[1]]
         return ["r/min", *table(kind, (), heads)[0]], rows
 
 
@@ -240,7 +240,7 @@ def error_motion(
 
     with keeping(done, study):
         for speed in track(rpm) if track else rpm:
-            done.append(AtSpeed(followed(scenes[speed], place, count, from_ring, fixed)))
+            done.append(AtSpeed(nose_of_run(scenes[speed], place, count, from_ring, fixed)))
     return study()
 
 
@@ -255,16 +255,16 @@ def _speeds(scene: Scene, speeds: Sequence[float] | float | None) -> list[float]
         asked: Sequence[Any] = [scene.operation.speed_rpm]
     else:
         asked = list(speeds) if isinstance(speeds, Iterable) and not isinstance(speeds, str) else [speeds]
-    found = list(dict.fromkeys(number("speeds", one) for one in asked))
-    if not found:
+    distinct = list(dict.fromkeys(number("speeds", one) for one in asked))
+    if not distinct:
         raise ValueError("speeds: none is given; give r/min, or leave speeds out for the scene's own")
     most = scene.bearing.most_speed
-    for speed in found:
+    for speed in distinct:
         if abs(speed) > most:
             raise ValueError(f"speeds: {speed:g} r/min is refused: allowed are {-most:g} to {most:g} r/min")
         if speed == 0.0:
             raise ValueError("speeds: 0 r/min is refused: an axis of rotation needs a shaft that turns")
-    return found
+    return distinct
 
 
 def _place(scene: Scene, at: float) -> float:

@@ -36,9 +36,9 @@ class LineFit:
 
     def __init__(self, lines: Sequence[Origin], revolutions: int, per_revolution: int) -> None:
         self.lines = tuple(lines)
-        self.orders: NDArray[np.float64] = np.array([0.0, *(one.order for one in lines)])
+        self.orders: NDArray[np.float64] = np.array([0.0, *(line.order for line in lines)])
         self.per_revolution, self.points = per_revolution, revolutions * per_revolution
-        weights = np.array([0.0, *(1.0 if one.bearing == 0 else float(one.terms) ** 2 for one in lines)])
+        weights = np.array([0.0, *(1.0 if line.bearing == 0 else float(line.terms) ** 2 for line in lines)])
         matrix = self._matrix()
         matrix[np.diag_indices_from(matrix)] += _PULL * np.concatenate([weights, weights[1:]])
         self._factor = cho_factor(matrix)
@@ -52,22 +52,22 @@ class LineFit:
         for part, angle in self._parts():
             sums += np.exp(-1j * self.orders[:, None] * angle) @ signals[part]
         sums /= self.points
-        found = cho_solve(self._factor, np.concatenate([sums.real, -sums.imag[1:]]))
+        solution = cho_solve(self._factor, np.concatenate([sums.real, -sums.imag[1:]]))
         count = len(self.orders)
-        amplitudes: NDArray[np.complex128] = found[:count].astype(complex)
-        amplitudes[1:] -= 1j * found[count:]
+        amplitudes: NDArray[np.complex128] = solution[:count].astype(complex)
+        amplitudes[1:] -= 1j * solution[count:]
         return amplitudes
 
     def signals(self, amplitudes: NDArray[np.complex128], chosen: NDArray[np.int_]) -> NDArray[np.float64]:
         """Return the sum of some lines (their places among ``lines``), shape (points, channels)."""
-        found = np.empty((self.points, amplitudes.shape[1]))
+        signals = np.empty((self.points, amplitudes.shape[1]))
         orders, those = self.orders[chosen + 1], amplitudes[chosen + 1]
         for part, angle in self._parts():
-            found[part] = np.real(np.exp(1j * angle[:, None] * orders) @ those)
-        return found
+            signals[part] = np.real(np.exp(1j * angle[:, None] * orders) @ those)
+        return signals
 
     def growth(self, chosen: NDArray[np.int_]) -> NDArray[np.float64]:
-        """Return by how much neighbours let noise grow in some lines' amplitudes; 1: a line stands apart."""
+        """Return by how much neighbours let noise grow in some lines' amplitudes; 1: a lone line."""
         count = len(self.orders)
         places = np.concatenate([chosen + 1, chosen + count])
         units = np.zeros((2 * count - 1, len(places)))

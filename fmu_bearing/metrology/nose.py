@@ -45,7 +45,7 @@ class Nose:
     rates: tuple[KinematicFrequencies, ...]
 
 
-def followed(
+def nose_of_run(
     scene: Scene, at: float, revolutions: int | None, outer_ring: bool,
     inputs: Mapping[str, float] | None = None,
 ) -> Nose:  # fmt: skip
@@ -105,7 +105,7 @@ def resampled(
         With the speed of the run, which is constant and not 0.
     time : ndarray, shape (points,)
         Rising (s), from the start of the run, where the shaft's angle is 0: revolutions begin there, as those
-        of `followed` do. Cubic splines lie between; what moves faster than half their rate folds back.
+        of `nose_of_run` do. Cubic splines lie between; what moves faster than half their rate folds back.
     motion : ndarray, shape (points, 5)
         As of `Nose`.
     rates : ndarray, shape (points, bearings, 2), optional
@@ -162,13 +162,13 @@ def _axis(scene: Scene, instance: Instance, at: float, outer_ring: bool) -> Call
 
     def read() -> NDArray[np.float64]:
         both = take()
-        found = both[: len(names)]
+        axis = both[: len(names)]
         if outer:
-            found[:3] -= both[len(names) :]
-            found[3:] -= outer_tilt(instance)
+            axis[:3] -= both[len(names) :]
+            axis[3:] -= outer_tilt(instance)
         # a tilt about z carries a point ahead of the middle towards y, one about y away from z
-        found[1] += at * found[4]
-        found[2] -= at * found[3]
-        return found
+        axis[1] += at * axis[4]
+        axis[2] -= at * axis[3]
+        return axis
 
     return read

@@ -69,13 +69,13 @@ def rotor(scene: Scene) -> RigidBody:
 def rotor_inertia(scene: Scene) -> float:
     """Polar inertia (kg m2) of all that turns with the shaft's speed: rotor or shaft, and inner rings."""
     shaft = scene.assembly.shaft
-    turning = sum(one.polar for one in shaft_sections(scene, shaft)) if shaft else rotor(scene).polar
+    turning = sum(section.polar for section in shaft_sections(scene, shaft)) if shaft else rotor(scene).polar
     return turning + len(scene.bearings()) * inner_ring(scene).polar
 
 
 def rings_at_port(scene: Scene) -> tuple[float, float, float]:
     """Mass (kg), mass times X (kg m), inertia about Y or Z at X = 0 (kg m2) of the inner rings."""
-    ring, places = inner_ring(scene), [one.position for one in scene.bearings()]
+    ring, places = inner_ring(scene), [bearing.position for bearing in scene.bearings()]
     about = len(places) * ring.transverse + ring.mass * sum(x * x for x in places)
     return len(places) * ring.mass, ring.mass * sum(places), about
 

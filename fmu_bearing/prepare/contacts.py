@@ -17,7 +17,7 @@ from fmu_bearing.scene.material import Material
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
 _SHEAR_HEATING = 1.84e-9
 _ANGULAR_CONTACT_KZ = 4.4
-_CHANGE = 6.6  # M at which rigid surfaces and EHL weigh alike (Biboulet and Houpert 2010, eq. 32)
+_CHANGE = 6.6  # M at which rigid surfaces and EHL weigh the same (Biboulet and Houpert 2010, eq. 32)
 
 
 def oil(scene: Scene, p: NDArray[np.float64]) -> None:

@@ -37,7 +37,7 @@ class Seat(NamedTuple):
 
 
 def seats(scene: Scene, take: Take | None = None) -> tuple[Seat | None, Seat | None]:
-    """Return how inner and outer ring of one bearing are held; None: as drawn.
+    """Return how inner and outer ring of one bearing are seated; None: as drawn.
 
     ``take``: another interference than the scene takes, see `formulas.tolerances`. A bearing of a set is
     given as its own scene (`scene.member.one_of`).
@@ -94,7 +94,7 @@ def loose(scene: Scene) -> Scene:
     angle, changed = mounted, scene
     for _ in range(_ROUNDS):
         inner, outer = (
-            0.0 if one is None else one.fit.share * max(one.interference, 0.0) for one in seats(changed)
+            0.0 if seat is None else seat.fit.share * max(seat.interference, 0.0) for seat in seats(changed)
         )
         before, angle = angle, math.acos(max(-1.0, min(1.0, math.cos(mounted) - (inner - outer) / apart)))
         turned = b.model_copy(update={"contact_angle_deg": math.degrees(angle)})

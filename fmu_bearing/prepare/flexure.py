@@ -79,5 +79,5 @@ def longest_step(table: NDArray[np.float64], method: str) -> float:
     """
     rows = table.reshape(-1, P.MODE_SIZE)
     frequencies = np.sqrt(rows[:, P.MODE_STIFFNESS] / rows[:, P.MODE_MASS]) / (2.0 * math.pi)
-    heard = frequencies if method == "rk4" else frequencies[frequencies <= BAND[1]]
-    return 1.0 / (_STEPS[method] * float(heard.max())) if heard.size else math.inf
+    audible = frequencies if method == "rk4" else frequencies[frequencies <= BAND[1]]
+    return 1.0 / (_STEPS[method] * float(audible.max())) if audible.size else math.inf

@@ -174,7 +174,7 @@ def excitation_end(scene: Scene, speed: float) -> float | None:
 
     Above it the surfaces of the scene excite nothing. None: there are no waves, or the shaft does not turn.
     """
-    alone = [one.scene for one in scene.bearings()]
+    alone = [bearing.scene for bearing in scene.bearings()]
     fastest = max(fastest_wave(one, race_harmonics(one), ball_waves(one)[0].size) for one in alone)
     return fastest * abs(speed) / (2.0 * np.pi) or None
 
@@ -183,5 +183,5 @@ def fastest_wave(scene: Scene, races: tuple[Harmonics, Harmonics], ball_orders: 
     """Fastest phase of a wave under the balls, in rad per rad of the shaft; 0: there are no waves."""
     rates = frequencies(scene, 2.0 * np.pi)  # at one turn per second
     passing = (rates.f_r - rates.f_c, rates.f_c)
-    found = [rate * max(race.orders, default=0) for rate, race in zip(passing, races, strict=True)]
-    return float(max(*found, rates.f_b * ball_orders))
+    fastest = [rate * max(race.orders, default=0) for rate, race in zip(passing, races, strict=True)]
+    return float(max(*fastest, rates.f_b * ball_orders))

@@ -23,12 +23,12 @@ def parts_of(p: NDArray[np.float64]) -> list[tuple[slice, slice]]:
     if not SP.has_shaft(p):
         return [(slice(None), slice(None))]
     first, count = SP.first(p, SP.AT_ROWS), int(p[int(p[P.SET]) + SP.BEARINGS])
-    found = []
+    places = []
     for row in p[first : first + count * SP.ROW].reshape(count, SP.ROW):
         at_p, at_s = int(row[SP.ROW_P]), int(row[SP.ROW_S])
         sizes = int(row[SP.ROW_P_SIZE]), int(row[SP.ROW_S_SIZE])
-        found.append((slice(at_p, at_p + sizes[0]), slice(at_s, at_s + sizes[1])))
-    return found
+        places.append((slice(at_p, at_p + sizes[0]), slice(at_s, at_s + sizes[1])))
+    return places
 
 
 def lengths(p: NDArray[np.float64]) -> Lengths:

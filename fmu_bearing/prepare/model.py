@@ -26,9 +26,9 @@ from fmu_bearing.prepare.imperfections import (
     wave_table,
 )
 from fmu_bearing.prepare.lengths import Lengths, lengths
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.prepare.spindle import as_set_of_one, pack_set, pedestal_axes
-from fmu_bearing.prepare.still import turn_rate
+from fmu_bearing.prepare.step_limits import turn_rate
 from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
@@ -165,7 +165,7 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     _require_computable(scene)
     bearings = scene.bearings()
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
-    packed = [_pack(one.scene, block, scene) for one, block in zip(bearings, blocks, strict=True)]
+    packed = [_pack(bearing.scene, block, scene) for bearing, block in zip(bearings, blocks, strict=True)]
     fits.share(packed)
     return pack_set(scene, packed) if scene.assembly.joined else as_set_of_one(packed[0])
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model, shaft_sections
+from fmu_bearing.elastic.shaft import ShaftModel, rigid_transform, shaft_model, shaft_sections
 from fmu_bearing.engine.choices import RESPONSE, RINGS
 from fmu_bearing.engine.layout import SP, P, Q, S, W, Z
 from fmu_bearing.prepare import bodies
@@ -72,11 +72,11 @@ def pack_set(
         p[P.SET] = p[P.ALONE] = 0.0
         p[P.ECCENTRICITY] = 0.0  # that of all that turns is the set's, see `_matrices`
     seats = [p[P.MISALIGNMENT_Y : P.MISALIGNMENT_Y + 2].copy() for p in bearings]
-    for p, seat, one in zip(bearings, seats, spindle.bearing, strict=True):
-        if one.seat == "pedestal":
+    for p, seat, bearing in zip(bearings, seats, spindle.bearing, strict=True):
+        if bearing.seat == "pedestal":
             seat[:] = 0.0  # its springs tilt the ring
         else:
-            _hold(p)
+            _remove_pedestal(p)
     follows = bearings[0][P.FIDELITY] in (RINGS, RESPONSE)
     rows = _rows(spindle, shaft, bearings, follows)
     block = _block(scene, shaft, bearings, rows, seats)
@@ -84,7 +84,7 @@ def pack_set(
     return np.concatenate([*bearings, block])
 
 
-def _hold(p: NDArray[np.float64]) -> None:
+def _remove_pedestal(p: NDArray[np.float64]) -> None:
     """Take the pedestal from under an outer ring: its seat holds it."""
     for place in (
         P.PEDESTAL_Y, P.PEDESTAL_Z, P.PEDESTAL_YZ, P.PEDESTAL_DAMPING_Y, P.PEDESTAL_DAMPING_Z,
@@ -100,14 +100,14 @@ def _driven(one: SetBearing, rings: bool) -> int:
 
 def _sliding(spindle: Spindle) -> list[SetBearing]:
     """Bearings whose outer rings slide, in the order of their coordinates."""
-    return [one for one in spindle.bearing if one.seat == "sliding"]
+    return [bearing for bearing in spindle.bearing if bearing.seat == "sliding"]
 
 
 def in_housing(sign: int, position: float) -> NDArray[np.float64]:
     """Return the matrix from the housing's six coordinates to a seat's, in the bearing's own axes."""
-    found = np.diag([sign, 1.0, 1.0, 1.0, sign, sign])
-    found[Q.Y, Q.BZ], found[Q.Z, Q.BY] = position, -position
-    return found
+    matrix = np.diag([sign, 1.0, 1.0, 1.0, sign, sign])
+    matrix[Q.Y, Q.BZ], matrix[Q.Z, Q.BY] = position, -position
+    return matrix
 
 
 def _rows(spindle: Spindle, shaft: ShaftModel, bearings: list[NDArray[np.float64]], rings: bool) -> Rows:
@@ -118,30 +118,30 @@ def _rows(spindle: Spindle, shaft: ShaftModel, bearings: list[NDArray[np.float64
     """
     moves, sliding = spindle.housing.moves, _sliding(spindle)
     behind = shaft.count + (SP.HOUSING if moves else 0)
-    standing = [one for one in spindle.bearing if rings and one.seat == "pedestal"]
+    standing = [bearing for bearing in spindle.bearing if rings and bearing.seat == "pedestal"]
     n = behind + len(sliding) + SP.HOUSING * len(standing)
-    found = []
-    for one, plane, p in zip(spindle.bearing, shaft.planes, bearings, strict=True):
+    rows = []
+    for bearing, plane, p in zip(spindle.bearing, shaft.planes, bearings, strict=True):
         every = np.zeros((SP.DRIVEN, n))
-        every[:_OUTER, : shaft.count] = placed(one.sign, 0.0) @ plane
+        every[:_OUTER, : shaft.count] = rigid_transform(bearing.sign, 0.0) @ plane
         if moves:
-            every[_OUTER:, shaft.count : behind] = in_housing(one.sign, 1e-3 * one.position_mm)
-        if one.seat == "sliding":
+            every[_OUTER:, shaft.count : behind] = in_housing(bearing.sign, 1e-3 * bearing.position_mm)
+        if bearing.seat == "sliding":
             every[_OUTER] = 0.0
-            every[_OUTER, behind + sliding.index(one)] = 1.0
-        if one.seat == "pedestal":
+            every[_OUTER, behind + sliding.index(bearing)] = 1.0
+        if bearing.seat == "pedestal":
             every[_OUTER:] = 0.0
             if rings:
-                first = behind + len(sliding) + SP.HOUSING * standing.index(one)
+                first = behind + len(sliding) + SP.HOUSING * standing.index(bearing)
                 every[_OUTER:, first : first + SP.HOUSING] = np.eye(SP.HOUSING)
         inner, outer = p[P.INNER_MASS], p[P.OUTER_MASS]
         masses = np.array(
             [inner] * 3 + [p[P.INNER_TRANSVERSE]] * 2 + [outer] * 3 + [p[P.OUTER_POLAR]]
             + [p[P.OUTER_TRANSVERSE]] * 2
         )  # fmt: skip
-        driven = _driven(one, rings)
-        found.append((masses[:driven], every[:driven]))
-    return found
+        driven = _driven(bearing, rings)
+        rows.append((masses[:driven], every[:driven]))
+    return rows
 
 
 def pedestal_axes(given: Mounting | SetHousing) -> list[float]:
@@ -149,11 +149,11 @@ def pedestal_axes(given: Mounting | SetHousing) -> list[float]:
 
     Along its turned axes y', z' it is as stiff as given, so the damping goes with the root.
     """
-    found, angle = [], math.radians(given.pedestal_axis_angle_deg)
+    axes, angle = [], math.radians(given.pedestal_axis_angle_deg)
     ratio, c, s = given.pedestal_stiffness_ratio, math.cos(angle), math.sin(angle)
     for along in (ratio, math.sqrt(ratio)):
-        found += [along * c**2 + s**2, along * s**2 + c**2, (along - 1.0) * s * c]
-    return found
+        axes += [along * c**2 + s**2, along * s**2 + c**2, (along - 1.0) * s * c]
+    return axes
 
 
 def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
@@ -179,14 +179,14 @@ def tilt_support(scene: Scene, shaft: ShaftModel) -> tuple[NDArray[np.float64], 
     place = spindle.middle_mm if given.position_mm is None else given.position_mm
     tilts = shaft.at(1e-3 * place)[Q.INNER_BY :]
     mass, moment, about = bodies.rings_at_port(scene)
-    for one in shaft_sections(scene, spindle.shaft):
-        middle = one.start + 0.5 * one.length
-        mass, moment = mass + one.mass, moment + one.mass * middle
-        about += one.transverse + one.mass * middle**2
+    for section in shaft_sections(scene, spindle.shaft):
+        middle = section.start + 0.5 * section.length
+        mass, moment = mass + section.mass, moment + section.mass * middle
+        about += section.transverse + section.mass * middle**2
     stiffness = si(given).stiffness
     critical = 2.0 * math.sqrt(stiffness * (about - moment**2 / mass))
-    held = tilts.T @ tilts
-    return stiffness * held, given.damping_ratio * critical * held
+    projection = tilts.T @ tilts
+    return stiffness * projection, given.damping_ratio * critical * projection
 
 
 def _matrices(scene: Scene, shaft: ShaftModel, rows: Rows) -> dict[int, NDArray[np.float64]]:
@@ -289,7 +289,7 @@ def _block(
         row[SP.ROW_SEAT] = _SEATS[one.seat]
         row[SP.ROW_SHARE] = shares(spindle)[k]
         row[SP.ROW_STICKOUT] = 1e-6 * one.stickout_um
-        row[SP.ROW_LEAN : SP.ROW_LEAN + 2] = seats[k]
+        row[SP.ROW_SEAT_TILT : SP.ROW_SEAT_TILT + 2] = seats[k]
         row[SP.ROW_DRIVEN] = mass.size
         row[SP.ROW_MASS : SP.ROW_MASS + mass.size] = mass
         for place, table in zip((SP.ROW_AT_T, SP.ROW_AT_COLUMNS), motions[k], strict=True):
@@ -330,6 +330,6 @@ def _preload(scene: Scene, block: NDArray[np.float64]) -> None:
     spindle = set_of(scene)
     kinds = {"spacer": SP.SPACER, "spring": SP.SPRING}
     block[SP.PRELOAD_KIND] = SP.TOUCHING if spindle.preload is None else kinds[spindle.preload.kind]
-    one_way = len({one.sign for one in spindle.bearing}) == 1
+    one_way = len({bearing.sign for bearing in spindle.bearing}) == 1
     block[SP.ONE_WAY] = one_way and not spindle.shaft.external
     block[SP.SHAFT_EXPANSION], block[SP.HOUSING_EXPANSION] = expansions(scene)

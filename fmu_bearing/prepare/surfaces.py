@@ -93,15 +93,15 @@ def mean_patches(scene: Scene) -> tuple[Patch, Patch]:
         return apart - sum(reach) * math.cos(b.contact_angle)
 
     if axial <= 0.0:
-        found, angles = (0.0, pull), (b.contact_angle, 0.0)
+        contact_loads, angles = (0.0, pull), (b.contact_angle, 0.0)
     else:
         low, high = 1e-3, 0.5 * math.pi - 1e-6
         meets = closes(low) > 0.0 > closes(high)
         inner_angle = float(brentq(closes, low, high, xtol=1e-12)) if meets else high
         inner, outer, outer_angle = loads(inner_angle)
-        found, angles = (inner, outer), (inner_angle, outer_angle)
+        contact_loads, angles = (inner, outer), (inner_angle, outer_angle)
     patches = []
-    for side, load, angle, contact in zip((-1.0, 1.0), found, angles, contacts, strict=True):
+    for side, load, angle, contact in zip((-1.0, 1.0), contact_loads, angles, contacts, strict=True):
         root = math.sqrt((load / contact.stiffness) ** (2.0 / 3.0))
         radius = 0.5 * (b.pitch_diameter + side * b.ball_diameter * math.cos(angle))
         patches.append(Patch(contact.half_width * root, radius))
@@ -122,8 +122,8 @@ def highest_orders(scene: Scene) -> Orders:
     highest = 1e3 * flaws.highest_frequency_kHz
 
     def order(rate: float, limit: int, lowest: int) -> int:
-        found = limit if rate * limit <= highest else int(highest / rate * (1.0 + 1e-12))
-        return max(found, lowest)
+        highest_order = limit if rate * limit <= highest else int(highest / rate * (1.0 + 1e-12))
+        return max(highest_order, lowest)
 
     races = (rates.f_r - rates.f_c, rates.f_c)
     inner, outer = (flaws.highest_order or order(rate, HIGHEST_ORDER, flaws.lowest_order) for rate in races)

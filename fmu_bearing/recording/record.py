@@ -16,10 +16,10 @@ from fmu_bearing.acoustics.radiation.radiators import Air
 from fmu_bearing.cautions import DOUBTS
 from fmu_bearing.engine.layout import SD, P, S
 from fmu_bearing.instance import Instance
-from fmu_bearing.modal.campbell.weak import doubt
+from fmu_bearing.modal.campbell.doubts import doubt
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import Model, prepare
-from fmu_bearing.prepare.sound import from_lines
+from fmu_bearing.prepare.sound_block import from_lines
 from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.channels.turning import WHIRL
 from fmu_bearing.recording.recording import Recording
@@ -102,7 +102,7 @@ def record(
         1.5 s for each scene, of sets up to 5 s, once per process, at constant inputs; of scenes with sound
         it makes the transfer functions of ``radiation_model``.
     keep : bool
-        On Ctrl-C raise `Stopped` with what was recorded until then as ``found``, 20 ms or more of it.
+        On Ctrl-C raise `Stopped` with what was recorded until then as ``recording``, 20 ms or more of it.
 
     Returns
     -------
@@ -166,7 +166,7 @@ def record(
             f"interrupted at {bearing.time:.3g} s of the run: nothing is kept, as levels need {SHORTEST:g} s "
             f"behind the {settle:g} s that are left out"
         )
-    found = Recording(
+    recording = Recording(
         scene, wanted, SD.RATE, first / SD.RATE, done, np.array(kept.time), np.array(kept.speed),
         {name: np.array(values) for name, values in kept.outputs.items()} | kept.rates.outputs(scene),
         kept.rows[: first + done + TAIL],
@@ -174,8 +174,8 @@ def record(
         harmonics=kept.histories[0].harmonics,
     )  # fmt: skip
     if done < size:
-        raise Stopped(found, f"{(size - done) / SD.RATE:.3g} s of the {duration:g} s of the run")
-    return found
+        raise Stopped(recording, f"{(size - done) / SD.RATE:.3g} s of the {duration:g} s of the run")
+    return recording
 
 
 def recording_of(source: RecordingSource, duration: float = DURATION, **options: Any) -> Recording:
@@ -262,8 +262,8 @@ class _Readings:
         self.watch = watch
         self.rates = RatesWatch()
         self.histories = [_History(bearing.p[at_p], at_s) for at_p, at_s in parts_of(bearing.p)]
-        self.depth = min(one.depth for one in self.histories)
-        self.rows = np.zeros((rows, sum(len(one.lanes) for one in self.histories)))
+        self.depth = min(history.depth for history in self.histories)
+        self.rows = np.zeros((rows, sum(len(history.lanes) for history in self.histories)))
         self.count = 0
         self.time: list[float] = []
         self.speed: list[float] = []
@@ -282,6 +282,6 @@ class _Readings:
         if count - self.count > self.depth:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
-        self.rows[new] = np.hstack([one.rows(self.bearing.s, new) for one in self.histories])
+        self.rows[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.histories])
         self.count = count
         return min(count, len(self.rows)) / SD.RATE

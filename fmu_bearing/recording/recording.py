@@ -177,9 +177,9 @@ class Recording(ChannelHistory):
         names = tuple(name for name, _ in self.named(positions))
         pressure = self.pressure(positions, radiation_model)
         bins = resolution or measure.fine(self)
-        found = [level_spectrum(row, self.rate, bins) for row in pressure]
-        rows = np.array([levels for _, levels in found])
-        return Spectrum(names, found[0][0], rows, ("dB",) * len(names), MICROPHONE, self.excitation_end)
+        spectra = [level_spectrum(row, self.rate, bins) for row in pressure]
+        rows = np.array([levels for _, levels in spectra])
+        return Spectrum(names, spectra[0][0], rows, ("dB",) * len(names), MICROPHONE, self.excitation_end)
 
     def plot(
         self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None,
@@ -198,13 +198,15 @@ class Recording(ChannelHistory):
         from fmu_bearing.recording.measurements.pictures import spectrum_picture
 
         need("matplotlib", "a picture")  # refused before the sound is computed
-        found = self.spectrum(positions, radiation_model, resolution)
-        shown = found.frequency <= highest
+        spectrum = self.spectrum(positions, radiation_model, resolution)
+        shown = spectrum.frequency <= highest
         kinematics = None if self.scene is None else self.kinematics()
-        levels = {name: found[name][shown] for name in found}
+        levels = {name: spectrum[name][shown] for name in spectrum}
         first = next(iter(levels.values()))
-        lines = [] if kinematics is None else strongest(self, found.frequency[shown], first)
-        return spectrum_picture(found.frequency[shown], levels, kinematics, title, self.excitation_end, lines)
+        lines = [] if kinematics is None else strongest(self, spectrum.frequency[shown], first)
+        return spectrum_picture(
+            spectrum.frequency[shown], levels, kinematics, title, self.excitation_end, lines
+        )
 
     def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.

@@ -386,21 +386,21 @@ def _sections(
     scene = subject.recording.scene
     asked = dict.fromkeys(("arrangement", "axial", "warmth"), subject.several)
     asked |= {"fits": scene is not None and scene.fit is not None, "changes": changes is not False}
-    found: list[Section] = []
+    sections: list[Section] = []
     stopped = False
     for key, title, make_one in plan:
         if not asked.get(key, True):
             continue
         if stopped or (left or reason == CUT) and key in _SLOW:
-            found.append(Section(key, title, (), CUT))
+            sections.append(Section(key, title, (), CUT))
             continue
         tell(f"section: {title.lower()}")
         try:
-            found.append(make_one())
+            sections.append(make_one())
         except Absent as problem:
-            found.append(Section(key, title, (), str(problem)))
+            sections.append(Section(key, title, (), str(problem)))
         except KeyboardInterrupt:
-            found.append(Section(key, title, (), CUT))
+            sections.append(Section(key, title, (), CUT))
             stopped = True
-    left += [one.key for one in found if one.missing == CUT]
-    return found, microphones
+    left += [one.key for one in sections if one.missing == CUT]
+    return sections, microphones

@@ -93,11 +93,13 @@ class Result:
     def __init_subclass__(cls) -> None:
         """Read the quantities of a class."""
         super().__init_subclass__()
-        cls.declared = tuple(Quantity(one) if isinstance(one, str) else one for one in cls.quantities)
+        cls.declared = tuple(
+            Quantity(quantity) if isinstance(quantity, str) else quantity for quantity in cls.quantities
+        )
 
     def summary(self) -> dict[str, Any]:
         """Return all values by name, SI units but where a name ends in a unit, for machines."""
-        return {one.key: plain(one.of(self)) for one in self.declared if one.key}
+        return {quantity.key: plain(quantity.of(self)) for quantity in self.declared if quantity.key}
 
     def to_json(self) -> str:
         """Return `summary` as JSON; NaN and infinity become null."""
@@ -120,10 +122,10 @@ class Result:
     def to_xarray(self) -> "xarray.Dataset":
         """Return `to_pandas` as a dataset over ``row``, units in attributes."""
         frame = _frame(self.records()).rename_axis("row")
-        found: xarray.Dataset = need("xarray", "a dataset").Dataset.from_dataframe(frame)
+        dataset: xarray.Dataset = need("xarray", "a dataset").Dataset.from_dataframe(frame)
         for key, unit in frame.attrs["units"].items():
-            found[key].attrs["units"] = unit
-        return found
+            dataset[key].attrs["units"] = unit
+        return dataset
 
     def save(self, path: str | os.PathLike[str]) -> Any:
         """Write `summary` to ``.json``, or `records` to ``.csv`` or ``.nc`` (netCDF); return the file.
@@ -170,22 +172,22 @@ class Study(Result):
 
 def table(kind: type[Result], rows: Sequence[Result], heads: Sequence[str] | None = None) -> Table:
     """Return columns and rows for people: the quantities that have a heading, or those of ``heads``."""
-    named = {one.head: one for one in kind.declared if one.head is not None}
+    named = {quantity.head: quantity for quantity in kind.declared if quantity.head is not None}
     columns = list(named) if heads is None else list(heads)
     return columns, [[named[head].text(row) for head in columns] for row in rows]
 
 
 def _frame(rows: Sequence[Result]) -> "pandas.DataFrame":
     """Return rows as a table with units by column."""
-    frame: pandas.DataFrame = need("pandas", "a data frame").DataFrame([_scalars(one) for one in rows])
-    units = {one.key: one.unit for one in rows[0].declared} if rows else {}
+    frame: pandas.DataFrame = need("pandas", "a data frame").DataFrame([_scalars(row) for row in rows])
+    units = {quantity.key: quantity.unit for quantity in rows[0].declared} if rows else {}
     frame.attrs["units"] = {key: units.get(key, "") for key in frame.columns}
     return frame
 
 
 def _scalars(row: Result) -> dict[str, Any]:
     """Return the values of a row; lists and tables as people read them, or left out where people do not."""
-    texts = {one.key: one.text(row) for one in row.declared if one.head is not None}
+    texts = {quantity.key: quantity.text(row) for quantity in row.declared if quantity.head is not None}
     several = {key: value for key, value in row.summary().items() if isinstance(value, dict | list)}
     found = row.summary() | {key: texts.get(key) for key in several}
     return {key: value for key, value in found.items() if value is not None or key not in several}
@@ -193,9 +195,9 @@ def _scalars(row: Result) -> dict[str, Any]:
 
 def write_rows(path: Path, rows: Sequence[Result | dict[str, Any]]) -> Path:
     """Write rows as CSV, numbers with nine digits, and return the file."""
-    found = [_scalars(one) if isinstance(one, Result) else one for one in rows]
-    cells = [[f"{v:.9g}" if isinstance(v, float) else str(v) for v in row.values()] for row in found]
-    write_csv(path, list(found[0]) if found else [], cells)
+    values = [_scalars(row) if isinstance(row, Result) else row for row in rows]
+    cells = [[f"{v:.9g}" if isinstance(v, float) else str(v) for v in row.values()] for row in values]
+    write_csv(path, list(values[0]) if values else [], cells)
     return path
 
 

@@ -18,10 +18,10 @@ _ROOM = 1.0  # dB above: there four fifths of what is read is the floor itself
 
 def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
     """Return values of a variable with NaN in place of levels (unit ``"dB"``) that are not there."""
-    found = np.array(values, dtype=float)
+    levels = np.array(values, dtype=float)
     if unit == "dB":
-        found[found < SILENCE + _ROOM] = np.nan
-    return found
+        levels[levels < SILENCE + _ROOM] = np.nan
+    return levels
 
 
 def decibels(value: float, digits: int = 1) -> str:
@@ -31,8 +31,8 @@ def decibels(value: float, digits: int = 1) -> str:
 
 def sounding(values: ArrayLike) -> NDArray[np.float64]:
     """Return levels (dB) of a component as they are, all of them NaN where it is silent."""
-    found = np.array(values, dtype=float)
-    return found if np.max(found) >= ROUNDING else np.full_like(found, np.nan)
+    levels = np.array(values, dtype=float)
+    return levels if np.max(levels) >= ROUNDING else np.full_like(levels, np.nan)
 
 
 def shown(value: float, unit: str) -> str:

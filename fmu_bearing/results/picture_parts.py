@@ -183,7 +183,7 @@ def free_heights(
         Height of a label, and that of the picture.
     """
     taken: list[tuple[list[float], float, float]] = []
-    found: list[float | None] = []
+    heights: list[float | None] = []
     for middles, low, wide in zip(places, base, widths, strict=True):
         own = list(middles)
         free = None
@@ -196,8 +196,8 @@ def free_heights(
                 free = height
                 taken.append((own, height, wide))
                 break
-        found.append(free)
-    return found
+        heights.append(free)
+    return heights
 
 
 def mark_excitation(ax: "Axes", end: float | None, place: float | None = None, whose: str = "") -> None:

@@ -138,7 +138,7 @@ def of_variables(
             "a step that divides the time, and inputs without jumps between"
         )
     rate = float(1.0 / gaps.mean())
-    found = [amplitude_spectrum(values, rate, resolution) for values in columns.values()]
-    rows = np.array([rms for _, rms in found])
-    return Spectrum(tuple(columns), found[0][0], rows, tuple(units[name] for name in columns),
+    spectra = [amplitude_spectrum(values, rate, resolution) for values in columns.values()]
+    rows = np.array([rms for _, rms in spectra])
+    return Spectrum(tuple(columns), spectra[0][0], rows, tuple(units[name] for name in columns),
                     excitation_end=excitation_end)  # fmt: skip

@@ -114,15 +114,15 @@ def _widths(columns: Sequence[str], rows: Sequence[Sequence[str]], room: int) ->
     least[0] = whole[0]
     if sum(least) > room:
         return None
-    found = least
+    widths = least
     for limit in range(max(whole) + 1):  # the widest columns give way first
         wider = [max(low, min(own, limit)) for low, own in zip(least, whole, strict=True)]
         if sum(wider) > room:
             break
-        found = wider
-    spare = room - sum(found)
-    lacking = [k for k, width in enumerate(found) if width < whole[k]]
-    return [width + (k in lacking[:spare]) for k, width in enumerate(found)]
+        widths = wider
+    spare = room - sum(widths)
+    lacking = [k for k, width in enumerate(widths) if width < whole[k]]
+    return [width + (k in lacking[:spare]) for k, width in enumerate(widths)]
 
 
 def row_by_row(

@@ -138,12 +138,12 @@ def _unit(unit: str, members: Sequence[str]) -> str:
 
 def settled(values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a level over time (dB) with NaN before it sounds: meters and filters start from nothing."""
-    found = present(values, "dB")
-    if np.isnan(found).all():
-        return found
-    sounding = found >= np.nanmedian(found) - _STARTING
-    found[: int(np.argmax(sounding))] = np.nan
-    return found
+    levels = present(values, "dB")
+    if np.isnan(levels).all():
+        return levels
+    sounding = levels >= np.nanmedian(levels) - _STARTING
+    levels[: int(np.argmax(sounding))] = np.nan
+    return levels
 
 
 def spoken(name: str, run: Series) -> str:
@@ -157,13 +157,13 @@ def spoken(name: str, run: Series) -> str:
 
 def usual_names(run: Series) -> list[str]:
     """Return the variables drawn by default that the run has, or all where it has none of them."""
-    found: list[str] = []
+    names: list[str] = []
     for pattern in USUAL:
         try:
-            found += chosen_names([pattern], run.names, ())
+            names += chosen_names([pattern], run.names, ())
         except UnknownName:
             continue
-    return found or run.names[:_MOST]
+    return names or run.names[:_MOST]
 
 
 def draw(run: Series, path: str | os.PathLike[str], patterns: Sequence[str] | None = None) -> None:

@@ -16,7 +16,10 @@ _NUMBER = re.compile(r"_\d+(?=_|$)")
 def _usual_units() -> dict[str, str]:
     """Return units by flat name of the variables of scenes with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
-    every = [*variables(scene, 0.0), *(one for found in any_sets(scene) for one in variables(found, 0.0))]
+    every = [
+        *variables(scene, 0.0),
+        *(variable for found in any_sets(scene) for variable in variables(found, 0.0)),
+    ]
     return {_without_index(variable.name): variable.unit for variable in every}
 
 

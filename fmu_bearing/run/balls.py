@@ -55,16 +55,16 @@ class Watch:
     def outputs(self) -> dict[str, NDArray[np.float64]]:
         """Return the values of all calls by `name_of` (rad, N, rad), and the cage's place (m)."""
         table = np.array(self._balls)
-        found = {}
+        by_name = {}
         for j in range(table.shape[1]):
-            found[name_of(j + 1, "azimuth")] = table[:, j, 0]
+            by_name[name_of(j + 1, "azimuth")] = table[:, j, 0]
             for k, race in enumerate(RACES):
-                found[name_of(j + 1, "load", race)] = table[:, j, 1 + 2 * k]
-                found[name_of(j + 1, "angle", race)] = table[:, j, 2 + 2 * k]
+                by_name[name_of(j + 1, "load", race)] = table[:, j, 1 + 2 * k]
+                by_name[name_of(j + 1, "angle", race)] = table[:, j, 2 + 2 * k]
         if self._reader is not None and self._reader.has_cage:
             for axis, values in zip("xyz", np.array(self._cage).T, strict=True):
-                found[f"cage.displacement.{axis}"] = values
-        return found
+                by_name[f"cage.displacement.{axis}"] = values
+        return by_name
 
 
 class Reader:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fmu_bearing.cautions import loose
 from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
-from fmu_bearing.modal.campbell import weak
+from fmu_bearing.modal.campbell import doubts
 from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
@@ -89,5 +89,5 @@ def build_fmu(
 
 def _doubt(scene: Scene) -> str:
     """Return why figures of a scene are in doubt; of one without sound nothing about its levels."""
-    found = weak.doubt(scene)
-    return "" if scene.sound is None and weak.is_of_levels(found) else found
+    reason = doubts.doubt(scene)
+    return "" if scene.sound is None and doubts.is_of_levels(reason) else reason

@@ -29,8 +29,8 @@ from fmu_bearing.arrays import EngineError
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
-from fmu_bearing.modal.campbell import weak
-from fmu_bearing.prepare.sound import Sounds
+from fmu_bearing.modal.campbell import doubts
+from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.progress import Stopped, keeping
 from fmu_bearing.results.table import number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
@@ -149,7 +149,7 @@ class Probe:
         if not self.errors:
             return None
         names = [field.name for field in dataclasses.fields(Errors)]
-        return Errors(**{name: max(getattr(one, name) for one in self.errors) for name in names})
+        return Errors(**{name: max(getattr(error, name) for error in self.errors) for name in names})
 
     def cells(self, at: Sequence[str]) -> list[list[str]]:
         """Texts in the order of ``COLUMNS``, a row for each of the conditions of these names."""
@@ -158,10 +158,10 @@ class Probe:
         rows = []
         for k, reason in enumerate(self.reasons):
             e = self.errors[k] if k < len(self.errors) else None
-            found = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
+            texts = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
             where = at[k] if self.errors or len(self.reasons) > 1 else "all"
             pace = number(self.pace) if k == 0 else ""
-            rows.append([*head, where, *found, pace, reason or "accurate"])
+            rows.append([*head, where, *texts, pace, reason or "accurate"])
         return rows
 
 
@@ -239,7 +239,7 @@ class Choice:
     def table(self) -> list[list[str]]:
         """Table in the order of ``SHORT``: a row for each candidate, errors in the order of ``probed``."""
         at, pace = COLUMNS.index("at"), COLUMNS.index("sim/CPU")
-        found = []
+        table_rows = []
         for k, probe in enumerate(self.probes):
             rows = probe.cells(self.probed)
             errors = [" / ".join(row[c] for row in rows) if rows[0][c] else "" for c in range(at + 1, pace)]
@@ -249,30 +249,30 @@ class Choice:
                 if reason
             ]
             verdict = "; ".join(reasons) or "accurate"
-            found.append(
+            table_rows.append(
                 [*rows[0][:at], *errors, rows[0][pace], verdict + (", chosen" if k == self.chosen else "")]
             )
-        return found
+        return table_rows
 
     def cells(self) -> list[list[str]]:
         """Table in the order of ``COLUMNS``: a row for each candidate and condition, the chosen marked."""
-        found = []
+        table_rows = []
         for k, probe in enumerate(self.probes):
             rows = probe.cells(self.probed)
             if k == self.chosen:
                 rows[0][-1] += ", chosen"
-            found += rows
-        return found
+            table_rows += rows
+        return table_rows
 
 
-def too_far(found: Errors, scene: Scene) -> str:
+def too_far(errors: Errors, scene: Scene) -> str:
     """Name the figures whose error exceeds the scene's accuracy; empty: none."""
     bounds = scene.fidelity.accuracy
     checks = (
-        ("ring velocity", found.ring_level, bounds.level_dB),
-        ("sound", 0.0 if math.isnan(found.level) else found.level, bounds.level_dB),
-        ("contact load", found.load, bounds.relative),
-        ("friction torque", found.torque, bounds.relative),
+        ("ring velocity", errors.ring_level, bounds.level_dB),
+        ("sound", 0.0 if math.isnan(errors.level) else errors.level, bounds.level_dB),
+        ("contact load", errors.load, bounds.relative),
+        ("friction torque", errors.torque, bounds.relative),
     )
     names = [name for name, error, bound in checks if not error <= bound]
     return "too far: " + ", ".join(names) if names else ""
@@ -431,4 +431,4 @@ def _reason_against(scene: Scene, speed: float) -> str:
     some hundredths of a second shows then means little.
     """
     at = {"shaft_speed": speed}
-    return "no steady state was found" if weak.unsteady(scene, at) else weak.weakness(scene, at)
+    return "no steady state was found" if doubts.unsteady(scene, at) else doubts.reason_for_doubt(scene, at)

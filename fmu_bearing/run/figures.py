@@ -90,7 +90,7 @@ def of_each(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
 
     Names that a set has as a whole (``friction_torque``), or that name a bearing, stay.
     """
-    prefixes = [one.prefix for one in scene.bearings()]
+    prefixes = [bearing.prefix for bearing in scene.bearings()]
     return tuple(
         full
         for name in names
@@ -100,7 +100,7 @@ def of_each(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
 
 def rings_of(scene: Scene) -> dict[str, tuple[int, int]]:
     """Return bearing, from 0, and place in `RINGS` of each ring of a scene by its name."""
-    heads = enumerate(one.prefix for one in scene.bearings())
+    heads = enumerate(bearing.prefix for bearing in scene.bearings())
     return {head + ring: (b, k) for b, head in heads for k, ring in enumerate(RINGS)}
 
 
@@ -130,7 +130,7 @@ def figures_of(
         For an unknown name or statistic, with the nearest, and for one that a variable does not have.
     """
     table, beside = _table(scene), apart or {}
-    found: dict[str, Figure] = {}
+    figures: dict[str, Figure] = {}
     for pattern in patterns:
         name, _, statistic = pattern.partition(":")
         if statistic:
@@ -142,8 +142,8 @@ def figures_of(
             if one in beside and statistic:
                 raise UnknownName(f"{one}:{statistic} is refused: it is a value over revolutions already")
             figure = beside[one] if one in beside else _figure(one, statistic, table)
-            found[figure.name] = figure
-    return tuple(found.values())
+            figures[figure.name] = figure
+    return tuple(figures.values())
 
 
 def rows_over(bearing: Arrays, figures: Sequence[Figure], steps: Iterable[float]) -> NDArray[np.float64]:
@@ -171,16 +171,16 @@ def values_of(
     speed : float
         Of the shaft (rad/s), constant.
     """
-    every, found = parts_of(figures), {}
+    every, values = parts_of(figures), {}
     for figure in figures:
         signals = signals_of(figure, figures, rows)
         if not figure.columns or not np.isfinite(signals).all():
-            found[figure.name] = math.nan
+            values[figure.name] = math.nan
         elif figure.statistic == _TURN:
-            found[figure.name] = _turning(signals[:, 1:], bool(figure.places), h, speed)
+            values[figure.name] = _turning(signals[:, 1:], bool(figure.places), h, speed)
         else:
-            found[figure.name] = float(_READ[figure.statistic](signals[every::every]))
-    return found
+            values[figure.name] = float(_READ[figure.statistic](signals[every::every]))
+    return values
 
 
 def signals_of(figure: Figure, figures: Sequence[Figure], rows: NDArray[np.float64]) -> NDArray[np.float64]:

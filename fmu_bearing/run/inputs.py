@@ -101,13 +101,13 @@ def _check_range(table: NDArray[Any], inputs: Any, stop_time: float, step: float
     shift = "--input-from-start (input_from_start=True) shifts the times so that the first is 0"
     if first >= stop_time or last <= 0.0:
         raise ValueError(f"{times}, so that only one of its rows would count: {shift}")
-    held = []
+    notes = []
     if first > _EPSILON * step:
-        held.append(f"the first values are held before {first:g} s: {shift}")
+        notes.append(f"the first values are held before {first:g} s: {shift}")
     if last < stop_time - (1.0 + _EPSILON) * step:  # inputs are read at the beginning of each step
-        held.append(f"the last values are held after {last:g} s")
-    if held:
-        warnings.warn(f"{times}: {'; '.join(held)}", stacklevel=4)
+        notes.append(f"the last values are held after {last:g} s")
+    if notes:
+        warnings.warn(f"{times}: {'; '.join(notes)}", stacklevel=4)
 
 
 def _sampled(name: str, signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -68,14 +68,14 @@ def of_kind(figures: Mapping[str, float], end: str) -> list[float]:
     return [value for name, value in figures.items() if name.endswith(end)]
 
 
-def errors(found: Figures, truth: Figures, silent: float = SILENT) -> Errors:
-    """Differences of ``found`` from ``truth``.
+def errors(figures: Figures, truth: Figures, silent: float = SILENT) -> Errors:
+    """Differences of ``figures`` from ``truth``.
 
     Ring velocities count from ``silent`` (m/s) on, sound levels from ``INAUDIBLE`` on.
     """
 
     def pairs(end: str) -> Iterable[tuple[float, float]]:
-        return zip(of_kind(found, end), of_kind(truth, end), strict=True)
+        return zip(of_kind(figures, end), of_kind(truth, end), strict=True)
 
     rms = [max(value, silent) / max(true, silent) for value, true in pairs(_MOTION)]
     sound = [abs(max(value, INAUDIBLE) - max(true, INAUDIBLE)) for value, true in pairs(f".{A_LEVEL}")]
@@ -84,7 +84,7 @@ def errors(found: Figures, truth: Figures, silent: float = SILENT) -> Errors:
         ring_rms=float(np.max([abs(ratio - 1.0) for ratio in rms])),
         ring_level=float(np.max([abs(20.0 * math.log10(ratio)) for ratio in rms])),
         load=float(np.max([relative(*pair) for pair in pairs(".load_mean")])),
-        torque=relative(found["friction_torque"], truth["friction_torque"]),
+        torque=relative(figures["friction_torque"], truth["friction_torque"]),
         level=float(np.max(np.nan_to_num(sound, nan=math.inf))) if sound else math.nan,
     )
 
@@ -147,9 +147,9 @@ def measure(
     values = values_of(wanted, rows, SAMPLE, bearing.u[U.SPEED])
     if blocks:
         loud = Arrays.of(scene, *blocks, **parameters | {"METERING_START": warm_up}).init()
-        heard, steps = _figures(scene, _HEARD), round((warm_up + window) / COMMUNICATION)
-        late = rows_over(loud, heard, itertools.repeat(COMMUNICATION, steps))
-        values |= values_of(heard, late, COMMUNICATION, loud.u[U.SPEED])
+        loud_figures, steps = _figures(scene, _HEARD), round((warm_up + window) / COMMUNICATION)
+        late = rows_over(loud, loud_figures, itertools.repeat(COMMUNICATION, steps))
+        values |= values_of(loud_figures, late, COMMUNICATION, loud.u[U.SPEED])
     rings = [signals_of(one, wanted, rows)[1:] for one in wanted if one.name.endswith(_MOTION)]
     return Measured(values, np.hstack(rings), found)
 

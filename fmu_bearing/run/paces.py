@@ -51,20 +51,20 @@ class Paces:
     @property
     def slowest(self) -> float:
         """The slowest of them: what a co-simulation can count on."""
-        return min(getattr(self, one.name) for one in fields(self))
+        return min(getattr(self, field.name) for field in fields(self))
 
 
 def motions(bearing: Arrays) -> dict[str, Motion | None]:
     """Return how inputs move for each of `Paces`, from the bearing's present inputs on."""
-    held, warm = bearing.u.copy(), bearing.temperatures
-    speed = float(held[U.SPEED])
+    start, warm = bearing.u.copy(), bearing.temperatures
+    speed = float(start[U.SPEED])
     rate = min(RAMP, 0.5 * abs(speed) / TURN)
 
     def ramp(u: NDArray[np.float64], time: float) -> None:
         u[U.SPEED] = speed - math.copysign(rate, speed) * (TURN - abs(time % (2.0 * TURN) - TURN))
 
     def warming(u: NDArray[np.float64], time: float) -> None:
-        u[warm] = held[warm] + WARMING * time
+        u[warm] = start[warm] + WARMING * time
 
     def ripple(u: NDArray[np.float64], time: float) -> None:
         u[U.SPEED] = speed * (1.0 + RIPPLE * math.sin(2.0 * math.pi * MAINS * time))

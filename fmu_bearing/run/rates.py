@@ -92,7 +92,7 @@ def _means(rates: NDArray[np.float64]) -> NDArray[np.float64]:
 def _names(scene: Scene) -> list[tuple[str, str]]:
     """Return the names of orbit and spin of each bearing."""
     orbit, spin = _MEANS
-    return [(one.prefix + orbit, one.prefix + spin) for one in scene.bearings()]
+    return [(bearing.prefix + orbit, bearing.prefix + spin) for bearing in scene.bearings()]
 
 
 def _places(instance: Instance) -> NDArray[np.int_]:

@@ -18,7 +18,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine
 from fmu_bearing.run.march import at_speeds, march
@@ -95,7 +95,7 @@ def realtime(
     SceneError
         For a scene that is refused.
     Stopped
-        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``found``.
+        On Ctrl-C, a `KeyboardInterrupt` with what is finished as ``timed``.
 
     Examples
     --------
@@ -109,20 +109,20 @@ def realtime(
     first, last = speeds or _speeds(scene)
     left_out: dict[str, str] = {}
     cases = list(_cases(scene, _known(fidelities), microphones, left_out))
-    found: list[Timed] = []
+    timed: list[Timed] = []
     due = [case.name for case in cases]
 
     def study() -> Realtime:
-        return Realtime(scene, step, tuple(found), left_out, machine())
+        return Realtime(scene, step, tuple(timed), left_out, machine())
 
-    with keeping(found, study, lambda: ", ".join(due)):
+    with keeping(timed, study, lambda: ", ".join(due)):
         for case in track(cases):
             try:
-                found += [*_timed(case, step, steps, first, last)]
+                timed += [*_timed(case, step, steps, first, last)]
             except ValueError as problem:
                 left_out[case.name] = str(problem)
             due.remove(case.name)
-    if not found:
+    if not timed:
         reasons = "; ".join(dict.fromkeys(left_out.values()))
         raise ValueError(f"no fidelity of {scene.name} could be timed: {reasons}")
     return study()

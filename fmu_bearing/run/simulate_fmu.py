@@ -80,9 +80,9 @@ class FmuPlayer:
         if table is None:
             return None
         given = ["time", *columns_of(table)]
-        held = {name: one.start for name, one in self.inputs.items()} | dict(start)
+        constants = {name: one.start for name, one in self.inputs.items()} | dict(start)
         missing = [name for name in self.inputs if name not in given]
-        constant = {name: np.full(len(table), held[name]) for name in missing}
+        constant = {name: np.full(len(table), constants[name]) for name in missing}
         return structured({name: table[name] for name in given} | constant)
 
 

@@ -131,13 +131,13 @@ class Realtime(Result):
         most complete one that does is named, with sound where there is any.
         """
         costs = self._costs()
-        kept = [one for one in costs if one.worst <= self.step]
+        kept = [cost for cost in costs if cost.worst <= self.step]
         if not kept:
             return self._none(costs)
         best = kept[0]
         words = [f"{_capital(best.name)} keeps the step of {_time(self.step)}: {self._share(best.worst)}."]
-        sounding = max(count for _, count in (one.case for one in costs))
-        missed = [one for one in costs if one.worst > self.step]
+        sounding = max(count for _, count in (cost.case for cost in costs))
+        missed = [cost for cost in costs if cost.worst > self.step]
         if best.case[1] < sounding:
             words.append(f"With sound none does: {self._change([one for one in missed if one.case[1]])}.")
         elif not missed and len(costs) > 1:
@@ -156,10 +156,10 @@ class Realtime(Result):
         words = [
             f"No fidelity keeps the step of {_time(self.step)}: {near.name} takes up to {_time(near.worst)}."
         ]
-        held = [one for one in costs if one.phases[HELD].max() <= self.step]
-        if held:
+        kept = [cost for cost in costs if cost.phases[HELD].max() <= self.step]
+        if kept:
             words.append(
-                f"At the held speed {held[0].name} does: {self._share(float(held[0].phases[HELD].max()))}."
+                f"At the held speed {kept[0].name} does: {self._share(float(kept[0].phases[HELD].max()))}."
             )
         words.append(f"To change: {self._change(costs)}.")
         return " ".join(words)
@@ -181,9 +181,9 @@ class Realtime(Result):
 
         ``who``: in place of the name of a case that was named already.
         """
-        for one in costs:
-            if (longer := one.longer(self.step)) < math.inf:
-                return f"{who or one.name} would keep a step of {_time(longer)}, or a buffer as long"
+        for cost in costs:
+            if (longer := cost.longer(self.step)) < math.inf:
+                return f"{who or cost.name} would keep a step of {_time(longer)}, or a buffer as long"
         first = costs[0]
         if self.step < _SHORT:
             return f"give a longer step; below {_time(_SHORT)} the cost of a step falls less than its length"

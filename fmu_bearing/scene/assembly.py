@@ -59,7 +59,7 @@ class Assembly:
     @property
     def carries(self) -> list[str]:
         """Directions of the bearings of a shaft, from the nose on."""
-        return [one.carries for one in self.members]
+        return [member.carries for member in self.members]
 
     @property
     def moving(self) -> str:
@@ -128,8 +128,8 @@ def shares(spindle: Spindle) -> list[float]:
 
     Springs give the load of each bearing that slides, spacers that of each on the side with more bearings.
     """
-    signs = [one.sign for one in spindle.bearing]
-    sliding = {one.sign for one in spindle.bearing if one.seat == "sliding"}
+    signs = [bearing.sign for bearing in spindle.bearing]
+    sliding = {bearing.sign for bearing in spindle.bearing if bearing.seat == "sliding"}
     count = {sign: signs.count(sign) for sign in signs}
     reference = sliding.pop() if sliding else max(count, key=lambda sign: count[sign])
     return [count[reference] / count[sign] for sign in signs]

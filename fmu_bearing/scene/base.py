@@ -63,12 +63,12 @@ class Part(BaseModel):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        found = tuple(self.conflicts())
-        if found:
+        conflicts = tuple(self.conflicts())
+        if conflicts:
             # All at once, so that one run shows every error of a file.
             context: dict[str, Any] = {
-                "conflicts": found,
-                "text": "; ".join(f"{conflict.key}: {conflict.reason}" for conflict in found),
+                "conflicts": conflicts,
+                "text": "; ".join(f"{conflict.key}: {conflict.reason}" for conflict in conflicts),
             }
             raise PydanticCustomError("conflict", "{text}", context)
         return self

@@ -246,8 +246,8 @@ def _unread(maker: str, rest: str) -> str:
     known = SILENT[maker]
     if known.fullmatch(rest):
         return ""
-    found = known.match(rest)
-    return rest[found.end() if found else 0 :].strip()
+    match = known.match(rest)
+    return rest[match.end() if match else 0 :].strip()
 
 
 def _lettered(text: str, match: "re.Match[str]") -> Designation:
@@ -289,12 +289,12 @@ def _bore(digits: str, millimetres: bool) -> float:
 
 def _class(rest: str) -> str | None:
     """Return the tolerance class; makers' classes in letters come near P4 (PA7) and P2 (PA9)."""
-    found = _TOLERANCE.search(rest)
-    if found is None:
+    match = _TOLERANCE.search(rest)
+    if match is None:
         scale = re.search(r"ABEC ?([579])", rest)
         return None if scale is None else _ABEC[scale[1]]
     by_letter = {"7": "P4", "9": "P2"}
-    name = by_letter.get(found[2]) if found[1] == "A" else f"P{found[2]}"
+    name = by_letter.get(match[2]) if match[1] == "A" else f"P{match[2]}"
     return {"P3": "P4"}.get(name or "", name) if name in ("P6", "P5", "P4", "P3", "P2") else None
 
 

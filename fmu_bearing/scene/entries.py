@@ -58,11 +58,11 @@ def entries(kind: str, files: Sequence[Path] = ()) -> Mapping[str, Entry]:
     SceneError
         For a file that cannot be read, an entry that is not a bearing, or a name that is given twice.
     """
-    found = _of_package(kind)
+    by_name = _of_package(kind)
     wanted = tuple(dict.fromkeys(real_path(path) for path in (*_in_use.get(), *files)))
     if kind != "bearings" or not wanted:
-        return found
-    every = dict(found)
+        return by_name
+    every = dict(by_name)
     problems = []
     for path in wanted:
         for name, entry in _of_file(path).items():
@@ -78,12 +78,12 @@ def entries(kind: str, files: Sequence[Path] = ()) -> Mapping[str, Entry]:
 @functools.cache
 def _of_package(kind: str) -> Mapping[str, Entry]:
     text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
-    found = {name: Entry(values, text) for name, values in tomllib.loads(text).items()}
+    by_name = {name: Entry(values, text) for name, values in tomllib.loads(text).items()}
     if kind == "bearings":
         for name, size in nsk.sizes().items():
             text = nsk.entry_text(size)
-            found[name] = Entry(tomllib.loads(text)[name], text)
-    return found
+            by_name[name] = Entry(tomllib.loads(text)[name], text)
+    return by_name
 
 
 def _of_file(path: Path) -> dict[str, Entry]:

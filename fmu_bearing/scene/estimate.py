@@ -129,7 +129,7 @@ def balls_of_ratings(
     height, pitch, alpha = outside - bore, 0.5 * (bore + outside), math.radians(angle)
     low, high = _LEAST_SHARE * height, _MOST_SHARE * height
     sizes = [k * step for step in (_INCH, 0.5) for k in range(math.ceil(low / step), int(high / step) + 1)]
-    found = []
+    candidates = []
     for ball in {round(size, 3) for size in sizes}:
         for number in range(3, min(most_balls(pitch, ball), MOST_BALLS) + 1):
             if _least_cage_bore(ball, number) >= pitch:
@@ -138,20 +138,20 @@ def balls_of_ratings(
             c, c0 = iso281.dynamic_rating(*size), iso76.static_rating(*size)
             for share in (1.0, iso76.HYBRID) if ceramic else (1.0,):
                 misfit = max(abs(math.log(c / dynamic)), abs(math.log(share * c0 / static)))
-                found.append((misfit, ball, number, c, share * c0, share))
-    found.sort()
-    if not found or found[0][0] > _MOST_MISFIT:
+                candidates.append((misfit, ball, number, c, share * c0, share))
+    candidates.sort()
+    if not candidates or candidates[0][0] > _MOST_MISFIT:
         near = ""
-        if found:
-            _, ball, number, c, c0, _ = found[0]
+        if candidates:
+            _, ball, number, c, c0, _ = candidates[0]
             near = f": the nearest, {number} x {ball:g} mm, have {c:.0f} and {c0:.0f} N"
         raise SceneError(
             f"C = {dynamic:g} N and C0 = {static:g} N: no balls between a bore of {bore:g} and an outside "
             f"diameter of {outside:g} mm at {angle:g} deg have these ratings{near}; are they in N, of this "
             "bearing?"
         )
-    misfit, ball, number, c, c0, share = found[0]
-    other = next((one for one in found if abs(one[1] / ball - 1.0) > _NEXT or one[2] != number), None)
+    misfit, ball, number, c, c0, share = candidates[0]
+    other = next((one for one in candidates if abs(one[1] / ball - 1.0) > _NEXT or one[2] != number), None)
     rule = (
         f"derived from C {dynamic:g} N and C0 {static:g} N by ISO 281 and ISO 76, within "
         f"{100.0 * misfit:.1f} %"

@@ -300,8 +300,8 @@ def exclusion(scene: Tables, subject: Subject) -> Exclusion | None:
 
 def refusal(scene: Tables, subject: Subject) -> str:
     """Return the scene's name, a subject that it cannot have, why, and the way out; "" where it can."""
-    found = exclusion(scene, subject)
-    return "" if found is None else f"{scene.name}: {found.words(subject)}"
+    excluded = exclusion(scene, subject)
+    return "" if excluded is None else f"{scene.name}: {excluded.words(subject)}"
 
 
 def require(scene: Tables, subject: Subject) -> None:

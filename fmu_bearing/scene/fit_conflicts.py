@@ -199,13 +199,13 @@ def _preload(tables: Tables, fit: Fit, where: str) -> Iterator[Conflict]:
         return
     mounting, spindle = tables.mounting, tables.spindle
     if mounting is not None and mounting.preload_mode == "rigid":
-        held, force = "mounting.preload_N", mounting.preload_N
+        key, force = "mounting.preload_N", mounting.preload_N
     elif spindle is not None and spindle.preload is not None and spindle.preload.preload_N is not None:
-        held, force = "spindle.preload.preload_N", spindle.preload.preload_N
+        key, force = "spindle.preload.preload_N", spindle.preload.preload_N
     else:
         return
     yield Conflict(
         f"{where}.preload",
-        f'is missing beside {held} = {force:g}: give preload = "unmounted" if a maker gave it, "mounted" if '
+        f'is missing beside {key} = {force:g}: give preload = "unmounted" if a maker gave it, "mounted" if '
         "it was measured on the spindle; the fit changes a preload that is held by a distance",
     )

@@ -64,7 +64,7 @@ def loose_preload(data: Mapping[str, Any], mount: str, key: str) -> list[str]:
 
 
 def misplaced(data: Mapping[str, Any]) -> str:
-    """Say where a table of fits belongs that alone stands in the other kind's table; "": there is none."""
+    """Say where a table of fits belongs that alone is in the other kind's table; "": there is none."""
     ways = (("mounting", "spindle", "a set of bearings"), ("spindle", "mounting", "one bearing"))
     for mount, other, kind in ways:
         above, right = data.get(mount), data.get(other)

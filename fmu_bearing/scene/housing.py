@@ -28,10 +28,10 @@ def envelope(spindle: Spindle) -> tuple[float, float, float] | None:
 
 def conflicts(spindle: Spindle, bearing: Bearing) -> Iterator[Conflict]:
     """Yield why a housing that moves cannot radiate: its size, and bearings that are not inside."""
-    found = envelope(spindle)
-    if found is None:
+    cylinder = envelope(spindle)
+    if cylinder is None:
         return
-    radius, front, rear = found
+    radius, front, rear = cylinder
     limit = bearing.outside_diameter_mm
     if 2.0 * radius <= limit:
         yield Conflict(

@@ -72,7 +72,7 @@ class Materials(Part):
     def kind(self) -> Kind:
         """What the bearing is called by its materials: hybrid has steel rings and ceramic balls."""
         parts = (self.inner_ring, self.outer_ring, self.balls)
-        steel, ceramic = [_is_steel(one) for one in parts], [_is_ceramic(one) for one in parts]
+        steel, ceramic = [_is_steel(part) for part in parts], [_is_ceramic(part) for part in parts]
         if all(steel):
             return "steel"
         if all(steel[:2]) and ceramic[2]:

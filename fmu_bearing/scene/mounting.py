@@ -165,8 +165,8 @@ class Mounting(Part):
         """Yield rings that bend although a solid body on a tight seat keeps them round."""
         if self.flexure is None:
             return
-        held = (("inner", "rotor", self.rotor), ("outer", "housing", self.housing))
-        for ring, name, body in held:
+        bodies = (("inner", "rotor", self.rotor), ("outer", "housing", self.housing))
+        for ring, name, body in bodies:
             stiffness = getattr(self.flexure, f"{ring}_seat_stiffness_N_m")
             if body is not None and getattr(self.flexure, f"{ring}_ring") and stiffness == 0.0:
                 yield Conflict(

@@ -81,8 +81,8 @@ class Size(NamedTuple):
 def sizes() -> dict[str, Size]:
     """Return all sizes by name."""
     file = resources.files("fmu_bearing.scene").joinpath("catalogue", "nsk.csv")
-    found = (_size(row) for row in csv.DictReader(file.read_text("utf-8").splitlines()))
-    return {size.name: size for size in found}
+    rows = (_size(row) for row in csv.DictReader(file.read_text("utf-8").splitlines()))
+    return {size.name: size for size in rows}
 
 
 def _size(row: dict[str, str]) -> Size:
@@ -115,11 +115,11 @@ def entry_text(size: Size) -> str:
         f"contact_angle_deg = {size.angle} # {_PRINTED}",
     ]
     known = {one.key: one for one in _known(size)}
-    for one in estimates(*dimensions, size.angle):
-        if one.key != "contact_angle_deg":
-            lines.append(_line(known.get(one.key, one)))
+    for estimate in estimates(*dimensions, size.angle):
+        if estimate.key != "contact_angle_deg":
+            lines.append(_line(known.get(estimate.key, estimate)))
     lines += ["", f"[{size.name}.cage]"]
-    lines += [_line(one) for one in cage_estimates(*dimensions, size.ball)]
+    lines += [_line(estimate) for estimate in cage_estimates(*dimensions, size.ball)]
     return "\n".join(lines) + "\n"
 
 
@@ -162,7 +162,8 @@ def land_offset(size: Size) -> tuple[float, str]:
 
 def _land_of_mass(size: Size, mass: float) -> float:
     cage = {
-        one.key: float(one.value) for one in cage_estimates(size.bore, size.outside, size.width, size.ball)
+        estimate.key: float(estimate.value)
+        for estimate in cage_estimates(size.bore, size.outside, size.width, size.ball)
     }
     inside, outside = cage["bore_mm"], cage["outside_diameter_mm"]
     pockets = size.balls * math.pi / 4.0 * cage["pocket_diameter_mm"] ** 2 * (outside - inside) / 2.0

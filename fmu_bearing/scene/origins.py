@@ -82,9 +82,9 @@ def origins(path: str | Path) -> list[Origin]:
     known |= {key: ("file", remark) for key, remark in _remarks(document, "")}
     known |= _preload(document, scene)
     known |= dict(_fit(document, scene, known))
-    found = [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
+    of_keys = [_origin(key, value, known.get(key)) for key, value in flat(scene).items()]
     ends = {key: f"{one.low:g} to {one.high:g} {one.unit}" for key, one in scene.size_limits().items()}
-    return [replace(one, allowed=ends[one.key]) if one.key in ends else one for one in found]
+    return [replace(one, allowed=ends[one.key]) if one.key in ends else one for one in of_keys]
 
 
 def with_surface(found: list[Origin], surface: Surface) -> list[Origin]:

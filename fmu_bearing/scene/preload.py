@@ -96,7 +96,7 @@ def carried(data: Any) -> list[Any]:
     spindle = data.get("spindle")
     several = spindle.get("bearing") if isinstance(spindle, Mapping) else None
     members = several if isinstance(several, list | tuple) else ()
-    return [one.get("carries") for one in members if isinstance(one, Mapping)]
+    return [member.get("carries") for member in members if isinstance(member, Mapping)]
 
 
 def preload_key(table: Mapping[str, Any], path: tuple[str, ...] = TABLES[0]) -> str | None:
@@ -161,36 +161,36 @@ def preload(
     except ValidationError:
         return None
     if key == CLASS:
-        found = _of_class(table[CLASS], rings, f"{where}.{CLASS}")
+        preload_N = _of_class(table[CLASS], rings, f"{where}.{CLASS}")
     else:
         assert elastic is not None
-        found = _of_offset(table[OFFSET], rings, elastic, f"{where}.{OFFSET}")
+        preload_N = _of_offset(table[OFFSET], rings, elastic, f"{where}.{OFFSET}")
     if not uneven:
-        return found
+        return preload_N
     assert elastic is not None
     from fmu_bearing.formulas.axial import flush_load  # with SciPy, which few scenes need
 
     more, fewer = sides
-    load = flush_load(_axial(rings, elastic), found.force, more, fewer)
+    load = flush_load(_axial(rings, elastic), preload_N.force, more, fewer)
     words = f"faces flush: {more} bearings of {load:.4g} N against {fewer} of {load * more / fewer:.4g} N"
-    return Preload(load, f"{found.words}; {words}")
+    return Preload(load, f"{preload_N.words}; {words}")
 
 
 def _of_class(wanted: Any, bearing: Bearing, key: str) -> Preload:
-    found = classes(bearing)
-    known = CLASS_NAMES if found is None else tuple(found.loads)
+    by_class = classes(bearing)
+    known = CLASS_NAMES if by_class is None else tuple(by_class.loads)
     if wanted not in known:
         more = "; extra light is a class of NSK's sizes" if wanted == "extra light" else ""
         raise PreloadError(f"{key} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}")
     angle = bearing.contact_angle_deg
-    if found is None:
+    if by_class is None:
         low, high = ANGLES
         raise PreloadError(
             f"{key} = '{wanted}' is known for contact angles of {low:g} to {high:g} deg, not for "
             f"{angle:g}: give {FORCE}"
         )
-    force = found.loads[wanted]
-    if found.maker == "NSK":
+    force = by_class.loads[wanted]
+    if by_class.maker == "NSK":
         return Preload(force, f"{wanted} class of NSK: {force:g} N")
     share = dict(zip(CLASS_NAMES, preload_classes(angle), strict=True))[wanted]
     rating = dynamic_rating(*bearing.for_ratings)

@@ -143,7 +143,7 @@ class Tables(Part):
         """
         speed = self.bearing.most_speed
         words = "n d_m of 2.6e6 mm r/min or more"
-        found = {
+        limits = {
             "operation.speed_rpm": SizeLimit(-speed, speed, "r/min", words),
             "operation.lowest_speed_rpm": SizeLimit(10.0, speed, "r/min", words),
         }
@@ -151,15 +151,15 @@ class Tables(Part):
         words = "twice the static rating C0 or more"
         preload, across = SizeLimit(0.0, axial, "N", words), SizeLimit(-radial, radial, "N", words)
         if self.mounting is not None:
-            found |= {"mounting.preload_N": preload}
-            found |= {f"mounting.radial_load_{axis}_N": across for axis in "yz"}
+            limits |= {"mounting.preload_N": preload}
+            limits |= {f"mounting.radial_load_{axis}_N": across for axis in "yz"}
         if self.spindle is not None:
             if self.spindle.preload is not None:
-                found |= {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
+                limits |= {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
             words = f"twice the static rating C0 of its {len(self.spindle.bearing)} bearings or more"
             for axis, most in zip("xyz", self.spindle.most_loads(self.bearing), strict=True):
-                found[f"spindle.load.force_{axis}_N"] = SizeLimit(-most, most, "N", words)
-        return found
+                limits[f"spindle.load.force_{axis}_N"] = SizeLimit(-most, most, "N", words)
+        return limits
 
     def _sizes(self) -> Iterator[Conflict]:
         """Yield forces far beyond the static rating of the bearing, and speeds beyond those of its size."""
@@ -212,15 +212,15 @@ class Tables(Part):
             front = -half - own.front_face_mm
             yield "housing", own.diameter_mm / 2.0, front, front + own.length_mm
         if self.sound is not None and self.sound.radiator == "housing" and self.spindle is not None:
-            found = housing.envelope(self.spindle)
-            if found is not None:
-                yield "housing", *found
+            envelopes = housing.envelope(self.spindle)
+            if envelopes is not None:
+                yield "housing", *envelopes
         for name, middle in self._middles():
             yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
 
     def _middles(self) -> list[tuple[str, float]]:
         """Names of the bearings, and their places (mm) along the axis of the microphones."""
-        places = [(f"bearing {k}", one.position_mm) for k, one in enumerate(self.members, start=1)]
+        places = [(f"bearing {k}", member.position_mm) for k, member in enumerate(self.members, start=1)]
         return places or [("bearing", 0.0)]
 
     @property

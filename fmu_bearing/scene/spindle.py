@@ -273,9 +273,9 @@ class Spindle(Part):
         if self.flexure is None:
             return
         seated = not all(one.seat == "pedestal" for one in self.bearing)
-        for ring, body, held in (("inner", "shaft", True), ("outer", "housing", seated)):
+        for ring, body, seat_is_tight in (("inner", "shaft", True), ("outer", "housing", seated)):
             stiffness = getattr(self.flexure, f"{ring}_seat_stiffness_N_m")
-            if held and getattr(self.flexure, f"{ring}_ring") and stiffness == 0.0:
+            if seat_is_tight and getattr(self.flexure, f"{ring}_ring") and stiffness == 0.0:
                 yield Conflict(
                     f"flexure.{ring}_ring",
                     f"cannot bend on the tight seat of the {body}: write {ring}_ring = [], or for a loose "
@@ -286,7 +286,7 @@ class Spindle(Part):
         """Yield sliding seats without a spring, springs without one, and sets that slide as a whole."""
         spring = self.preload is not None and self.preload.kind == "spring"
         sliding = {one.sign for one in self.bearing if one.seat == "sliding"}
-        held = {one.sign for one in self.bearing if one.seat != "sliding"}
+        fixed_signs = {one.sign for one in self.bearing if one.seat != "sliding"}
         if sliding and not spring:
             yield Conflict(
                 "preload",
@@ -296,7 +296,7 @@ class Spindle(Part):
             yield Conflict(
                 "preload", 'a spring needs a ring that it pushes: give a [[spindle.bearing]] seat = "sliding"'
             )
-        elif sliding and (len(sliding) > 1 or sliding & held):
+        elif sliding and (len(sliding) > 1 or sliding & fixed_signs):
             yield Conflict(
                 "bearing",
                 "springs push all bearings of one direction and none of the other: give those of one "

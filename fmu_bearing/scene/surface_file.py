@@ -94,11 +94,11 @@ def fill(flaws: Any, folder: Path) -> str:
     if not isinstance(name, str):
         return f'{KEY} is refused; allowed: the name of a file in quotes, as "surface.toml"'
     try:
-        found = read_surface(folder / name).median()
+        law = read_surface(folder / name).median()
     except SceneError as problem:
         return f"{KEY}: {problem.problems[0]}"
     own = [race for race in RACES if flaws.get(f"{race}_race_harmonic")]
-    for key, value in found.items():
+    for key, value in law.items():
         if not any(key.startswith(race) for race in own):
             flaws.setdefault(key, value)
     return ""

@@ -204,8 +204,8 @@ def _preload(force: float, by_class: str | None, offset: float | None) -> str:
 def _axial_force(count: int, alone: Tables, given: Mapping[str, Any], rule: str) -> str:
     """Return the line of the axial force that loads bearings that all carry one way as one ``alone`` is."""
     each = alone.mounted.preload_N
-    found = preload(given, alone.bearing, alone.materials) if preload_key(given) else None
-    why = rule or (f"{each:g} N each, as given" if found is None else found.words)
+    load = preload(given, alone.bearing, alone.materials) if preload_key(given) else None
+    why = rule or (f"{each:g} N each, as given" if load is None else load.words)
     return f"force_x_N = {count * each} # assumed: {count} bearings, {why}"
 
 
@@ -269,9 +269,9 @@ def _bearing(
         f"outside_diameter_mm = {float(d.outside)}\nwidth_mm = {float(d.width)}\n"
     )
     balls = balls_of(d, kind)
-    found = estimates(d.bore, d.outside, d.width, angle_of(d), balls)
+    estimated = estimates(d.bore, d.outside, d.width, angle_of(d), balls)
     return (
-        "[bearing]\n" + given + _lines(found, fitted, angle),
+        "[bearing]\n" + given + _lines(estimated, fitted, angle),
         "[bearing.cage]\n" + _lines(cage_estimates(d.bore, d.outside, d.width, balls.diameter, balls.number)),
     )
 

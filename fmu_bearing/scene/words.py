@@ -20,8 +20,8 @@ def bearings_words(scene: Scene) -> str:
 
 def material_name(material: Material) -> str:
     """Return the name of a material in the catalogue, else its Young's modulus."""
-    found = (name for name, known in _named() if known == material)
-    return next(found, f"own material of {material.youngs_modulus_GPa:g} GPa")
+    names = (name for name, known in _named() if known == material)
+    return next(names, f"own material of {material.youngs_modulus_GPa:g} GPa")
 
 
 def materials_words(scene: Scene) -> str:

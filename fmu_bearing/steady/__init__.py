@@ -3,7 +3,7 @@
 =============  =========================================================================
 ``impedance``  forces of a linearised bearing on its inner ring per motion of that ring
 ``rest``       the engine started at the operating point, and what is read from it
-``member``     one bearing of a set by itself, its rings held
+``member``     one bearing of a set by itself, its rings fixed
 ``axial``      lift-off, spacing that keeps the preload
 ``statics``    `statics`: what a scene's bearings carry under a load
 ``stiffness``  `stiffness`: K and C of the bearings, stiffness of their shaft

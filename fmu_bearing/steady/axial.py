@@ -37,26 +37,26 @@ def lift_off(members: Sequence[Member]) -> dict[str, LiftOff]:
     forces keep the balls of an unloaded bearing on both races, and its load fades without an end. Missing: a
     direction in which nothing is unloaded, as springs of constant force never unload their bearings.
     """
-    found = {}
+    loads = {}
     for key, way in (("+x", 1.0), ("-x", -1.0)):
         # a bearing that carries the other way is unloaded when the shaft has gone this far
-        reach = [(way * _free_at(one), k) for k, one in enumerate(members) if one.sign == -way]
+        reach = [(way * _free_at(member), k) for k, member in enumerate(members) if member.sign == -way]
         reach = [one for one in reach if np.isfinite(one[0])]
-        if reach and {one.sign for one in members} != {-way}:
+        if reach and {member.sign for member in members} != {-way}:
             at, first = min(reach)
-            load = sum(one.sign * _carried(one, way * at) for one in members)
-            found[key] = LiftOff(load, first + 1)
-    return found
+            load = sum(member.sign * _carried(member, way * at) for member in members)
+            loads[key] = LiftOff(load, first + 1)
+    return loads
 
 
 def _free_at(one: Member) -> float:
     """Place (m) of the shaft at which a bearing carries nothing; infinite where it follows the shaft."""
     slide = 0.0
     if one.spring is not None:
-        push, stiffness = one.spring
-        if push >= _REACH * stiffness:  # springs that soft never unload their bearing
+        spring_force, stiffness = one.spring
+        if spring_force >= _REACH * stiffness:  # springs that soft never unload their bearing
             return -one.sign * np.inf
-        slide = -push / stiffness
+        slide = -spring_force / stiffness
     return one.sign * (one.lifted() + slide - one.offset)
 
 
@@ -65,17 +65,17 @@ def _carried(one: Member, shaft: float) -> float:
     inner = one.sign * shaft + one.offset
     if one.spring is None:
         return one.carried(inner)
-    push, stiffness = one.spring
+    spring_force, stiffness = one.spring
     # between the spring without load and a bearing without one
     free = inner - one.lifted()
     low = free - _REACH
     if stiffness > 0.0:
-        if free <= -push / stiffness:
+        if free <= -spring_force / stiffness:
             return 0.0
-        low = max(low, -push / stiffness)
+        low = max(low, -spring_force / stiffness)
 
     def excess(slide: float) -> float:
-        return one.carried(inner - slide) - push - stiffness * slide
+        return one.carried(inner - slide) - spring_force - stiffness * slide
 
     if excess(low) <= 0.0:  # the bearing that is unloaded: both ends are one place
         return one.carried(inner - low)
@@ -109,5 +109,5 @@ def neutral_spacing(scene: Scene, members: Sequence[Member]) -> float | None:
 
 def spacing(bearings: Sequence[SceneBearing[Scene]]) -> float | None:
     """Distance (m) between the middles of the bearings that carry +X and of those that carry -X."""
-    groups = [[one.position for one in bearings if one.sign == sign] for sign in (1, -1)]
+    groups = [[bearing.position for bearing in bearings if bearing.sign == sign] for sign in (1, -1)]
     return abs(float(np.mean(groups[1]) - np.mean(groups[0]))) if all(groups) else None

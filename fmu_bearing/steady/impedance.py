@@ -1,4 +1,4 @@
-"""Forces of a linearised bearing on its inner ring per motion of that ring, the outer ring held.
+"""Forces of a linearised bearing on its inner ring per motion of that ring, the outer ring fixed.
 
 The balls, and the rings' flexure where the scene has it, are eliminated at the frequency, with all their
 inertia, so what is left depends on it. Inertia and gyroscopic moment of the inner ring are taken out, and the
@@ -39,9 +39,9 @@ def spaced(system: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np
     at = system.coordinates
     if system.arrays.p[P.SPRINGS] != 0.0:
         return matrix
-    found = matrix.copy()
-    found[_BALL_PLACES * at.balls :, at.ball_state(_ORBIT)] = 0.0
-    return found
+    even = matrix.copy()
+    even[_BALL_PLACES * at.balls :, at.ball_state(_ORBIT)] = 0.0
+    return even
 
 
 def impedance(
@@ -55,7 +55,7 @@ def impedance(
     Parameters
     ----------
     system : BearingLinearised
-        With rigid preload turned into a force: a ring that is held has no row.
+        With rigid preload turned into a force: a ring that is fixed has no row.
     matrix : ndarray
         Its mean matrix or that of one phase.
     """
@@ -65,22 +65,22 @@ def impedance(
     rate = at.ring_rates + np.arange(len(FREEDOMS))
     own = matrix[np.ix_(inside, inside)]
     moved, driven = matrix[np.ix_(inside, place)], matrix[np.ix_(inside, rate)]
-    found = np.empty((len(frequencies), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    stiffness = np.empty((len(frequencies), len(FREEDOMS), len(FREEDOMS)), dtype=complex)
     for k, w in enumerate(frequencies):
         s = 1j * w
         factors = lu_factor(s * np.eye(inside.size) - own, check_finite=False)
         answer = lu_solve(factors, moved + s * driven, check_finite=False)
         accelerations = matrix[np.ix_(rate, place)] + s * matrix[np.ix_(rate, rate)]
         accelerations = accelerations + matrix[np.ix_(rate, inside)] @ answer
-        found[k] = -at.masses[rate][:, None] * accelerations - _support(p, s, system.speed)
-    return found
+        stiffness[k] = -at.masses[rate][:, None] * accelerations - _support(p, s, system.speed)
+    return stiffness
 
 
 def _support(p: NDArray[np.float64], s: complex, speed: float) -> NDArray[np.complex128]:
     """Return what the tilt support and the rotor's own turning put on the inner ring, shape (5, 5)."""
-    found = np.zeros((len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    stiffness = np.zeros((len(FREEDOMS), len(FREEDOMS)), dtype=complex)
     by, bz = FREEDOMS.index("by"), FREEDOMS.index("bz")
-    found[by, by] = found[bz, bz] = p[P.TILT_STIFFNESS] + s * p[P.TILT_DAMPING]
-    found[by, bz] = s * p[P.INNER_POLAR] * speed
-    found[bz, by] = -found[by, bz]
-    return found
+    stiffness[by, by] = stiffness[bz, bz] = p[P.TILT_STIFFNESS] + s * p[P.TILT_DAMPING]
+    stiffness[by, bz] = s * p[P.INNER_POLAR] * speed
+    stiffness[bz, by] = -stiffness[by, bz]
+    return stiffness

@@ -1,4 +1,4 @@
-"""One bearing of a set by itself: what it carries where its rings are held."""
+"""One bearing of a set by itself: what it carries at a prescribed displacement of its rings."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +77,9 @@ class Member:
         """
         ring = np.array([shift, 0.0, 0.0, 0.0, 0.0])
         inputs = self.still if inputs is None else inputs
-        status = call("held", self.parameters, inputs, self._c, ring, self._force, self._out, self._w)
+        status = call(
+            "forces_at_displacement", self.parameters, inputs, self._c, ring, self._force, self._out, self._w
+        )
         if status != OK:
             raise EngineError(REASONS[status])
         return -float(self._force[Q.X])

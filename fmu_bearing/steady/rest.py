@@ -54,9 +54,9 @@ def pedestal(state: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     c = state[S.C : S.C + C.SIZE]
     tilts = [c[C.PEDESTAL_ROTATIONAL]] * 2
-    found = np.diag([c[C.PEDESTAL_AXIAL], c[C.PEDESTAL_Y], c[C.PEDESTAL_Z], *tilts])
-    found[Q.Y, Q.Z] = found[Q.Z, Q.Y] = c[C.PEDESTAL_YZ]
-    return found
+    stiffness = np.diag([c[C.PEDESTAL_AXIAL], c[C.PEDESTAL_Y], c[C.PEDESTAL_Z], *tilts])
+    stiffness[Q.Y, Q.Z] = stiffness[Q.Z, Q.Y] = c[C.PEDESTAL_YZ]
+    return stiffness
 
 
 def started(
@@ -104,13 +104,13 @@ def nose(run: Instance) -> NDArray[np.float64]:
     where its balls are in line with the grooves, as of a single bearing.
     """
     prefix = f"{run.model.scene.assembly.moving}."
-    found = np.array([run.get(prefix + name) for name in _MOTIONS])
+    place = np.array([run.get(prefix + name) for name in _MOTIONS])
     if SP.has_shaft(run.p) and run.p[int(run.p[P.SET]) + SP.ONE_WAY] != 0.0:
         # the engine counts from where the load at the start puts such a set
         first = SP.first(run.p, SP.AT_ROWS)
         row = run.p[first : first + SP.ROW]
-        found[0] += row[SP.ROW_SIGN] * (per_bearing(run, SP.OFFSET_COLD)[0] - row[SP.ROW_STICKOUT])
-    return found
+        place[0] += row[SP.ROW_SIGN] * (per_bearing(run, SP.OFFSET_COLD)[0] - row[SP.ROW_STICKOUT])
+    return place
 
 
 def per_bearing(run: Instance, place: int) -> NDArray[np.float64]:
@@ -124,11 +124,11 @@ def forces(run: Instance) -> NDArray[np.float64]:
     """Force x y z (N) and moment about y, z (N m) of the shaft on each bearing, shape (bearings, 5)."""
     scene = run.model.scene
     if scene.assembly.joined:
-        names = [[one.prefix + name for name in SP.BEARING_OUTPUTS] for one in scene.bearings()]
+        names = [[bearing.prefix + name for name in SP.BEARING_OUTPUTS] for bearing in scene.bearings()]
         return np.array([[run.get(name) for name in of_one] for of_one in names])
     p, u, c, y = run.p, run.u, run.s[S.C :], run.s[S.Y :]
-    held = p[P.RIGID] != 0.0  # the pedestal then carries the force of the held place
-    axial = y[Y.Q0 + Q.OUTER] * c[C.PEDESTAL_AXIAL] if held else u[U.PRELOAD]
+    rigid = p[P.RIGID] != 0.0  # the pedestal then carries the force of the held place
+    axial = y[Y.Q0 + Q.OUTER] * c[C.PEDESTAL_AXIAL] if rigid else u[U.PRELOAD]
     weight = GRAVITY * p[P.INNER_MASS] if p[P.GRAVITY] else 0.0
     support = -p[P.TILT_STIFFNESS] * y[Y.Q0 + Q.INNER_BY : Y.Q0 + Q.INNER_BZ + 1]
     return np.array([[axial, u[U.LOAD_Y], u[U.LOAD_Z] - weight, *support]])
@@ -146,18 +146,18 @@ def preloads(run: Instance) -> dict[str, list[float]]:
     EngineError
         Where there is no equilibrium; a ``ValueError``.
     """
-    signs = np.array([one.sign for one in run.model.scene.bearings()])
+    signs = np.array([bearing.sign for bearing in run.model.scene.bearings()])
     if run.p[P.RIGID] == 0.0 and len(set(signs)) == 1:
         return {}
-    found = {}
+    loads = {}
     for key, shares in _STATES.items():
         try:
-            found[key] = carried(unloaded(run, *shares))
+            loads[key] = carried(unloaded(run, *shares))
         except EngineError:
             if not gap(run, key) > 0.0:
                 raise
-            found[key] = [0.0]
-    return found
+            loads[key] = [0.0]
+    return loads
 
 
 def gap(run: Instance, key: str) -> float:
@@ -177,7 +177,7 @@ def gap(run: Instance, key: str) -> float:
 
 def carried(run: Instance) -> list[float]:
     """Return what each bearing of a started scene carries along its axis, N."""
-    signs = np.array([one.sign for one in run.model.scene.bearings()])
+    signs = np.array([bearing.sign for bearing in run.model.scene.bearings()])
     return [float(force) for force in signs * forces(run)[:, 0]]
 
 
@@ -206,14 +206,14 @@ def _without_loads(run: Instance, speed: float, warmth: float) -> Instance:
     free.u[:] = run.u
     for at_p, _ in parts_of(free.p):
         free.p[at_p][P.GRAVITY] = 0.0
-    for one in run.model.variables:
-        if one.array != "u":
+    for variable in run.model.variables:
+        if variable.array != "u":
             continue
-        if one.name.startswith(("nose.", "radial_load.")):
-            free.u[one.index] = 0.0
-        elif one.name == "shaft_speed":
-            free.u[one.index] *= speed
-        elif one.name.endswith("temperature") and warmth != 1.0:  # 1 leaves every bit
-            rise = free.u[one.index] - REFERENCE_TEMPERATURE
-            free.u[one.index] = REFERENCE_TEMPERATURE + warmth * rise
+        if variable.name.startswith(("nose.", "radial_load.")):
+            free.u[variable.index] = 0.0
+        elif variable.name == "shaft_speed":
+            free.u[variable.index] *= speed
+        elif variable.name.endswith("temperature") and warmth != 1.0:  # 1 leaves every bit
+            rise = free.u[variable.index] - REFERENCE_TEMPERATURE
+            free.u[variable.index] = REFERENCE_TEMPERATURE + warmth * rise
     return free

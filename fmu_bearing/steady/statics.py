@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
+from fmu_bearing.elastic.shaft import ShaftModel, rigid_transform, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.layout import P, Q, U
@@ -172,12 +172,12 @@ class Statics(Result):
 
     @property
     def axial_stiffness(self) -> float:
-        """Force along x per displacement, the rest held, N/m."""
+        """Force along x per displacement, the rest fixed, N/m."""
         return float(self.stiffness[0, 0])
 
     @property
     def radial_stiffness(self) -> float:
-        """Force along z per displacement, tilts held, N/m."""
+        """Force along z per displacement, tilts fixed, N/m."""
         return float(self.stiffness[2, 2])
 
     @property
@@ -197,30 +197,30 @@ class Statics(Result):
 
     def table(self) -> list[dict[str, Any]]:
         """Return a row per bearing, units in the names."""
-        return [one.summary() for one in self.bearings]
+        return [bearing.summary() for bearing in self.bearings]
 
     def cautions(self) -> list[str]:
         """Return what a designer should look at, one line each."""
-        found = [*self.remarks]
+        sentences = [*self.remarks]
         for key, loads in self.preloads.items():
             if key in self.gaps:
                 loose = f": balls are loose by {1e6 * self.gaps[key]:.1f} um"
-                found.append(f"{_STATES[key]} the rigid preload is lost{loose}")
+                sentences.append(f"{_STATES[key]} the rigid preload is lost{loose}")
             elif max(map(abs, loads)) < TOUCHING:
-                found.append(f"{_STATES[key]} the preload of the set is lost: its bearings are loose")
-        for one in self.bearings:
-            name = self.scene.assembly.name(one.number)
-            if one.axial < _UNLOADED:
-                found.append(f"{name} is unloaded: its balls skid at speed; raise the preload")
-            elif one.unloaded:
-                found.append(f"{name}: {one.unloaded} of its balls carry nothing")
+                sentences.append(f"{_STATES[key]} the preload of the set is lost: its bearings are loose")
+        for bearing in self.bearings:
+            name = self.scene.assembly.name(bearing.number)
+            if bearing.axial < _UNLOADED:
+                sentences.append(f"{name} is unloaded: its balls skid at speed; raise the preload")
+            elif bearing.unloaded:
+                sentences.append(f"{name}: {bearing.unloaded} of its balls carry nothing")
         soft, stiff = self.nose_stiffness_bending, self.nose_stiffness
         if abs(soft / stiff - 1.0) > _NOSES_DIFFER:
-            found.append(
+            sentences.append(
                 f"the shaft is rigid here and its nose has {1e-6 * stiff:.3g} N/um; one that bends has "
                 f"{1e-6 * soft:.3g} N/um: set spindle.shaft.flexible = true"
             )
-        return found
+        return sentences
 
 
 _UNLOADED = 1e-3  # N
@@ -296,7 +296,7 @@ def statics(
     load = np.array([*(float(value) for value in (*force, *moment)), plane])
     if not np.all(np.isfinite(load)):
         raise ValueError("force, place and moment must be finite numbers")
-    on_nose = placed(1.0, plane).T @ load[:FREEDOMS]
+    on_nose = rigid_transform(1.0, plane).T @ load[:FREEDOMS]
     return point(scene, {U.NOSE + k: float(part) for k, part in enumerate(on_nose)}).statics
 
 
@@ -321,7 +321,7 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
     require(scene, "statics")
     system = under_force(scene, dict(inputs or {}))
     run = started(scene, inputs, tell)
-    matrices = [at_rest(one) for one in system.bearings]
+    matrices = [at_rest(bearing) for bearing in system.bearings]
     own = bent = _stiffness(scene, system, matrices)
     spacer = None
     free: dict[str, LiftOff] = {}
@@ -337,11 +337,11 @@ def point(scene: Scene, inputs: Mapping[int, float] | None = None, tell: Tell = 
     # a solution that hardly carries is as good as none: balls are loose
     lost = [key for key, loads in carried.items() if max(map(abs, loads)) < TOUCHING]
     gaps = {} if scene.assembly.joined else {key: gap(run, key) for key in lost}
-    found = Statics(
+    statics = Statics(
         scene, load, nose(run), _bearings(scene, run, matrices), own, _at_nose(bent), free, carried, gaps,
         spacing(scene.bearings()), spacer, tuple(remarks(system)),
     )  # fmt: skip
-    return Point(run, system, found)
+    return Point(run, system, statics)
 
 
 def _shaft(scene: Scene, flexible: bool) -> ShaftModel:
@@ -371,16 +371,18 @@ def _bearings(
     """Return the bearings of a started scene, in shaft axes."""
     return tuple(
         BearingLoad(
-            one.number,
-            one.position,
-            one.sign,
+            bearing.number,
+            bearing.position,
+            bearing.sign,
             load[: Q.INNER_BY],
             load[Q.INNER_BY :],
             part.apart,
             matrix,
             *part.balls(),
         )
-        for one, part, load, matrix in zip(scene.bearings(), parts(run), forces(run), matrices, strict=True)
+        for bearing, part, load, matrix in zip(
+            scene.bearings(), parts(run), forces(run), matrices, strict=True
+        )
     )
 
 
@@ -401,22 +403,22 @@ def _stiffness(
     first = shaft.count
     # housing and sliding rings have no springs to the shaft
     upright = shaft.stiffness + tilt_support(scene, shaft)[0]
-    found = block_diag(upright, tied.stiffness[tied.shaft_count :, tied.shaft_count :])
+    stiffness = block_diag(upright, tied.stiffness[tied.shaft_count :, tied.shaft_count :])
     for one, matrix, plane, driven, sign in zip(
         bearings, matrices, shaft.planes, tied.motions, tied.signs, strict=True
     ):
-        moves = np.zeros((FREEDOMS, len(found)))
-        moves[:, :first] = placed(sign, 0.0) @ plane
+        moves = np.zeros((FREEDOMS, len(stiffness)))
+        moves[:, :first] = rigid_transform(sign, 0.0) @ plane
         if len(driven) > FREEDOMS:
             moves[:, first:] = -driven[Q.OUTER :][OUTER_PLANE, tied.shaft_count :]
         else:
             matrix = _on_pedestal(one.arrays, matrix)
-        found += moves.T @ matrix @ moves
-    own, across = found[:FREEDOMS, :FREEDOMS], found[:FREEDOMS, FREEDOMS:]
+        stiffness += moves.T @ matrix @ moves
+    own, across = stiffness[:FREEDOMS, :FREEDOMS], stiffness[:FREEDOMS, FREEDOMS:]
     if across.shape[1] == 0:
         return own
-    behind = found[FREEDOMS:, FREEDOMS:] + _LOOSE * np.eye(across.shape[1])
-    return np.asarray(own - across @ np.linalg.solve(behind, found[FREEDOMS:, :FREEDOMS]))
+    behind = stiffness[FREEDOMS:, FREEDOMS:] + _LOOSE * np.eye(across.shape[1])
+    return np.asarray(own - across @ np.linalg.solve(behind, stiffness[FREEDOMS:, :FREEDOMS]))
 
 
 def _on_pedestal(arrays: Readable, matrix: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -120,7 +120,7 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
         raise SweepError(f"a sweep needs an axis: {_SYNTAX}")
     fields = fields_of(scene)
     problems: list[str] = []
-    found: dict[str, list[Any]] = {}
+    axes: dict[str, list[Any]] = {}
     for given, values in wanted.items():
         key = key_of(scene, given)
         try:
@@ -129,16 +129,16 @@ def axes_of(scene: Scene, wanted: Mapping[str, Sequence[Any] | str]) -> tuple[Ax
         except (UnknownName, SweepError) as problem:
             problems += [line.removeprefix("there is ") for line in str(problem).splitlines()]
             continue
-        if key in found:
+        if key in axes:
             problems.append(f"axis {key} is given twice")
-        found[key] = listed
+        axes[key] = listed
     if problems:
         raise SweepError("\n".join(problems))
-    ends = [_NAMES.get(key, key.rpartition(".")[2]) for key in found]
-    names = [end if ends.count(end) == 1 else key for key, end in zip(found, ends, strict=True)]
+    ends = [_NAMES.get(key, key.rpartition(".")[2]) for key in axes]
+    names = [end if ends.count(end) == 1 else key for key, end in zip(axes, ends, strict=True)]
     return tuple(
         Axis(key, name, tuple(values), symbol(key), fields[key].description or "")
-        for (key, values), name in zip(found.items(), names, strict=True)
+        for (key, values), name in zip(axes.items(), names, strict=True)
     )
 
 

@@ -69,10 +69,10 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     except ValueError as problem:
         raise SweepError(f"{path}: {problem}") from None
     try:
-        found = Description.model_validate(data)
+        description = Description.model_validate(data)
     except ValidationError as failure:
         raise SweepError("\n".join(dict.fromkeys(f"{path}: {line}" for line in _lines(failure)))) from None
-    return found.model_copy(update={"scene": str(path.parent / found.scene)})
+    return description.model_copy(update={"scene": str(path.parent / description.scene)})
 
 
 def _lines(failure: ValidationError) -> list[str]:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
-from fmu_bearing.metrology.nose import followed
+from fmu_bearing.metrology.nose import nose_of_run
 from fmu_bearing.run import figures as of_run
 from fmu_bearing.run.figures import STATISTICS, Figure
 from fmu_bearing.scene import Scene
@@ -62,14 +62,14 @@ def error_motions(figures: Sequence[Figure], scene: Scene) -> dict[str, float]:
     At the middle of a single bearing against its outer ring, at the nose of a set against the ground. NaN
     where the shaft does not turn.
     """
-    wanted = [one.name for one in figures if one.statistic == _ERROR_MOTION]
+    wanted = [figure.name for figure in figures if figure.statistic == _ERROR_MOTION]
     if not wanted:
         return {}
     if scene.operation.speed_rpm == 0.0:
         return dict.fromkeys(wanted, math.nan)
-    values = AtSpeed(followed(scene, 0.0, None, not scene.assembly.joined)).values
-    found = {_named(kind, one.direction): getattr(one, kind) for one in values for kind in _VALUES}
-    return {name: found[name] for name in wanted}
+    values = AtSpeed(nose_of_run(scene, 0.0, None, not scene.assembly.joined)).values
+    by_name = {_named(kind, value.direction): getattr(value, kind) for value in values for kind in _VALUES}
+    return {name: by_name[name] for name in wanted}
 
 
 def _named(kind: str, direction: str) -> str:

@@ -113,9 +113,9 @@ class GlobalSensitivity(Study):
     def ranked(self, figure: str) -> list[tuple[str, float]]:
         """Return the keys with the index that ranks them, ``mu_star`` or ``ST``, the largest first."""
         place = [one.name for one in self.figures].index(figure)
-        found = self.indices[sampling.INDICES[self.layout.method][0]][place]
-        order = np.argsort(-found, kind="stable")
-        return [(self.keys[k], float(found[k])) for k in order]
+        index = self.indices[sampling.INDICES[self.layout.method][0]][place]
+        order = np.argsort(-index, kind="stable")
+        return [(self.keys[k], float(index[k])) for k in order]
 
     def table(self) -> Table:
         """Return `COLUMNS` of the method and texts: per figure a row per key, the most important first."""
@@ -141,18 +141,18 @@ class GlobalSensitivity(Study):
 
     def remarks(self) -> list[str]:
         """Say what the indices lack: samples that are left out, figures that do not change."""
-        found = []
+        sentences = []
         fewest = min(self.complete)
         if fewest < self.layout.samples:
-            found.append(
+            sentences.append(
                 f"figures rest on {fewest} of {self.layout.samples} samples at least: in the others a point "
                 "has no figure" + ("" if not self.reasons else f" ({'; '.join(self.reasons[:3])})")
             )
         first = self.indices[sampling.INDICES[self.layout.method][0]]
-        still = [one.name for one, row in zip(self.figures, first, strict=True) if not row.any()]
+        still = [figure.name for figure, row in zip(self.figures, first, strict=True) if not row.any()]
         if still:
-            found.append(f"not changed by any of the keys: {', '.join(still)}")
-        return found
+            sentences.append(f"not changed by any of the keys: {', '.join(still)}")
+        return sentences
 
     def markdown(self) -> str:
         """Return the study as a page."""
@@ -204,16 +204,16 @@ def evaluated(layout: Layout, outcomes: Outcomes) -> GlobalSensitivity:
     """
     rows = [outcomes[task.key] for task in layout.plan.tasks]
     values = np.array([row.figures for row in rows], dtype=np.float64)
-    found = [sampling.indices(layout.method, layout.shares, column, layout.seed) for column in values.T]
+    indices = [sampling.indices(layout.method, layout.shares, column, layout.seed) for column in values.T]
     reasons = tuple(dict.fromkeys(row.reason for row in rows if row.reason))
-    complete = tuple(count for _, count in found)
+    complete = tuple(count for _, count in indices)
     if max(complete) < sampling.LEAST:
         raise SweepError(
             f"{max(complete)} of {layout.samples} samples have figures at all points, which is too few: "
             "narrow the ranges" + ("" if not reasons else f"; points were refused: {'; '.join(reasons[:3])}")
         )
     names = sampling.INDICES[layout.method]
-    table = {name: np.array([one[name] for one, _ in found]) for name in names}
+    table = {name: np.array([one[name] for one, _ in indices]) for name in names}
     return GlobalSensitivity(layout, values, table, complete, reasons)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from fmu_bearing.cautions import loose
 from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
-from fmu_bearing.prepare.sound import sound_key
+from fmu_bearing.prepare.sound_block import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.figures import Figure
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
@@ -82,9 +82,9 @@ def plan(
         Where a ring bends, without scikit-fem.
     """
     scene = scene_of(source)
-    found = axes_of(scene, axes)
-    points = list(itertools.product(*(axis.values for axis in found)))
-    return plan_of(scene, found, points, settle, window, figures)
+    sweep_axes = axes_of(scene, axes)
+    points = list(itertools.product(*(axis.values for axis in sweep_axes)))
+    return plan_of(scene, sweep_axes, points, settle, window, figures)
 
 
 def plan_of(
@@ -133,7 +133,7 @@ def plan_of(
 
 def _scenes(scene: Scene, axes: tuple[Axis, ...], points: Sequence[Sequence[Any]]) -> list[Scene]:
     """Return the scene of each point, or raise with all refusals."""
-    found: list[Scene] = []
+    scenes: list[Scene] = []
     problems = [
         f"{axis.key}: the scene has no table [{table}]; add it to vary what it holds"
         for axis in axes
@@ -150,14 +150,14 @@ def _scenes(scene: Scene, axes: tuple[Axis, ...], points: Sequence[Sequence[Any]
             )
             continue
         try:
-            found.append(scene.replace(chosen))
+            scenes.append(scene.replace(chosen))
         except SceneError as problem:
             problems += [line.removeprefix(f"{scene.name}: ") for line in problem.problems]
     lines = list(dict.fromkeys(problems))
     if lines:
         more = [f"and {len(lines) - _MOST} more"] if len(lines) > _MOST else []
         raise SweepError("\n".join([*lines[:_MOST], *more]))
-    return found
+    return scenes
 
 
 def _check_times(settle: float, window: float) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
 from fmu_bearing.files import plain_file
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.run.figures import code_digest, parts_of, rows_over, values_of
 from fmu_bearing.run.metrics import SAMPLE
 from fmu_bearing.run.paces import COMMUNICATION
@@ -116,8 +116,8 @@ def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     count = max(4, round(task.window / SAMPLE)) * parts_of(there)
     h = task.window / count
     rows = rows_over(bearing, there, itertools.repeat(h, count))
-    found = values_of(there, rows, h, bearing.u[U.SPEED]) | error_motions(there, scene)
-    return tuple(found.get(name, math.nan) for name in task.figures)
+    figures = values_of(there, rows, h, bearing.u[U.SPEED]) | error_motions(there, scene)
+    return tuple(figures.get(name, math.nan) for name in task.figures)
 
 
 @functools.lru_cache(maxsize=2)

@@ -43,10 +43,10 @@ class Range:
         """Return the values at shares of the range, 0 to 1, in the key's unit."""
         low, high = self.axis.values
         if self.whole:
-            found = np.minimum(np.floor(low + shares * (high - low + 1)), high)
-            return [int(value) for value in found]
-        found = low * (high / low) ** shares if self.log else low + shares * (high - low)
-        return [float(value) for value in np.clip(found, low, high)]
+            values = np.minimum(np.floor(low + shares * (high - low + 1)), high)
+            return [int(value) for value in values]
+        values = low * (high / low) ** shares if self.log else low + shares * (high - low)
+        return [float(value) for value in np.clip(values, low, high)]
 
     def words(self) -> str:
         """Return key, ends and unit in words."""
@@ -103,15 +103,15 @@ def ranges_of(scene: Scene, wanted: Mapping[str, Sequence[float] | str]) -> tupl
         ends[key], logs[key] = [low, high], log
     if problems:
         raise SweepError("\n".join(problems))
-    found = []
+    ranges = []
     for axis in axes_of(scene, ends):
         whole = all(isinstance(value, int) for value in axis.values)
         if isinstance(value_at(scene, axis.key), int) and not whole:
             raise SweepError(f"range {axis.key} is refused: its ends are whole numbers")
         if whole and logs[axis.key]:
             raise SweepError(f"range {axis.key} is refused: whole numbers have no logarithmic range")
-        found.append(Range(axis, logs[axis.key], whole))
-    return tuple(found)
+        ranges.append(Range(axis, logs[axis.key], whole))
+    return tuple(ranges)
 
 
 def _ends(key: str, asked: Sequence[float] | str) -> tuple[float, float, bool]:

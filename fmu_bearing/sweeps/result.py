@@ -118,7 +118,7 @@ COLUMNS = ("figure", "unit", "least", "at", "largest", "at")
 
 def extremes(data: "xarray.Dataset") -> list[dict[str, Any]]:
     """Return the least and the largest of each figure and where they are, in the order of the axes."""
-    found = []
+    ends = []
     for name, values in data.data_vars.items():
         if name in (SEED, WALL, REASON) or not np.isfinite(values).any():
             continue
@@ -127,8 +127,8 @@ def extremes(data: "xarray.Dataset") -> list[dict[str, Any]]:
             one = values.isel(place)
             row[word] = float(one)
             row[f"{word}_at"] = ", ".join(_short(one[dim].item()) for dim in values.dims)
-        found.append(row)
-    return found
+        ends.append(row)
+    return ends
 
 
 def _short(value: Any) -> str:

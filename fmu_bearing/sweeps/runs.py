@@ -56,8 +56,8 @@ def finished(plan: Plan, store: Store | None) -> Outcomes:
     """Return the points of a plan that are in the store."""
     if store is None:
         return {}
-    found = ((task.key, store.load(task)) for task in plan.tasks)
-    return {key: outcome for key, outcome in found if outcome is not None}
+    outcomes = ((task.key, store.load(task)) for task in plan.tasks)
+    return {key: outcome for key, outcome in outcomes if outcome is not None}
 
 
 def crew_size(tasks: int, workers: int | None) -> int:

@@ -107,14 +107,14 @@ def indices(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of resamples that hold one value alone: their spread is 0
         if method == "morris":
-            found = need("SALib.analyze.morris", _PURPOSE).analyze(
+            analysis = need("SALib.analyze.morris", _PURPOSE).analyze(
                 _problem(keys), x, y, num_levels=_LEVELS, **more
             )
         else:
-            found = need("SALib.analyze.sobol", _PURPOSE).analyze(
+            analysis = need("SALib.analyze.sobol", _PURPOSE).analyze(
                 _problem(keys), y, calc_second_order=False, **more
             )
-    return {name: np.asarray(found[name], dtype=np.float64) for name in INDICES[method]}, count
+    return {name: np.asarray(analysis[name], dtype=np.float64) for name in INDICES[method]}, count
 
 
 def _problem(keys: int) -> dict[str, Any]:

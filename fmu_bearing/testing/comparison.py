@@ -115,7 +115,7 @@ def compare(
             f"the run goes from {run.time[0]:g} to {run.time[-1]:g} s, the reference from {begin:g} to "
             f"{end:g} s: let it cover the reference"
         )
-    found = []
+    differences = []
     for name in reference.names:
         unit = run.units.get(name) or reference.units.get(name) or unit_of(name)
         wanted = reference[name]
@@ -124,8 +124,8 @@ def compare(
         ) * float(np.max(np.abs(wanted)))
         departure = _departure(name, unit, reference.time, _at(run, name, reference.time), wanted, allowed)
         if departure is not None:
-            found.append(departure)
-    return sorted(found, key=lambda departure: departure.time)
+            differences.append(departure)
+    return sorted(differences, key=lambda departure: departure.time)
 
 
 def _chosen(given: Tolerance | None, name: str, unit: str, default: float) -> float:

@@ -156,8 +156,8 @@ class Subject:
 
     def real_inputs(self) -> list[ScalarVariable]:
         """Real inputs, continuous ones first."""
-        found = [v for v in self.numeric if v.causality == "input" and v.type == "Real"]
-        return sorted(found, key=lambda v: v.variability != "continuous")
+        inputs = [v for v in self.numeric if v.causality == "input" and v.type == "Real"]
+        return sorted(inputs, key=lambda v: v.variability != "continuous")
 
     def set(self, one: Instance, name: str, value: float) -> Answer:
         """Set a number by name."""
@@ -171,15 +171,15 @@ class Subject:
 
     def everything(self, one: Instance) -> dict[str, float]:
         """Return all numbers by name; NaN for those that cannot be read."""
-        found: dict[str, float] = {}
+        numbers: dict[str, float] = {}
         for method in ("Real", "Integer", "Boolean"):
             some = [v for v in self.numeric if _METHOD[v.type] == method]
             answer = (
                 getattr(one, f"get{method}")([v.valueReference for v in some]) if some else Answer(OK, [])
             )
             values = answer.value if answer.value is not None else [math.nan] * len(some)
-            found |= {v.name: float(value) for v, value in zip(some, values, strict=True)}
-        return found
+            numbers |= {v.name: float(value) for v, value in zip(some, values, strict=True)}
+        return numbers
 
     def outputs(self, one: Instance) -> dict[str, float]:
         """Return all numeric outputs by name."""

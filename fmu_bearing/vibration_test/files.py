@@ -31,7 +31,7 @@ def picture(title: str, bands: Sequence[Band], scale: Mapping[str, float], unit:
     """
     figure, ax = single((6.5, 4.0))
     for k, piece in enumerate(PIECES):
-        of = [getattr(one, piece) / scale[one.name] for one in bands]
+        of = [getattr(band, piece) / scale[band.name] for band in bands]
         means = np.array([values.mean() for values in of])
         reach = np.array([[mean - v.min(), v.max() - mean] for mean, v in zip(means, of, strict=True)]).T
         ax.bar(
@@ -44,7 +44,7 @@ def picture(title: str, bands: Sequence[Band], scale: Mapping[str, float], unit:
             named = "limit" if k == 0 else ""  # one entry of the legend
             ends = (k - _ROOM, k + _ROOM)
             ax.hlines(one.limit / scale[one.name], *ends, color=COLOURS["total"], linewidth=2.0, label=named)
-    names = [f"{one.name}\n{one.low:g} to {one.high:g} Hz" for one in bands]
+    names = [f"{band.name}\n{band.low:g} to {band.high:g} Hz" for band in bands]
     ax.set_xticks(range(len(bands)), names)
     label(ax, "", "radial velocity, um/s rms" if unit == "um/s" else "Anderon", title, grid=False)
     ax.legend(frameon=False, fontsize=8)

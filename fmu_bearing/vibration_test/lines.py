@@ -97,13 +97,13 @@ def waves(scene: Scene, rates: KinematicFrequencies, source: str) -> list[Origin
     """Return the lines of an imperfection up to the end of the bands, by frequency."""
     top = bands(scene)[BANDS[-1]][1] / rates.f_r
     lobes = BENDING[-1] if scene.bends else 1
-    found = bearing_origins(rates, top, sidebands=lobes, ball_sidebands=lobes)
-    found = [one for one in found if _SOURCES[one.source] == source]
+    origins = bearing_origins(rates, top, sidebands=lobes, ball_sidebands=lobes)
+    origins = [one for one in origins if _SOURCES[one.source] == source]
     if source == _SOURCES[OUTER]:
-        return [one for one in found if one.beside == 0]  # the load is the same all round
+        return [one for one in origins if one.beside == 0]  # the load is the same all round
     if source == _SOURCES[INNER]:  # waves that turn with the shaft bend the outer ring
-        found += [replace(one, source=INNER, wave=one.terms) for one in shaft_origins(lobes)]
-    return sorted(found, key=lambda one: one.order)
+        origins += [replace(one, source=INNER, wave=one.terms) for one in shaft_origins(lobes)]
+    return sorted(origins, key=lambda one: one.order)
 
 
 def spinning(rates: KinematicFrequencies, alone: Reading) -> KinematicFrequencies:
@@ -160,12 +160,12 @@ def named_lines(
     level = 10.0 * np.log10(np.maximum(energy, 1e-12))
     ranked = strongest_lines(frequency, level, frequency.size)
     known = {source: waves(scene, rates, source) for source in alone}
-    found: list[VibrationLine] = []
+    lines: list[VibrationLine] = []
     for band, (low, high) in bands(scene).items():
         inside = [one.frequency for one in ranked if low <= one.frequency < high][:count]
         named = [_named(at, band, frequency, energy, alone, known, rates.f_r) for at in inside]
-        found += sorted(named, key=lambda one: -one.velocity)
-    return tuple(found)
+        lines += sorted(named, key=lambda one: -one.velocity)
+    return tuple(lines)
 
 
 def _named(

@@ -51,8 +51,8 @@ def share(frequency: NDArray[np.float64], low: float, high: float) -> NDArray[np
     """Return how much of each bin lies between two frequencies (Hz): a bin on an edge lies in both bands."""
     width = frequency[1] - frequency[0]
     ends = np.minimum(frequency + 0.5 * width, high) - np.maximum(frequency - 0.5 * width, low)
-    found: NDArray[np.float64] = np.clip(ends / width, 0.0, 1.0)
-    return found
+    shares: NDArray[np.float64] = np.clip(ends / width, 0.0, 1.0)
+    return shares
 
 
 def reading(scene: Scene) -> Reading:

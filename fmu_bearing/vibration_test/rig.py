@@ -100,9 +100,9 @@ def rig(
     }
     if own.imperfections is not None:
         changes |= {"imperfections.unbalance_um": 0.0, "imperfections.highest_frequency_kHz": _HIGHEST_KHZ}
-    found = own.replace(changes)
-    _check_waves(found)
-    return found
+    scene_of_test = own.replace(changes)
+    _check_waves(scene_of_test)
+    return scene_of_test
 
 
 def operation(

@@ -67,12 +67,12 @@ class Vibration(Result):
     @property
     def bands(self) -> tuple[Band, ...]:
         """The bands L, M and H."""
-        found = {piece: [levels(self.scene, one) for one in ones] for piece, ones in self.readings.items()}
+        values = {piece: [levels(self.scene, one) for one in ones] for piece, ones in self.readings.items()}
         alone = {source: levels(self.scene, one) for source, one in self.alone.items()}
         limits = dict(zip(BANDS, self.limits, strict=False))
         by_piece = {
             piece: {name: np.array([one[name] for one in ones]) for name in BANDS}
-            for piece, ones in found.items()
+            for piece, ones in values.items()
         }
         return tuple(
             Band(
@@ -109,13 +109,13 @@ class Vibration(Result):
         """
         if source not in self.alone:
             raise ValueError(f"there is no source '{source}' here; there are {', '.join(self.alone)}")
-        found = self.alone[source]
-        rates = frequencies(self.scene, found)
-        return by_order(self.scene, found, spinning(rates, found) if source == _FORM else rates, source)
+        energies = self.alone[source]
+        rates = frequencies(self.scene, energies)
+        return by_order(self.scene, energies, spinning(rates, energies) if source == _FORM else rates, source)
 
     def anderon(self) -> dict[str, float]:
         """Return the mean of each band on the soft piece, in Anderon."""
-        return {one.name: one.mean / micrometres(self.scene)[one.name] for one in self.bands}
+        return {band.name: band.mean / micrometres(self.scene)[band.name] for band in self.bands}
 
     def table(self, unit: Unit = "um/s") -> Table:
         """Return columns and rows for people: each loading piece, the limits, each source alone.
@@ -134,22 +134,22 @@ class Vibration(Result):
                 for name, value in zip(BANDS, values, strict=True)
             )]  # fmt: skip
 
-        found = self.bands
+        bands = self.bands
         rows = []
         for piece in PIECES:
-            of = [getattr(one, piece) for one in found]
+            of = [getattr(one, piece) for one in bands]
             mean = f", mean of {len(self.seeds)} seeds" if several else ""
             rows.append(row(f"{piece} piece{mean}", [float(values.mean()) for values in of]))
             if several:
                 ranges = [
                     f"{digits(values.min() / scale[one.name])} to {digits(values.max() / scale[one.name])}"
-                    for one, values in zip(found, of, strict=True)
+                    for one, values in zip(bands, of, strict=True)
                 ]
                 rows.append([f"{piece} piece, range", *ranges])
         if self.limits:
-            rows.append(row("limit", [one.limit for one in found]))
-        rows += [row(f"{source} alone", [one.alone[source] for one in found]) for source in self.alone]
-        return [unit, *(f"{one.name}, {one.low:g} to {one.high:g} Hz" for one in found)], rows
+            rows.append(row("limit", [one.limit for one in bands]))
+        rows += [row(f"{source} alone", [one.alone[source] for one in bands]) for source in self.alone]
+        return [unit, *(f"{one.name}, {one.low:g} to {one.high:g} Hz" for one in bands)], rows
 
     def lines_table(self, count: int = _LINES) -> Table:
         """Return columns and rows for people: the strongest lines of each band, ``count`` at most."""
@@ -163,14 +163,14 @@ class Vibration(Result):
     def _by_band(self) -> dict[str, dict[str, Any]]:
         """Return the bands by name, with the mean in Anderon."""
         anderon = self.anderon()
-        return {one.name: one.summary() | {"mean_anderon": anderon[one.name]} for one in self.bands}
+        return {band.name: band.summary() | {"mean_anderon": anderon[band.name]} for band in self.bands}
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What to know of these figures, a sentence each."""
         bands = self.bands
-        means = {one.name: (one.mean, float(one.firm.mean())) for one in bands}
-        limits = {one.name: one.limit for one in bands if one.limit is not None}
+        means = {band.name: (band.mean, float(band.firm.mean())) for band in bands}
+        limits = {band.name: band.limit for band in bands if band.limit is not None}
         spin = frequencies(self.scene, self.readings["soft"][0]).f_b
         return tuple(remarks(self.scene, spin, means, limits))
 
@@ -239,7 +239,7 @@ def vibration(
     ValueError
         For values that are refused before the first run; see `subject` and `rig`.
     Stopped
-        On Ctrl-C, a `KeyboardInterrupt` with the seeds that are finished as ``found``.
+        On Ctrl-C, a `KeyboardInterrupt` with the seeds that are finished as ``readings``.
 
     Examples
     --------
@@ -264,25 +264,25 @@ def vibration(
         (piece, rigs[piece].model_copy(update={"imperfections": one})) for one in drawn for piece in PIECES
     ]
     runs += [(one, first.model_copy(update={"imperfections": flaws.alone(one)})) for one in flaws.sources]
-    found: dict[str, list[Reading]] = {name: [] for name, _ in runs}
-    whole = found[PIECES[-1]]  # a seed is run on all pieces, on this one last
+    readings: dict[str, list[Reading]] = {name: [] for name, _ in runs}
+    whole = readings[PIECES[-1]]  # a seed is run on all pieces, on this one last
 
     def study() -> Vibration:
         return Vibration(
             first,
             tuple(one.seed for one in drawn[: len(whole)]),
-            {piece: tuple(found[piece][: len(whole)]) for piece in PIECES},
-            {one: found[one][0] for one in flaws.sources if found[one]},
+            {piece: tuple(readings[piece][: len(whole)]) for piece in PIECES},
+            {one: readings[one][0] for one in flaws.sources if readings[one]},
             allowed,
         )
 
     def missing() -> str:
         left = [f"{seeds - len(whole)} of {seeds} seeds"] if len(whole) < seeds else []
-        return ", ".join([*left, *(f"{one} alone" for one in flaws.sources if not found[one])])
+        return ", ".join([*left, *(f"{one} alone" for one in flaws.sources if not readings[one])])
 
     with keeping(whole, study, missing):
         for name, scene in bar(runs):
-            found[name].append(reading(scene))
+            readings[name].append(reading(scene))
     return study()
 
 
@@ -306,11 +306,11 @@ def checked_values(values: Sequence[float], scene: Scene, unit: Unit, name: str)
     if len(values) != len(BANDS):
         raise ValueError(f"{name}: {len(values)} values: give three, of {', '.join(BANDS)}")
     scale = micrometres(scene, unit)
-    found = tuple(float(value) * scale[band] for band, value in zip(BANDS, values, strict=True))
-    for band, value in zip(BANDS, found, strict=True):
+    checked = tuple(float(value) * scale[band] for band, value in zip(BANDS, values, strict=True))
+    for band, value in zip(BANDS, checked, strict=True):
         if not 0.0 < value <= _HIGHEST_LIMIT:
             raise ValueError(
                 f"{name}: {band} = {value:g} um/s: give um/s above 0, {_HIGHEST_LIMIT:g} at most, or "
                 "Anderon with the unit anderon"
             )
-    return found
+    return checked

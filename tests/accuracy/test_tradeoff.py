@@ -6,7 +6,7 @@ from dataclasses import astuple
 
 import pytest
 
-from fmu_bearing.accuracy.chart import draw, front
+from fmu_bearing.accuracy.chart import draw, pareto_front
 from fmu_bearing.accuracy.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, tradeoff
 from fmu_bearing.run.settings import Setting
 
@@ -48,8 +48,8 @@ def test_a_chart_without_sound(study, tmp_path):
 
 def test_front_keeps_what_nothing_betters():
     points = [(1.0, 1e-3), (2.0, 1e-2), (1.5, 2e-2), (4.0, 0.1), (4.0, 0.2), (0.5, 1e-3)]
-    assert front(points) == [3, 1, 0]
-    assert front([]) == []
+    assert pareto_front(points) == [3, 1, 0]
+    assert pareto_front([]) == []
 
 
 def test_the_sweep_is_no_factorial_and_every_setting_is_a_scene(silent):

@@ -8,7 +8,7 @@ from fmu_bearing.acoustics.filters.design import line_parameters, radiation_of
 from fmu_bearing.acoustics.filters.fir import band_limit
 from fmu_bearing.acoustics.filters.pack import MICROPHONE_LOW_LIMIT
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections
-from fmu_bearing.acoustics.radiation.frequencies import between, fit_frequencies
+from fmu_bearing.acoustics.radiation.frequencies import fit_frequencies, interpolated_response
 from fmu_bearing.engine.layout import SD, SL, Z
 from fmu_bearing.engine.sound import beats
 from fmu_bearing.engine.sound.transfer import add_channel, bound, clear_channels, radiate, write_gains
@@ -57,7 +57,9 @@ def test_pressures_are_those_of_the_paths(block, omega):
     size = 0.0
     for members in radiation.circles(positions):
         for path in radiation.paths(positions, members):
-            response = (limit * between(fit_frequencies(), path.response, path.flight, hertz))[0]
+            response = (limit * interpolated_response(fit_frequencies(), path.response, path.flight, hertz))[
+                0
+            ]
             sound = (response if omega > 0.0 else response.conj()) * channels[path.channel] * path.weights
             rows = [SL.ROW_TOTAL, SL.ROW_PART + path.component, SL.ROW_KIND + path.kind]
             for row in rows[: 3 if path.kind != SD.BALLS_KIND else 2]:

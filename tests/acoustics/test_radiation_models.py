@@ -416,7 +416,7 @@ def test_refusals():
 
 
 def test_filters_say_how_well_they_follow(scene):
-    """The catalogue's scenes keep -50 dB; the worst stands first."""
+    """The catalogue's scenes keep -50 dB; the worst is first."""
     for name in ("7003C-bare", "7003C-spindle", "7009C-full-ceramic"):
         found = filter_errors(scene(name))
         assert found and found[0].error == max(e.error for e in found) < -50

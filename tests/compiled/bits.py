@@ -20,7 +20,7 @@ from fmu_bearing.engine.layout import EQ, MO, SD, C, F, J, Q, S, U, Y, Z
 from fmu_bearing.engine.reference.runge_kutta import ROWS, SIZE
 from fmu_bearing.engine.status import OK
 from fmu_bearing.interface.inputs import led_inputs
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.scene import read_scene
 
 ROOT = Path(__file__).parents[2]
@@ -106,14 +106,14 @@ def _study(scene) -> Iterator[tuple[str, str]]:
     yield "first_order", _digest(out)
     yield "first_order_jacobian", _digest(square)
     ring, force, answer = np.array([2e-6, 1e-6, 0.0, 1e-5, 0.0]), np.zeros(Q.OUTER), np.zeros(EQ.SIZE)
-    status = call("held", run.p, run.u, c, ring, force, answer, w)
-    yield "held", _digest(np.array([status]), c, force, answer)
+    status = call("forces_at_displacement", run.p, run.u, c, ring, force, answer, w)
+    yield "forces_at_displacement", _digest(np.array([status]), c, force, answer)
 
 
 def _answer_set(scene) -> str:
     run = _ran(scene)
     run.run(20 * STEP, STEP)
-    status = call("answer_set", run.p, run.s, run.w, float(run.s[S.FACTOR_STEP]))
+    status = call("solve_at_state", run.p, run.s, run.w, float(run.s[S.FACTOR_STEP]))
     return _digest(np.array([status]), run.s, run.w)
 
 
@@ -163,7 +163,7 @@ def digests() -> Iterator[tuple[str, str]]:
     yield "port full", _steps(_ran(port.replace({"fidelity.model": "full"})))
     yield "derivative full", _port(port.replace({"fidelity.model": "full"}))
     yield from _study(single)
-    yield "answer_set", _answer_set(pair)
+    yield "solve_at_state", _answer_set(pair)
     yield "potentials", _potentials()
     for sound in ("compact", "bem"):
         yield f"play {sound}", _play(bare, sound)

@@ -15,7 +15,7 @@ from fmu_bearing.compiled.platforms import PLATFORMS, own
 from fmu_bearing.compiled.settings import SETTINGS, TESTED, lean
 from fmu_bearing.compiled.units import ENTRIES, UNITS
 from fmu_bearing.engine import abi
-from fmu_bearing.engine.fidelities.rings import held, march
+from fmu_bearing.engine.fidelities.rings import frozen_points, march
 from tests.compiled import both_ways
 
 #: An entry of two kernels.
@@ -126,9 +126,9 @@ def test_units_count_by_the_time_they_take(monkeypatch):
 
 
 def test_the_kernels_of_a_unit_are_counted_wherever_they_are_named():
-    """Most are called through their module, as ``held.hold_all``."""
+    """Most are called through their module, as ``frozen_points.freeze_all``."""
     counted = lower._reached([abi.step.py_func])
-    assert {held.hold_all.py_func, march.try_step.py_func, abi.outputs.py_func} <= counted
+    assert {frozen_points.freeze_all.py_func, march.try_step.py_func, abi.outputs.py_func} <= counted
     assert abi.init.py_func not in counted
 
 

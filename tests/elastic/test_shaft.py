@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eig, eigh
 
-from fmu_bearing.elastic.shaft import placed, shaft_model
+from fmu_bearing.elastic.shaft import rigid_transform, shaft_model
 from fmu_bearing.elastic.shaft.beam import beam, shear_coefficient
 from fmu_bearing.elastic.shaft.flexible import flexible_model
 from fmu_bearing.elastic.shaft.sections import Section
@@ -105,14 +105,14 @@ def test_a_rigid_motion_meets_the_rigid_shaft():
     motion = np.zeros((soft.count, 5))
     motion[:5] = np.eye(5)
     for k, place in enumerate(PLANES):
-        motion[5 + 4 * k : 9 + 4 * k] = placed(1.0, place)[1:]
+        motion[5 + 4 * k : 9 + 4 * k] = rigid_transform(1.0, place)[1:]
     np.testing.assert_allclose(motion.T @ soft.mass @ motion, rigid.mass, atol=1e-13)
     np.testing.assert_allclose(motion.T @ soft.gyroscopic @ motion, rigid.gyroscopic, atol=1e-14)
     np.testing.assert_allclose(soft.across @ motion, rigid.across, atol=1e-13)
     np.testing.assert_allclose(soft.stiffness @ motion, 0.0, atol=1e-9 * soft.stiffness.max())
     np.testing.assert_allclose(soft.damping @ motion, 0.0, atol=1e-9 * soft.damping.max())
     for place in (-0.02, 0.013, 0.1, 0.23, 0.25):
-        np.testing.assert_allclose(soft.at(place) @ motion, placed(1.0, place), atol=1e-10)
+        np.testing.assert_allclose(soft.at(place) @ motion, rigid_transform(1.0, place), atol=1e-10)
 
 
 def test_matrices_commute_with_turning_about_the_axis():

@@ -68,7 +68,7 @@ class Family:
         self.by_away, self.out = rows(L.IN_AWAY, L.AWAYS), rows(L.OUT, 4)[:n]
         follow = pairs(L.FOLLOW, (2, 2, 4))[..., :n]
         self.follow, self.lead = follow
-        self.push = pairs(L.PUSH, (4, L.AWAYS))[:n]
+        self.push = pairs(L.COUPLING, (4, L.AWAYS))[:n]
         at = family * L.COMPLEX
         self.now = slice(at, at + count), slice(at + L.MODES, at + L.MODES + count)
 
@@ -229,7 +229,7 @@ class Slow:
             for first, tilt, (force, moment) in zip((0, 5), (3, 9), pushes, strict=True):
                 f[first : first + 3] += force
                 f[tilt : tilt + 2] += moment[1:]
-        beside = self.matrix(L.BESIDE_PLACE) @ place + self.matrix(L.BESIDE_RATE) @ v
+        beside = self.matrix(L.FEEDTHROUGH_PLACE) @ place + self.matrix(L.FEEDTHROUGH_RATE) @ v
         rates, begin = [], 0
         for one, e in zip(self.families, away, strict=True):
             drive = one.of(place) @ one.by_place + one.of(v) @ one.by_rate + e @ one.by_away

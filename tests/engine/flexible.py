@@ -62,7 +62,7 @@ def with_modes(p, rows, step=1e-5):
 
 
 class Flexure:
-    """Where the flexure of a bearing stands in its state and in a work space ``w``."""
+    """Where the flexure of a bearing is in its state and in a work space ``w``."""
 
     def __init__(self, p, w):
         self.count = 2 * int(p[P.MODES])

@@ -32,7 +32,7 @@ def wavy_balls(p, amplitudes, seed=5):
 
 
 def ball_amplitudes(p):
-    """Zonal amplitudes (m) of orders 1, 2, ... that parameters hold, divided by (2n)! / (2^n n!^2) anew."""
+    """Zonal amplitudes (m) of orders 1, 2, ... that parameters hold, divided by (2n)! / (2^n n!^2) again."""
     orders = np.arange(1, int(p[P.BALL_WAVES]) + 1)
     first = int(p[P.AT_FORM]) + P.FORM_ROW + P.FORM_HEIGHT
     return p[first :: P.FORM_ROW][: orders.size] * 2.0**orders / comb(2 * orders, orders)

@@ -46,7 +46,7 @@ class Bearing:
         self.w[W.SET + more + Q.INNER_BY :][:2] = load[3:]
         begin_rest(self.p, self.s, self.w, rpm * RPM)
         assert balance(self.p, self.s, self.w, rpm * RPM, 0.0) == status
-        self.out[:] = self.w[W.FOUND : W.FOUND + EQ.SIZE]
+        self.out[:] = self.w[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
         return self
 
     def row(self, at_row):

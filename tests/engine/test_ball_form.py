@@ -17,7 +17,7 @@ FORM = np.array([0.0, 20e-9, -4e-9, 8e-9, 0.0, 3e-9])
 
 def touch(lv):
     """Directions into inner and outer race, and across both tracks."""
-    return lv[L.TOUCH : L.TOUCH + L.VECTOR * FOUR].reshape(L.VECTOR, FOUR).T
+    return lv[L.CONTACT_AXES : L.CONTACT_AXES + L.VECTOR * FOUR].reshape(L.VECTOR, FOUR).T
 
 
 def slow_form(run, rolled, speed, tau=0.0):
@@ -46,7 +46,7 @@ def test_heights_are_those_of_turned_balls(scene, rolled):
     run = Run(quiet(scene("7009C-full-ceramic")), 18000, ball_waves=FORM, FIDELITY=1.0).init()
     speed, balls = 1885.0, int(run.p[P.BALLS])
     set_angles(run.p, run.s[S.C : S.C + C.SIZE], block(run), 0.3, rolled, 2.2, 0.0, speed, run.w)
-    found = [run.w[at : at + 2 * STRIDE].reshape(2, STRIDE)[:, :balls] for at in (T.INNER, T.LEAN)]
+    found = [run.w[at : at + 2 * STRIDE].reshape(2, STRIDE)[:, :balls] for at in (T.INNER, T.FORM_SLOPE)]
     tau = run.p[P.CONTACT_DAMPING]
     assert tau > 0.0
     for one, other in zip(found, slow_form(run, rolled, speed, tau), strict=True):

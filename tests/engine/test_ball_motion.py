@@ -13,12 +13,12 @@ from fmu_bearing.engine.fidelities.response.lines import line_table
 from fmu_bearing.engine.layout import STRIDE, C, L, P, Q, S, U, W, Y
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.equations.plain import Plain
-from fmu_bearing.prepare.sound import Block, sound_block
+from fmu_bearing.prepare.sound_block import Block, sound_block
 from fmu_bearing.scene.read import with_fidelity
 from tests.engine.condensed import block
 from tests.engine.helpers import RPM, quiet, wavy_balls
 
-FORM = np.full(10, 1e-9)  # m: all orders alike, small enough to be linear
+FORM = np.full(10, 1e-9)  # m: all orders equal, small enough to be linear
 AXIAL = [Q.INNER, Q.OUTER]
 MEAN_BALL = [0, 1]  # of the balls' states: x and r
 

@@ -43,8 +43,8 @@ def small_waves(example, rpm, celsius):
 
 
 # Orders of waves and balls meet the free inner ring's tilt at 4 kHz. Shares were 0.44 to 0.70 there while
-# contact damping acted on all displacements, and 0.89 to 1.06 while both whirls were damped alike. A tenth of
-# the imperfections: the tilt answers nonlinearly to more.
+# contact damping acted on all displacements, and 0.89 to 1.06 while both whirls had the same damping. A tenth
+# of the imperfections: the tilt answers nonlinearly to more.
 @pytest.mark.heavy
 @pytest.mark.parametrize("celsius", [20.0, 40.0])
 @pytest.mark.parametrize("rpm", [3_000, 5_000, 8_000, 10_000, 15_000, 28_000])

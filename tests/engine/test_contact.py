@@ -18,9 +18,9 @@ from fmu_bearing.engine.mechanics.contact import (
     in_plane,
     race_surface,
 )
-from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
-from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat, pose_at
-from fmu_bearing.engine.statics.quasistatic import deeper
+from fmu_bearing.engine.mechanics.pose import axis_cosine, ball_pose
+from fmu_bearing.engine.statics.ball_balance import inner_contact, outer_contact, pose_at
+from fmu_bearing.engine.statics.quasistatic import imperfection_approach
 from tests.engine.helpers import Run
 
 FOUND = 19  # numbers that `contact` gives, of them
@@ -32,7 +32,7 @@ STIFFNESS, TAU = 8e9, 5e-7  # N/m^1.5, s
 def contact(co, si, x, radius, uy, uz, by, bz, groove_x, groove_r, free, rate):
     """Return all that a contact gives, as a tuple of `FOUND` numbers."""
     nx = axis_cosine(by, bz)
-    _, _, _, nr, nt, axial, rho, hx, hr, ht = seen(co, si, x, radius, 0.0, uy, uz, by, bz, nx)
+    _, _, _, nr, nt, axial, rho, hx, hr, ht = ball_pose(co, si, x, radius, 0.0, uy, uz, by, bz, nx)
     n, h = (nx, nr, nt), (hx, hr, ht)
     distance, per, sine, cosine, e, m = contact_axes(axial - groove_x, rho - groove_r, n, h)
     elastic, slope, root = hertz(STIFFNESS, distance - free)
@@ -210,10 +210,10 @@ def test_statics_have_the_contacts_of_the_right_hand_side(scene, name, scale, as
     elastic = [run.w[W.RACE + race * R.SIZE + R.ELASTIC :][:balls].copy() for race in range(2)]
     for j in range(balls):
         angle = 2.0 * np.pi * j / balls
-        depths = [deeper(p, c, race, j, angle) for race in range(2)]
+        depths = [imperfection_approach(p, c, race, j, angle) for race in range(2)]
         pose = pose_at(np.cos(angle), np.sin(angle), ring, np.zeros(2), *depths)
         radius = p[P.PITCH_RADIUS] + y[Y.R + j]
-        for race, seat in enumerate((inner_seat, outer_seat)):
+        for race, seat in enumerate((inner_contact, outer_contact)):
             # places are rounded to 2e-18 m, of an approach of 1e-7 m and more
             found = seat(p, c, pose, y[Y.X + j], radius).load
             assert found == pytest.approx(elastic[race][j], rel=1e-9, abs=1e-7)

@@ -1,4 +1,4 @@
-"""Fidelities `rings` and `response` alike: against fidelity full, quasi-static theory, at their limits."""
+"""Fidelities `rings` and `response`: against fidelity full, quasi-static theory, at their limits."""
 
 import numpy as np
 import pytest

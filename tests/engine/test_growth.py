@@ -11,7 +11,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.cautions import GROWS, GROWTH, cautions
 from fmu_bearing.engine.layout import SP, L, S, U
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.modal.equations.quick import found_growth, operator_matrix, quick_run
+from fmu_bearing.modal.equations.quick import engine_growth, operator_matrix, quick_run
 from fmu_bearing.modal.equations.shaft import rows_of
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import read_scene_text
@@ -31,20 +31,20 @@ def held_parts(run):
 
 
 def fastest_growth(run):
-    """Largest real part (1/s) of the eigenvalues of the operator at the held point, of motions of rings.
+    """Largest real part (1/s) of the eigenvalues of the operator at the frozen point, of motions of rings.
 
-    The march takes the derivatives of balls at rest where it is; the held point has its own.
+    The march takes the derivatives of balls at rest where it is; the frozen point has its own.
     """
     parts = held_parts(run)
     kept = [lv[L.JX : L.JX + 2 * L.MATRIX].copy() for lv in parts]
     for lv in parts:
-        lv[L.JX : L.JX + 2 * L.MATRIX] = lv[L.HELD_PLACE : L.HELD_PLACE + 2 * L.MATRIX]
+        lv[L.JX : L.JX + 2 * L.MATRIX] = lv[L.FROZEN_JX : L.FROZEN_JX + 2 * L.MATRIX]
     found = np.linalg.eigvals(operator_matrix(run))
     for lv, own in zip(parts, kept, strict=True):
         lv[L.JX : L.JX + 2 * L.MATRIX] = own
     found = found[found.imag > SLOWEST]
     for lv in parts:
-        orbit = abs(lv[L.RATIO] * lv[L.FOUND_SPEED])
+        orbit = abs(lv[L.RATIO] * lv[L.FROZEN_SPEED])
         found = found[np.abs(found.imag - orbit) > BESIDE * orbit]
     return float(found.real.max())
 
@@ -57,7 +57,7 @@ def assert_found(scenes, least, missed=0):
     growing, bad = 0, []
     for scene in scenes:
         run = quick_run(scene)
-        expected, (frequency, growth) = fastest_growth(run), found_growth(run)
+        expected, (frequency, growth) = fastest_growth(run), engine_growth(run)
         assert run.s[S.GROWTH] == growth
         if expected > GROWS:
             growing += 1
@@ -143,7 +143,7 @@ def test_a_run_up_into_growth_is_named_once(fidelity):
     if fidelity == "full":
         assert bearing.get(GROWTH) == 0.0 and not said
         return
-    expected = found_growth(quick_run(scene.replace({"operation.speed_rpm": 24000.0})))[1]
+    expected = engine_growth(quick_run(scene.replace({"operation.speed_rpm": 24000.0})))[1]
     assert bearing.get(GROWTH) == pytest.approx(
         expected, rel=0.1
     )  # 557 1/s; 579 where the cage is 5 % behind

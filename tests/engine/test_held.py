@@ -19,7 +19,7 @@ def test_held_at_its_equilibrium_a_bearing_carries_the_load(scene, rpm, load):
     bearing.u[U.SPEED] = rpm * RPM
     force, out = np.zeros(5), np.zeros(EQ.SIZE)
     ring = bearing.shift
-    assert call("held", bearing.p, bearing.u, bearing.c, ring, force, out, bearing.w) == OK
+    assert call("forces_at_displacement", bearing.p, bearing.u, bearing.c, ring, force, out, bearing.w) == OK
     # the equilibrium's own residual: 1e-9 of the load
     np.testing.assert_allclose(-force, load, rtol=0, atol=2e-6)
     found = out[EQ.STIFFNESS : EQ.STIFFNESS + 25].reshape(5, 5)

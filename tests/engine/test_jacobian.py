@@ -281,7 +281,7 @@ def test_spare_lanes_follow_the_first_ball(scene):
 
 
 def test_leaves_the_rows_of_its_state(scene):
-    """Energy and losses are read from the rows afterwards; the right-hand side stands at ``W.F0``."""
+    """Energy and losses are read from the rows afterwards; the right-hand side is at ``W.F0``."""
     point = shaken(scene("7003C-spindle"), TRACTION_LAW=float(TRACTION_LAWS.index("eyring")))
     wanted = point.accelerations(point.y)
     rows = point.w[: W.ROWS].copy()

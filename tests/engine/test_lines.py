@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine import dense
-from fmu_bearing.engine.fidelities.response.table import counted, place_for
+from fmu_bearing.engine.fidelities.response.strongest_lines import counted, place_for
 from fmu_bearing.engine.layout import FOUR, L
 
 

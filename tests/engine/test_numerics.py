@@ -10,9 +10,9 @@ from fmu_bearing.engine.fidelities.full.methods.trbdf2 import TRBDF2
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STAGES, STRIDE, TAB, A, C, F, J, P, R, W, X
-from fmu_bearing.engine.mechanics.cage import film_force, land
+from fmu_bearing.engine.mechanics.cage import film_force, land_contact
 from fmu_bearing.engine.mechanics.powers import exp2, log2
-from fmu_bearing.engine.mechanics.race import waves
+from fmu_bearing.engine.mechanics.race import waviness
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.newton import block_arrow
 from fmu_bearing.prepare.imperfections import Harmonics, intervals, wave_table
@@ -57,7 +57,7 @@ def test_wave_table_interpolates_harmonics(highest):
     pose = W.POSE
     w[pose + X.H + STRIDE : pose + X.H + 2 * STRIDE] = 1.0  # the ring is centred
     angles = np.random.default_rng(2).uniform(-7, 7, STRIDE)
-    waves(p, c, angles, STRIDE, 0, 0.3, w)
+    waviness(p, c, angles, STRIDE, 0, 0.3, w)
     row = W.RACE
     argument = np.outer(orders, angles - 0.3) + phases[:, None]
     # cubic Hermite error of order n: (2 pi n / count)^4 / 384 of its amplitude, 9e-4 at the highest of 1000;
@@ -114,10 +114,10 @@ def test_land_is_isotropic_in_its_middle():
     way = np.array([0.6, -0.8])
     velocity = 0.01, 0.03
     places = np.linspace(-2e-7, 2e-7, 41)
-    forces = np.array([land(p, 0.006, *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places])
-    still = np.array(land(p, 0.006, 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
+    forces = np.array([land_contact(p, 0.006, *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places])
+    still = np.array(land_contact(p, 0.006, 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
     np.testing.assert_allclose(forces[20], still, rtol=1e-14)
-    # squeezed all round alike: against the velocity, half of a full film
+    # squeezed evenly all round: against the velocity, half of a full film
     factor = 0.5 * np.pi * 0.006 * 11.66e-3 * 2.25e-3**3 / 4e-5**3
     np.testing.assert_allclose(still, -factor * np.array(velocity), rtol=1e-4)
     straight = still + np.outer(places, (forces[-1] - forces[0]) / (places[-1] - places[0]))
@@ -134,7 +134,9 @@ def test_the_dry_stop_drags_the_cage_along_and_brakes_the_ring(journal_speed, sl
     p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_STIFFNESS] = share, stiffness
     p[P.LAND_STOP_FRICTION], p[P.LAND_STOP_SLIP] = mu, slip
     way, apart = np.array([0.6, -0.8]), 3.9e-5
-    *force, on_ring, on_cage, energy, lost = land(p, 0.0, *(apart * way), 0.0, 0.0, journal_speed, sleeve)
+    *force, on_ring, on_cage, energy, lost = land_contact(
+        p, 0.0, *(apart * way), 0.0, 0.0, journal_speed, sleeve
+    )
     push = apart - share * clearance
     # both touch at -way; a spin about x moves a point at r by spin x r
     ahead = np.array([way[1], -way[0]])

@@ -15,7 +15,7 @@ NAME = "7003C-spindle"
 def lubricated(scene, law, rpm=20000):
     run = Run(scene, rpm)
     run.p = film_places(scene, run.p.copy(), law)
-    run.p.setflags(write=False)  # a writable array is another type, which would compile the engine anew
+    run.p.setflags(write=False)  # a writable array is another type, which would compile the engine again
     return run
 
 

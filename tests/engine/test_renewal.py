@@ -67,7 +67,7 @@ def test_what_pieces_come_to_is_what_a_start_finds(scene, fidelity):
     assert now[L.SEARCH_STATE] == L.IDLE
     assert now[L.MORE] != 0.0  # a whirl, and balls that the load makes uneven
     for first, count in (
-        (L.RATIO, L.FOUND_SPEED - L.RATIO),
+        (L.RATIO, L.FROZEN_SPEED - L.RATIO),
         (L.MORE_RATIO, 1 + L.LOST),
         (L.FAMILY, 2 * L.FAMILY_SIZE),
     ):
@@ -87,9 +87,9 @@ def test_what_pieces_come_to_is_what_a_start_finds(scene, fidelity):
 def test_a_step_makes_no_more_pieces_than_its_time(scene, fidelity):
     """One per ms; what is in use stays until all are made."""
     run = changed(started(scene, fidelity))
-    held = block(run)[L.FOUND_SPEED]
+    held = block(run)[L.FROZEN_SPEED]
     made, searched = 0, 0
-    while block(run)[L.FOUND_SPEED] == held:
+    while block(run)[L.FROZEN_SPEED] == held:
         before = pieces(run)
         step(run, 1)
         after = pieces(run)
@@ -116,7 +116,7 @@ def test_a_jump_within_a_short_step_is_not_forgotten(scene):
     for fidelity in ("rings", "response"):
         run = changed(started(scene, fidelity))
         step(run, 2_000, 1e-4)
-        assert block(run)[L.FOUND_SPEED] == pytest.approx(run.u[U.SPEED], rel=2e-6), fidelity
+        assert block(run)[L.FROZEN_SPEED] == pytest.approx(run.u[U.SPEED], rel=2e-6), fidelity
 
 
 @pytest.mark.parametrize("fidelity", ["rings", "response"])
@@ -147,7 +147,7 @@ def test_a_ramp_is_met_in_the_middle_of_the_time_in_which_lines_serve(scene):
     for k in range(400):
         run.u[U.SPEED] = (3_000.0 + 5.0 * (k + 1)) * RPM
         step(run, 1)
-        ahead.append(block(run)[L.FOUND_SPEED] / run.u[U.SPEED] - 1.0)
+        ahead.append(block(run)[L.FROZEN_SPEED] / run.u[U.SPEED] - 1.0)
     settled = np.array(ahead[100:])
     assert settled.min() < 0.0 < settled.max()
     assert np.abs(settled).max() < 0.025
@@ -160,21 +160,21 @@ def test_lines_are_renewed_once_more_where_a_ramp_ends(scene):
         run.u[U.SPEED] = (10_000.0 + 5.0 * (k + 1)) * RPM
         step(run, 1)
     step(run, 250)
-    found = block(run)[L.FOUND_SPEED]
+    found = block(run)[L.FROZEN_SPEED]
     assert found == pytest.approx(run.u[U.SPEED], rel=2e-6)
     step(run, 60)
-    assert block(run)[L.FOUND_SPEED] == found
+    assert block(run)[L.FROZEN_SPEED] == found
     assert pieces(run)[0] == 0
 
 
 def test_noise_of_the_speed_is_no_ramp(scene):
     """A speed that scatters by 0.01 % renews nothing, though its rate is then 1,000 r/min per s."""
     run = started(scene, "response")
-    found = block(run)[L.FOUND_SPEED]
+    found = block(run)[L.FROZEN_SPEED]
     for deviation in np.random.default_rng(1).normal(0.0, 1e-4, 300):
         run.u[U.SPEED] = found * (1.0 + deviation)
         step(run, 1)
-    assert block(run)[L.FOUND_SPEED] == found
+    assert block(run)[L.FROZEN_SPEED] == found
     assert pieces(run)[0] == 0
 
 
@@ -183,7 +183,7 @@ def test_a_speed_that_runs_away_is_not_waited_for(scene, fidelity):
     run = started(scene, fidelity)
     run.u[U.SPEED] = 14_000.0 * RPM
     step(run, 1)
-    assert block(run)[L.FOUND_SPEED] == run.u[U.SPEED]
+    assert block(run)[L.FROZEN_SPEED] == run.u[U.SPEED]
     assert block(run)[L.SEARCH_STATE] == L.IDLE
     wanted = started(scene, fidelity, rpm=14_000.0)
     assert block(run)[L.TORQUE] == pytest.approx(block(wanted)[L.TORQUE], rel=1e-6)

@@ -9,7 +9,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import SD, L, P, S, U
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.read import with_fidelity
 from tests.spindle.test_sound import pair as set_of_two, sound
@@ -121,7 +121,7 @@ def test_states_restored_within_a_run_up_give_equal_bits(bare, bearings):
     run.init()
 
     def found(s):
-        return s[S.CONDENSED + L.FOUND_SPEED]
+        return s[S.CONDENSED + L.FROZEN_SPEED]
 
     def speed_up(begin, spoil=False):
         for k in range(40):

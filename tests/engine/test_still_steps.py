@@ -10,7 +10,7 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import Q, S, Y
 from fmu_bearing.prepare.imperfections import frequencies
-from fmu_bearing.prepare.still import longest_internal_step
+from fmu_bearing.prepare.step_limits import longest_internal_step
 from fmu_bearing.scene.read import read_scene_text
 from tests.conftest import ROOT
 

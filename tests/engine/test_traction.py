@@ -18,7 +18,7 @@ SUMS = (R.FT, R.FM, R.MN, R.MT, R.MM)
 
 
 class Contact:
-    """Rows of the work space as ``race.normal`` leaves them, one contact per lane."""
+    """Rows of the work space as ``race.normal_contact`` leaves them, one contact per lane."""
 
     def __init__(self, scene, law, strips=5):
         one = quiet(scene("7003C-spindle"))

@@ -81,7 +81,7 @@ def test_checkers_find_nothing(model, fmu, tmp_path, flavour):
     tree = etree.parse(Path(extract(path, tmp_path / "fmu")) / "modelDescription.xml")
     schema = Path(importlib.util.find_spec("fmpy").origin).parent / "schema" / "fmi2"
     etree.XMLSchema(etree.parse(schema / "fmi2ModelDescription.xsd")).assertValid(tree)
-    # what a master adds to its rotor stands in the description
+    # the description says what a master adds to its rotor
     (reported,) = tree.xpath("//ScalarVariable[@name='port.mass']/Real/@start")
     (mass,) = (one.value for one in model.variables if one.name == "port.mass")
     assert float(reported) == mass > 0.01

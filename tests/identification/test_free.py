@@ -59,7 +59,7 @@ def test_a_pattern_is_one_factor_on_all_that_match(spindle):
 )
 def test_what_is_refused(wanted, message, spindle):
     with pytest.raises(IdentifyError, match=message):
-        free_numbers(spindle, wanted, held=["operation.speed_rpm"])
+        free_numbers(spindle, wanted, conditions=["operation.speed_rpm"])
 
 
 def test_a_key_that_starts_at_zero_begins_in_the_middle_of_its_bounds(spindle):

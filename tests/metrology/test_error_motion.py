@@ -17,7 +17,7 @@ from fmu_bearing import (
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed
 from fmu_bearing.metrology.error_motion import BOUND
-from fmu_bearing.metrology.nose import PER_REVOLUTION, Nose, followed, resampled
+from fmu_bearing.metrology.nose import PER_REVOLUTION, Nose, nose_of_run, resampled
 from fmu_bearing.prepare.imperfections import ball_oversizes
 from fmu_bearing.scene import read_scene_text
 from tests.conftest import EXAMPLES
@@ -158,7 +158,7 @@ def test_a_run_that_was_read_at_other_times_has_the_same_motion(bare):
     places = np.column_stack([run[name] for name in names])
     motion = np.hstack([places[:, :3] - places[:, 3:], np.zeros((len(places), 2))])
     found = AtSpeed(resampled(fast, run["time"], motion))
-    wanted = AtSpeed(followed(fast, 0.0, FEW, True))
+    wanted = AtSpeed(nose_of_run(fast, 0.0, FEW, True))
     for direction in ("fixed y", "fixed z", "rotating", "axial"):
         a, b = found.signal(direction)[-FEW:], wanted.signal(direction)
         # between readings lies a cubic: waves of order 30 are a quarter of the rate, and small
@@ -265,7 +265,7 @@ def test_unknown_direction(found):
 def test_by_line_agrees_from_16_revolutions_on(bare, model, within):
     """A 7003C alone of grade P4 at 2000 r/min; an average over 16 revolutions reads 30 nm."""
     scene = with_fidelity(bare.replace(P4), model=model)
-    found = {count: by_direction(AtSpeed(followed(scene, 0.0, count, True))) for count in (16, 32, 200)}
+    found = {count: by_direction(AtSpeed(nose_of_run(scene, 0.0, count, True))) for count in (16, 32, 200)}
     for direction in ("fixed y", "fixed z", "rotating"):
         true = found[200][direction].synchronous_by_line
         for count in (16, 32):

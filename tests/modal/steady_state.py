@@ -54,7 +54,7 @@ def tie(run: Arrays, shaft: ShaftMatrices) -> Tie:
     head, n = run.p[int(run.p[P.SET]) :], shaft.count
     own = run.s[int(head[SP.AT_S]) :]
     lanes = SP.padded_size(n)
-    q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.HELD_LOAD * lanes :][:n]
+    q, held = own[SP.S_HEAD : SP.S_HEAD + n], own[SP.S_HEAD + SP.STATIC_LOAD * lanes :][:n]
     along = np.zeros(n, dtype=bool)
     along[:1] = True  # the whole shaft's
     along[shaft.shaft_count :] = True

@@ -6,19 +6,19 @@ import pytest
 from fmu_bearing import new_scene, read_scene, simulate
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.interface.table import variables
-from fmu_bearing.modal.campbell.weak import (
+from fmu_bearing.modal.campbell.doubts import (
     FAR,
     QUIETER,
-    departs,
     doubt,
     is_of_levels,
     is_of_motion,
     moves_far_more,
-    struck,
+    pockets_struck,
+    rings_depart,
 )
 from fmu_bearing.modal.equations.beside_full import beside_full
 from fmu_bearing.modal.equations.cage_sound import loss_without_cage
-from fmu_bearing.prepare.sound import silenced, sound_blocks
+from fmu_bearing.prepare.sound_block import silenced, sound_blocks
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.conftest import EXAMPLES
 from tests.marks import heavy_but
@@ -64,7 +64,7 @@ def test_the_cages_of_a_set_are_looked_at_too(arrangement, loads):
     """A DB set of 7008C, 10,000 r/min, 150 N across: inner rings move by 0.69 to 0.88 of full."""
     pair = fresh("NSK-7008C", 10_000, None, arrangement=arrangement)
     for load, expected in loads.items():
-        said = struck(pair.replace({"spindle.load.force_y_N": load}), "rings")
+        said = pockets_struck(pair.replace({"spindle.load.force_y_N": load}), "rings")
         assert ("strike the pockets of the cage of bearing" in said) == expected
 
 
@@ -94,7 +94,7 @@ def test_rings_that_depart_from_full_are_named(bearing, rpm, preload, kind, expe
     ratio = found[0][1000:].std() / found[1][1000:].std()
     assert expected[0] <= ratio <= expected[1]
     for model in ("rings", "response"):
-        said = departs(scene, model)
+        said = rings_depart(scene, model)
         assert bool(said) == (ratio < 1.0 / FAR)
         text = doubt(with_fidelity(scene, model=model))
         assert is_of_motion(text) == bool(said)

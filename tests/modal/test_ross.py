@@ -13,7 +13,14 @@ from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.scene import read_scene_text
 from fmu_bearing.steady.impedance import at_rest
-from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, shares, together
+from fmu_bearing.steady.stiffness.planes import (
+    Planes,
+    arm,
+    errors,
+    mirrored_matrix,
+    plane_matrices,
+    sum_of_planes,
+)
 from tests.conftest import ROOT
 
 X, Y, Z, BY, BZ = range(5)
@@ -57,8 +64,8 @@ def test_three_planes_are_any_matrix_whose_coupling_is_mutual(a):
     k[BY, BZ], k[BZ, BY] = 31.0, -12.0
     # force from a tilt and moment from a displacement: R and L of (y, z) and (bz, -by) are the same
     k[Y, BY], k[BZ, Z], k[Z, BZ], k[BY, Y] = -700.0, 700.0, 300.0, -300.0
-    held = shares(k, a)
-    np.testing.assert_allclose(together(held, a), k, rtol=1e-11, atol=1e-6)
+    held = plane_matrices(k, a)
+    np.testing.assert_allclose(sum_of_planes(held, a), k, rtol=1e-11, atol=1e-6)
     np.testing.assert_array_equal(held[[0, 2], 0], 0.0)  # the axial stiffness is in the middle
     assert held[1, 0, 0] == k[X, X]
 
@@ -67,7 +74,7 @@ def test_at_rest_the_middle_plane_is_empty_and_the_others_push_back():
     k = bearing(1.6e8, 4700.0, -7.9e5)
     a = math.sqrt(4700.0 / 1.6e8)
     assert arm(k) == pytest.approx(a, abs=1e-4) and arm(k) >= a
-    held = shares(k, a)
+    held = plane_matrices(k, a)
     assert abs(held[1, 1, 1]) < 1e-6 and held[:, 1, 1].sum() == pytest.approx(1.6e8)
     assert held[0, 1, 1] > held[2, 1, 1] > 0.0  # the load centre is behind the balls
     assert arm(np.stack([k, bearing(1.6e8, 9000.0, -7.9e5)])) == arm(bearing(1.6e8, 9000.0, -7.9e5))
@@ -75,7 +82,9 @@ def test_at_rest_the_middle_plane_is_empty_and_the_others_push_back():
 
 def test_a_mirrored_bearing_changes_its_planes_about():
     k = bearing(1.6e8, 4700.0, -7.9e5, cross=2e4)
-    np.testing.assert_allclose(shares(mirrored_matrix(k), 5e-3), shares(k, 5e-3)[::-1], rtol=1e-12)
+    np.testing.assert_allclose(
+        plane_matrices(mirrored_matrix(k), 5e-3), plane_matrices(k, 5e-3)[::-1], rtol=1e-12
+    )
     # reversed are the axis and the tilts; what the shaft's rotation does across it stays
     assert mirrored_matrix(k)[Y, Z] == k[Y, Z] and mirrored_matrix(k)[Y, BZ] == -k[Y, BZ]
 
@@ -92,13 +101,15 @@ def test_errors_are_what_springs_cannot_have():
     c[Z, BY] *= 0.9
     k[X, Z] = 1e6
     a, w = 5e-3, np.array([1e3])
-    found = errors(Planes(a, shares(k[None], a), shares(c[None], a)), k[None], c[None], w)
+    found = errors(Planes(a, plane_matrices(k[None], a), plane_matrices(c[None], a)), k[None], c[None], w)
     assert found.shape == (1, 3)
     same, coupling, axial = found[0]
     radial, tilt = abs(1e8 + 1e3 * 50.0j), abs(5e3 + 1e3 * 5e-3j)
     assert same < 1e-14
     assert coupling == pytest.approx(0.01 * 5e5 / math.sqrt(radial * tilt), rel=1e-9)
-    damped = errors(Planes(a, shares(k[None], a), shares(c[None], a)), k[None], c[None], 1e6 * w)
+    damped = errors(
+        Planes(a, plane_matrices(k[None], a), plane_matrices(c[None], a)), k[None], c[None], 1e6 * w
+    )
     size = math.sqrt(abs(1e8 + 1e9 * 50.0j) * abs(5e3 + 1e9 * 5e-3j))
     assert damped[0, 1] == pytest.approx(1e9 * 0.05 * 0.2 / size, rel=1e-6)
     assert axial == pytest.approx(1e6 / math.sqrt(abs(5e7 + 20.0e3j) * radial), rel=1e-9)
@@ -162,7 +173,7 @@ def test_tilt_counts_in_the_spindle(scene, whole, hertz):
     inertia = masses[rows]
     inertia[[0, 2]] += 0.5 * p[P.BALLS] * p[P.BALL_MASS]  # balls follow half of each ring
     k = at_rest(one)
-    k = together(shares(k, arm(k)), arm(k)) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
+    k = sum_of_planes(plane_matrices(k, arm(k)), arm(k)) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
     pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.on_pedestal[1]
     found = np.block([[pair, -pair], [-pair, pair]])
     found += np.diag([0.0, p[P.TILT_STIFFNESS], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])

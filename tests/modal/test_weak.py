@@ -3,8 +3,8 @@
 import pytest
 
 from fmu_bearing import modes, read_scene
-from fmu_bearing.modal.campbell import weak
-from fmu_bearing.modal.campbell.weak import LEAST, doubt, weakness
+from fmu_bearing.modal.campbell import doubts
+from fmu_bearing.modal.campbell.doubts import LEAST, doubt, reason_for_doubt
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES
 
@@ -34,14 +34,14 @@ def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
 @pytest.mark.parametrize(("name", "rpm"), [("7003C-spindle", 20000), ("7003C-bare", 20000)])
 def test_well_damped_bearings_are_not(name, rpm):
     """Their levels agree with levels of full within 0.3 dB(A), docs/results/scenes.md."""
-    assert weakness(at(name, rpm)) == ""
+    assert reason_for_doubt(at(name, rpm)) == ""
 
 
 def test_a_line_on_a_narrow_mode_counts(monkeypatch):
     """With a wider bound f_i - f_r lies within the peak of the spindle's radial mode (damping ratio 0.02)."""
-    monkeypatch.setattr(weak, "NARROW", 0.02)
+    monkeypatch.setattr(doubts, "NARROW", 0.02)
     scene = at("7003C-spindle", 20000)
-    assert "'inner radial backward'" in weakness(scene)
-    assert weakness(scene).endswith("and f_i - f_r of inner race lies within its peak)")
-    assert weakness(scene.replace({"imperfections": None})) == ""
-    assert weakness(scene.replace({"operation.speed_rpm": 22000.0})) == ""
+    assert "'inner radial backward'" in reason_for_doubt(scene)
+    assert reason_for_doubt(scene).endswith("and f_i - f_r of inner race lies within its peak)")
+    assert reason_for_doubt(scene.replace({"imperfections": None})) == ""
+    assert reason_for_doubt(scene.replace({"operation.speed_rpm": 22000.0})) == ""

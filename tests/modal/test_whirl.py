@@ -8,7 +8,7 @@ import pytest
 from fmu_bearing import campbell, modes, operating_point, read_scene, simulate, verdicts
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import Q, S, Y
-from fmu_bearing.modal.campbell.weak import doubt, weakness, whirl
+from fmu_bearing.modal.campbell.doubts import doubt, reason_for_doubt, whirl
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.natural_modes import self_excited
@@ -51,7 +51,7 @@ def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, befo
         assert text.startswith(f"fidelity {fidelity}: the ring whirls by itself, figures are of the unstable")
         assert f"at {frequency:.0f} Hz" in text and "only fidelity full" in text
     assert doubt(scene) == ""  # of full
-    assert weakness(scene).startswith("the ring whirls by itself at ")
+    assert reason_for_doubt(scene).startswith("the ring whirls by itself at ")
     point = operating_point(scene)
     assert point.whirl == pytest.approx((frequency, growth), rel=1e-6)
     (verdict,) = [one for one in verdicts(point) if one.key == "whirl"]
@@ -173,7 +173,7 @@ def test_a_set_is_judged_by_its_growth():
     pair = without_cage(read_scene_text(PAIR, "pair"))
     assert self_excited(modes(pair)).growth > 20.0
     assert doubt(pair).startswith("fidelity rings: the set whirls by itself, figures are of the unstable")
-    assert weakness(pair).startswith("the set whirls by itself at ")
+    assert reason_for_doubt(pair).startswith("the set whirls by itself at ")
     (verdict,) = [one for one in verdicts(operating_point(pair)) if one.key == "whirl"]
     assert verdict.judgement == "change" and verdict.advice == whirl(pair) and verdict.bearing is None
     example = with_fidelity(read_scene(ROOT / "examples" / "spindle_set" / "7003C-DB.toml"), model="rings")

@@ -1,7 +1,7 @@
 """Slow, independent answers the tests hold the package against.
 
 Nothing here imports the package: geometry and material enter as plain SI numbers, every equation is derived
-anew and solved with general-purpose tools, speed is of no concern.
+again and solved with general-purpose tools, speed is of no concern.
 
 ==================  ================================================================================
 module              answers

@@ -109,7 +109,7 @@ def test_a_set_of_one_is_the_single_bearing_there():
 
 
 def test_pressures_are_the_sum_of_the_bearings_and_far_ones_add_in_energy():
-    """Two bearings with surfaces of their own: their sounds are not alike, so energies add on the mean."""
+    """Two bearings with surfaces of their own: their sounds differ, so energies add on the mean."""
     made = run(pair(seed=3))
     parts = made.partial(by="bearing")
     assert list(parts) == ["bearing[1]", "bearing[2]"]

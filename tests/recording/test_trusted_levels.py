@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import read_scene, record
-from fmu_bearing.modal.campbell.weak import doubt
+from fmu_bearing.modal.campbell.doubts import doubt
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES
 

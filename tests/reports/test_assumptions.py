@@ -1,4 +1,4 @@
-"""The table of assumed values: what a maker prints stays out of it, what is derived stands in it."""
+"""The table of assumed values: what a maker prints stays out of it, what is derived is in it."""
 
 from fmu_bearing.reports.sections.assumptions import assumed_table
 from fmu_bearing.scene import read_scene

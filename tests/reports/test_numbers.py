@@ -1,4 +1,4 @@
-"""What stands in the page is what the recording holds."""
+"""The page prints what the recording holds."""
 
 import io
 import math

@@ -52,7 +52,7 @@ def test_a_measured_run(silent):
 
 
 def test_sound_is_read_from_the_engines_own_meters(scene):
-    from fmu_bearing.prepare.sound import sound_block
+    from fmu_bearing.prepare.sound_block import sound_block
 
     spindle = scene("7003C-spindle")
     run = measure(spindle, sound_block(spindle), 5e-3, 5e-3)

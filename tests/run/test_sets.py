@@ -12,7 +12,7 @@ from fmu_bearing.instance import EngineError
 from fmu_bearing.interface import variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.run.choose import CANDIDATES, choose
 from fmu_bearing.run.metrics import measure, of_kind
 from fmu_bearing.scene import Scene

@@ -112,7 +112,7 @@ class Bearing:
         """Force on the inner ring held at ``ring`` against the outer, stiffness, and the kernel's result."""
         force, out = np.zeros(EQ.FREEDOMS), np.zeros(EQ.SIZE)
         c, ring = np.zeros(C.SIZE), np.ascontiguousarray(ring)
-        assert call("held", self.p, self.u, c, ring, force, out, self.w) == OK
+        assert call("forces_at_displacement", self.p, self.u, c, ring, force, out, self.w) == OK
         stiffness = out[EQ.STIFFNESS : EQ.STIFFNESS + EQ.FREEDOMS**2].reshape(EQ.FREEDOMS, EQ.FREEDOMS)
         return force, stiffness.copy(), out
 

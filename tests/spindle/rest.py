@@ -13,7 +13,7 @@ import numpy as np
 
 from fmu_bearing.arrays import REASONS, EngineError
 from fmu_bearing.compiled import call
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
+from fmu_bearing.elastic.shaft import ShaftModel, rigid_transform, shaft_model
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.constants import GRAVITY, REFERENCE_TEMPERATURE, RPM
 from fmu_bearing.engine.layout import EQ, SP, C, P, Q, U, W
@@ -44,7 +44,7 @@ def oracle(scene, force=None, at=None, moment=(0.0, 0.0)):
     given = scene.spindle.load
     force = (given.force_x_N, given.force_y_N, given.force_z_N) if force is None else force
     plane = 1e-3 * given.position_mm if at is None else at
-    on_nose = placed(1.0, plane).T @ np.array([*force, *moment])  # as runs take it
+    on_nose = rigid_transform(1.0, plane).T @ np.array([*force, *moment])  # as runs take it
     return rest(assembled, assembled.shaft.nose.T @ on_nose + weight(assembled))
 
 
@@ -110,7 +110,9 @@ class Member:
         """
         ring = np.ascontiguousarray(own, dtype=np.float64)
         inputs = self.inputs if inputs is None else inputs
-        status = call("held", self.parameters, inputs, self._c, ring, self._force, self._out, self._w)
+        status = call(
+            "forces_at_displacement", self.parameters, inputs, self._c, ring, self._force, self._out, self._w
+        )
         if status != OK:
             raise EngineError(f"bearing at {1e3 * self.position:g} mm: {REASONS[status]}")
         balls = int(self.parameters[P.BALLS])

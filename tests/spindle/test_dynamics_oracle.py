@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import read_scene, statics
-from fmu_bearing.elastic.shaft import ShaftModel, placed, shaft_model
+from fmu_bearing.elastic.shaft import ShaftModel, rigid_transform, shaft_model
 from fmu_bearing.engine.layout import STRIDE, F, P, Q, S, U, Y
 from fmu_bearing.engine.spindle import members, shaft as shaft_kernels
 from fmu_bearing.prepare import bodies
@@ -265,7 +265,7 @@ def test_heavy_spots_of_a_shaft_that_speeds_up_push_as_in_the_oracle(shaft):
     spindle.drive = replace(spindle.drive, nose=np.zeros(5), angle=0.7, speed=80.0, speed_rate=3e4)
     wanted = spindle.outside(0.0)[spindle.carriers]
     found = np.zeros(members.padded_size(run.p))
-    shaft_kernels.push(run.p, 0.7, 80.0, 3e4, found, 0)
+    shaft_kernels.unbalance_force(run.p, 0.7, 80.0, 3e4, found, 0)
     # of 0.06 N: two sums of the same products
     np.testing.assert_allclose(found[: wanted.size], wanted, rtol=0, atol=1e-13 * np.abs(wanted).max())
     assert not found[wanted.size :].any()
@@ -292,7 +292,7 @@ def mounted(sign, in_housing):
     p[P.ECCENTRICITY] = p[P.TILT_STIFFNESS] = p[P.TILT_DAMPING] = 0.0
     u, position = run.u.copy(), 0.05
     u[U.PRELOAD] = 0.0
-    bearing, plane = Bearing(p, u, own=not in_housing), placed(1.0, position)
+    bearing, plane = Bearing(p, u, own=not in_housing), rigid_transform(1.0, position)
     rotor = bodies.rotor(base)
     gyroscopic = np.zeros((5, 5))
     gyroscopic[3, 4], gyroscopic[4, 3] = rotor.polar, -rotor.polar
@@ -303,7 +303,7 @@ def mounted(sign, in_housing):
         run.p[P.TILT_STIFFNESS] * tilts,
         gyroscopic,
         rotor.mass * plane[1:3],
-        placed(1.0, 0.0),
+        rigid_transform(1.0, 0.0),
         (plane,),
         (plane,),
         rotor.polar,

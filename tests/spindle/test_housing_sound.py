@@ -23,7 +23,7 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.prepare.sound import sound_blocks, sound_key
+from fmu_bearing.prepare.sound_block import sound_blocks, sound_key
 from fmu_bearing.prepare.spindle import in_housing
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.housing import middle_mm

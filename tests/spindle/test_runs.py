@@ -100,7 +100,7 @@ def answers_as_the_dense_system(given, own, run, bodies):
     for k, b in enumerate(one for one in range(2) if given.spindle.bearing[one].seat == "sliding"):
         # the oracle's row of a sliding ring is an acceleration
         residual[len(given_carriers) + k] += inertia(run, b)[Q.OUTER] * rows[b][F.BODY + Q.OUTER]
-    assert call("answer_set", run.p, run.s, run.w, gh) == OK
+    assert call("solve_at_state", run.p, run.s, run.w, gh) == OK
     size = np.abs(moved).max()
     found = run.work_vector(SP.INCREMENT)[: len(moved)]
     # two eliminations of well conditioned equations

@@ -12,7 +12,7 @@ from fmu_bearing.engine.status import OK
 from fmu_bearing.interface import variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare.model import pack
-from fmu_bearing.prepare.sound import sound_blocks
+from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.scene import SceneError
 from fmu_bearing.scene.member import sound_scene
 from fmu_bearing.scene.mounting import Mounting, Rotor

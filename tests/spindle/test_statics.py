@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 from fmu_bearing import operating_point, read_scene, statics
-from fmu_bearing.elastic.shaft import placed
+from fmu_bearing.elastic.shaft import rigid_transform
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.instance import EngineError
 from fmu_bearing.prepare.bodies import inner_ring
@@ -27,7 +27,7 @@ def axials(found):
 
 def about(found, position):
     """Stiffness with the shaft's displacement counted at a plane (m)."""
-    back = np.linalg.inv(placed(1.0, position))
+    back = np.linalg.inv(rigid_transform(1.0, position))
     return back.T @ found.stiffness @ back
 
 
@@ -120,9 +120,9 @@ def test_forces_balance_and_a_mirrored_set_does_the_same(signs, positions, prelo
     force, at, rpm = (150.0, 60.0, -200.0), -0.02, 12e3
     found = statics(scene(signs, positions, preload, rpm), force=force, at=at, moment=(1.0, -2.0))
     assert found.arrangement == name
-    loads = placed(1.0, at).T @ np.array([*force, 1.0, -2.0])
+    loads = rigid_transform(1.0, at).T @ np.array([*force, 1.0, -2.0])
     for one in found.bearings:
-        loads -= placed(1.0, one.position).T @ np.array([*one.force, *one.moment])
+        loads -= rigid_transform(1.0, one.position).T @ np.array([*one.force, *one.moment])
     # at speed the start lets up to 0.5 N of traction across stay out of balance, of loads of 450 to 1,050 N,
     # and along 0.05 N; a moment has the levers of the bearings
     largest = max(np.abs(one.force).max() for one in found.bearings)

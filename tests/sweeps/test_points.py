@@ -9,7 +9,7 @@ from fmu_bearing import error_motion
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import S, U, Y, Z
 from fmu_bearing.interface.names import UnknownName
-from fmu_bearing.prepare.sound import sound_block
+from fmu_bearing.prepare.sound_block import sound_block
 from fmu_bearing.run.figures import _once_per_turn
 from fmu_bearing.run.metrics import measure
 from fmu_bearing.run.simulate import simulate

@@ -123,10 +123,10 @@ def read_wav(
     except OSError as problem:
         raise ValueError(f"{path}: cannot be read: {why(problem)}") from None
     if full_scale is None:
-        found = _CALIBRATION.search(data.decode("latin-1"))
-        if found is None:
+        calibration = _CALIBRATION.search(data.decode("latin-1"))
+        if calibration is None:
             raise ValueError(f"{path} does not say what pressure its full scale is: give full_scale in Pa")
-        full_scale = float(found[1])
+        full_scale = float(calibration[1])
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", wavfile.WavFileWarning)  # parts that are no samples

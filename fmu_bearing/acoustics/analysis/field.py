@@ -84,7 +84,7 @@ def form_of(model: str) -> ChannelForm:
 
 
 def kind_of(path: Path) -> str:
-    """Source type of a path: one of ``layout.sound.KINDS``."""
+    """Source type of a path: one of ``layout.sound_filters.KINDS``."""
     return SD.KINDS[path.kind]
 
 
@@ -177,7 +177,7 @@ class Blocks:
     ) -> dict[Hashable, NDArray[np.float64]]:
         """Mean square pressure (Pa^2) per bin at one circle's microphones, (members, bins) by label."""
         known = _interpolated(circle.paths)(self.frequency)
-        found: dict[Hashable, NDArray[np.float64]] = {}
+        squares: dict[Hashable, NDArray[np.float64]] = {}
         for name in dict.fromkeys(label(path) for path in circle.paths):
             chosen = [path for path in circle.paths if label(path) == name]
             weights = np.array([path.weights for path in chosen]).T
@@ -186,8 +186,8 @@ class Blocks:
             response = np.array([known[_key(path)] for path in chosen])
             for block in range(self.spectra.shape[1]):
                 total += np.abs(weights @ (self.spectra[places_of, block] * response)) ** 2
-            found[name] = total
-        return found
+            squares[name] = total
+        return squares
 
 
 class Transfer:

@@ -157,7 +157,7 @@ def strongest_lines(
     f: NDArray[np.float64] = np.asarray(frequency, dtype=float)
     value: NDArray[np.float64] = np.asarray(levels, dtype=float)
     bin_width = float(f[1] - f[0])
-    found = []
+    peaks = []
     for i in range(2, len(f) - 1):
         near = value[max(0, i - _LOBE) : i + _LOBE + 1]
         around = value[max(0, i - _AROUND) : i + _AROUND + 1]
@@ -165,9 +165,9 @@ def strongest_lines(
             continue
         about = slice(max(0, i - _WIDE), i + _WIDE + 1)
         energy = 10.0 ** (0.1 * (value[about] - value[i]))
-        found.append(Line(float(f[about] @ energy / energy.sum()), float(value[i])))
-    found = sorted(found, key=lambda line: -line.level)[:count]
-    return [_explained(line, kinematic, max(_NEAR * bin_width, slip * line.frequency)) for line in found]
+        peaks.append(Line(float(f[about] @ energy / energy.sum()), float(value[i])))
+    peaks = sorted(peaks, key=lambda line: -line.level)[:count]
+    return [_explained(line, kinematic, max(_NEAR * bin_width, slip * line.frequency)) for line in peaks]
 
 
 def _explained(line: Line, kinematic: Sequence[KinematicLine], tolerance: float) -> Line:

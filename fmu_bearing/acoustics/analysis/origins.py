@@ -97,7 +97,7 @@ def bearing_origins(
     """
     if not frequencies.f_r > 0.0:
         raise ValueError(f"f_r = {frequencies.f_r:g} Hz: orders need a shaft that turns")
-    found = (
+    candidates = (
         Origin(
             combination(n, carrier, m, modulator), source, bearing,
             (n * getattr(frequencies, carrier) + m * getattr(frequencies, modulator)) / frequencies.f_r,
@@ -105,7 +105,7 @@ def bearing_origins(
         )
         for carrier, modulator, source, n, m in _combinations(frequencies, highest, sidebands, ball_sidebands)
     )  # fmt: skip
-    return sorted((one for one in found if 0.0 < one.order <= highest), key=lambda one: one.order)
+    return sorted((one for one in candidates if 0.0 < one.order <= highest), key=lambda one: one.order)
 
 
 def _wave(carrier: str, n: int, m: int, balls: int) -> int:

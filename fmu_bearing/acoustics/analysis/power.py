@@ -99,16 +99,16 @@ def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64
     circumferential order 1 holds. What moves as a dipole only: tilts and flexure are left out.
     """
     bodies = [("inner_ring", SD.C_INNER, radiators.inner_ring), ("cage", SD.C_CAGE, radiators.cage)]
-    found: dict[str, NDArray[np.float64]] = {}
+    weights: dict[str, NDArray[np.float64]] = {}
     if radiators.housing is None:
         bodies.append(("outer_ring", SD.C_OUTER, radiators.outer_ring))
     else:
-        found["outer_ring"] = _body(
+        weights["outer_ring"] = _body(
             channels, SD.C_OUTER, cylinder_volumes(radiators.housing.diameter, radiators.housing.length)
         )
     for name, channel, ring in bodies:
         if ring is not None:
-            found[name] = _body(channels, channel, ring_volumes(ring.outer, ring.inner, ring.width))
+            weights[name] = _body(channels, channel, ring_volumes(ring.outer, ring.inner, ring.width))
     balls = np.zeros((3, channels))
     first = SD.C_HARMONICS  # of order 1
     balls[0, SD.C_BALLS + SD.MEAN_X] = 1.0
@@ -116,8 +116,8 @@ def dipoles(radiators: Radiators, channels: int) -> dict[str, NDArray[np.float64
         # a_y = -a_r sin - a_t cos, a_z = a_r cos - a_t sin
         balls[1, [first + SD.HARMONIC_R_SIN, first + SD.HARMONIC_T_COS]] = -1.0
         balls[2, [first + SD.HARMONIC_R_COS, first + SD.HARMONIC_T_SIN]] = 1.0, -1.0
-    found["balls"] = balls * (2.0 * np.pi * (radiators.ball_diameter / 2.0) ** 3)
-    return found
+    weights["balls"] = balls * (2.0 * np.pi * (radiators.ball_diameter / 2.0) ** 3)
+    return weights
 
 
 def _body(channels: int, first: int, volumes: tuple[float, float]) -> NDArray[np.float64]:

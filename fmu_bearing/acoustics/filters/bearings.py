@@ -15,7 +15,7 @@ def tables_of(scene: Scene) -> list[Table]:
     whole, bearings = table_of(scene), scene.bearings()
     if not scene.assembly.joined:
         return [whole]
-    return [of_bearing(whole, one.number, one.sign, len(bearings)) for one in bearings]
+    return [of_bearing(whole, bearing.number, bearing.sign, len(bearings)) for bearing in bearings]
 
 
 def check_table(scene: Scene) -> None:
@@ -28,8 +28,8 @@ def check_table(scene: Scene) -> None:
     """
     if scene.sound is not None and scene.sound.radiation_model == "table":
         positions = [position for _, position in scene.microphones]
-        for one, table in zip(scene.bearings(), tables_of(scene), strict=True):
-            radiation = radiation_of(sound_scene(scene, one.number - 1), table=table)
+        for bearing, table in zip(scene.bearings(), tables_of(scene), strict=True):
+            radiation = radiation_of(sound_scene(scene, bearing.number - 1), table=table)
             for members in radiation.circles(positions):
                 radiation.paths(positions, members)
 

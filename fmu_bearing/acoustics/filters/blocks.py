@@ -169,13 +169,13 @@ def spans(banks: Sequence[Bank], lengths: Sequence[int], outputs: int) -> list[S
 
 def _reach(banks: Sequence[Bank]) -> NDArray[np.int64]:
     """Lane, first lag, lag after the last, and output of every filter, as rows."""
-    found = []
+    reaches = []
     for bank in banks:
         for column, output in enumerate(bank.targets):
             used = np.flatnonzero(bank.taps[:, column])
             if len(used):
-                found.append([bank.lane + column, bank.delay, bank.delay + int(used[-1]) + 1, output])
-    return np.array(found, dtype=np.int64).reshape(-1, 4).T
+                reaches.append([bank.lane + column, bank.delay, bank.delay + int(used[-1]) + 1, output])
+    return np.array(reaches, dtype=np.int64).reshape(-1, 4).T
 
 
 def _even(reach: NDArray[np.int64], block: int, begin: int, stride: int, outputs: int) -> int:
@@ -217,7 +217,7 @@ def head(bank: Bank, served: Sequence[Span]) -> NDArray[np.float64]:
 
 def filters(banks: Sequence[Bank], span: Span) -> list[Filter]:
     """Return what goes by one span, in the order of outputs."""
-    found = []
+    chosen = []
     for bank in banks:
         for column, output in enumerate(bank.targets):
             one = Bank(bank.lane + column, bank.delay, bank.taps[:, column : column + 1], (output,))
@@ -234,8 +234,8 @@ def filters(banks: Sequence[Bank], span: Span) -> list[Filter]:
             lags[begin - start : end - start] = one.taps[begin - bank.delay : end - bank.delay, 0]
             spectra = np.fft.rfft(lags.reshape(-1, span.block), 2 * span.block, axis=1)
             parts = np.stack([spectra.real, spectra.imag], axis=1)
-            found.append(Filter(one.lane, output, first, parts))
-    return sorted(found, key=lambda one: (one.output, one.lane))
+            chosen.append(Filter(one.lane, output, first, parts))
+    return sorted(chosen, key=lambda one: (one.output, one.lane))
 
 
 def jobs(given: Sequence[Filter], span: Span, outputs: int) -> tuple[list[Job], list[Job]]:

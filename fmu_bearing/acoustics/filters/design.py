@@ -48,7 +48,7 @@ class FilterError:
     microphones : tuple of int
         Indices of the microphones that share it.
     component, kind : str
-        Whose sound it carries, see ``engine.layout.sound``.
+        Whose sound it carries, see ``engine.layout.sound_filters``.
     channel, taps : int
         Channel it filters and its length.
     error : float

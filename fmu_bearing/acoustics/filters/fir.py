@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve, toeplitz
 
 from fmu_bearing.acoustics.filters import designed
-from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, between, fit_frequencies
+from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, fit_frequencies, interpolated_response
 from fmu_bearing.engine.layout import SD
 
 # Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
@@ -34,10 +34,10 @@ def _half_band(half: Sequence[float]) -> NDArray[np.float64]:
     Twice the outer taps are an equiripple filter of half the rate with one band (Vaidyanathan and Nguyen
     1987).
     """
-    found = np.zeros(4 * len(half) - 1)
-    found[::2] = 0.5 * np.array([*half, *reversed(half)])
-    found[len(found) // 2] = 0.5
-    return found
+    taps = np.zeros(4 * len(half) - 1)
+    taps[::2] = 0.5 * np.array([*half, *reversed(half)])
+    taps[len(taps) // 2] = 0.5
+    return taps
 
 
 @functools.cache
@@ -143,13 +143,13 @@ def fit(
         the strongest one's minus 30 dB. Filters longer than 512 taps are held to a grid four times as fine,
         where a spline replaces the response.
     """
-    found = []
+    fits = []
     for length in _LENGTHS:
-        found.append(_fit_length(length, response, flight, strongest))
-        if found[-1][1] < _GOOD:
-            return found[-1]
-    least = min(error for _, error in found)
-    return next((taps, error) for taps, error in found if error <= _LITTLE * least)
+        fits.append(_fit_length(length, response, flight, strongest))
+        if fits[-1][1] < _GOOD:
+            return fits[-1]
+    least = min(error for _, error in fits)
+    return next((taps, error) for taps, error in fits if error <= _LITTLE * least)
 
 
 def _fit_length(
@@ -158,7 +158,7 @@ def _fit_length(
     """Return taps and error of the best filter of one length."""
     coarse, grid = fit_frequencies(), _grid(length)
     if len(grid) > len(coarse):
-        response = between(coarse, response, flight, grid)
+        response = interpolated_response(coarse, response, flight, grid)
         strongest = np.interp(grid, coarse, strongest)
     # what the filter must do so that the whole chain is `response`, band-limited and LATENCY late
     late = np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE)

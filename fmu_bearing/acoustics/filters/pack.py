@@ -128,47 +128,47 @@ def pack(
         if not SHORTEST <= length <= LONGEST:
             raise ValueError(f"blocks of {length} samples: {SHORTEST} to {LONGEST} are possible")
     block = _Block()
-    found = block.head
-    found[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
-    found[SD.H_BALLS] = radiation.radiators.ball_count
+    head = block.head
+    head[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
+    head[SD.H_BALLS] = radiation.radiators.ball_count
     lanes = in_fours(radiation.radiators.ball_count)
-    found[SD.H_BALL_LANES] = lanes
-    found[SD.H_HARMONICS] = radiation.harmonics
-    found[SD.H_FLEXURES] = 2 * len(radiation.modes)
-    found[SD.H_RAW] = in_fours(_raw(radiation, lanes))
-    found[SD.H_CHANNELS] = channels
-    found[SD.H_BANKS] = len(banks)
-    found[SD.H_SPANS] = len(lengths)
-    found[SD.H_OUTPUTS] = len(sources)
-    found[SD.H_MICS] = sum(len(group.members) for group in groups)
-    found[SD.H_GROUPS] = len(groups)
-    found[SD.H_LANES] = len(sources) if radiation.form == "scalars" else found[SD.H_MICS]
-    found[SD.H_DETAILS] = details
-    found[SD.H_BANDS] = len(Z.BANDS) if thirds else 0
+    head[SD.H_BALL_LANES] = lanes
+    head[SD.H_HARMONICS] = radiation.harmonics
+    head[SD.H_FLEXURES] = 2 * len(radiation.modes)
+    head[SD.H_RAW] = in_fours(_raw(radiation, lanes))
+    head[SD.H_CHANNELS] = channels
+    head[SD.H_BANKS] = len(banks)
+    head[SD.H_SPANS] = len(lengths)
+    head[SD.H_OUTPUTS] = len(sources)
+    head[SD.H_MICS] = sum(len(group.members) for group in groups)
+    head[SD.H_GROUPS] = len(groups)
+    head[SD.H_LANES] = len(sources) if radiation.form == "scalars" else head[SD.H_MICS]
+    head[SD.H_DETAILS] = details
+    head[SD.H_BANDS] = len(Z.BANDS) if thirds else 0
     first, second = decimator_stages()
-    found[SD.H_AT_FIRST] = block.put(outer_taps(first))
-    found[SD.H_AT_SECOND] = block.put(outer_taps(second))
-    found[SD.H_AT_HIGH_PASS] = block.put(high_pass_gains(SD.RATE, MICROPHONE_LOW_LIMIT))
-    found[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
-    found[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
+    head[SD.H_AT_FIRST] = block.put(outer_taps(first))
+    head[SD.H_AT_SECOND] = block.put(outer_taps(second))
+    head[SD.H_AT_HIGH_PASS] = block.put(high_pass_gains(SD.RATE, MICROPHONE_LOW_LIMIT))
+    head[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
+    head[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
     angle = radiation.radiators.contact_angle
     orbit = 0.5 * radiation.radiators.pitch_diameter
-    found[SD.H_AT_SCALARS] = block.put(
+    head[SD.H_AT_SCALARS] = block.put(
         [*paper_scalars(radiation.radiators), np.sin(angle), np.cos(angle), orbit]
     )
     _put_sources(block, sources)
     _put_groups(block, groups, lines)
-    found[SD.H_AT_LANES] = block.put(order)
-    formed = SD.formed(int(found[SD.H_FORM]), radiation.harmonics, channels)
-    found[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
+    head[SD.H_AT_LANES] = block.put(order)
+    formed = SD.formed(int(head[SD.H_FORM]), radiation.harmonics, channels)
+    head[SD.H_AT_FORMED] = block.put([order[channel] for channel in formed])
     if lines is not None:
-        found[SD.H_AT_BOUNDS] = block.put(_bounds(groups, lines, channels))
+        head[SD.H_AT_BOUNDS] = block.put(_bounds(groups, lines, channels))
         _place_lines(block, lines)
         return block.flat()
     served = spans(banks, lengths, len(sources))
     deepest = _put_banks(block, banks, served)
     rows, slots = _put_spans(block, banks, served)
-    found[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)]) + SD.BATCH
+    head[SD.H_ROWS] = max([deepest, *(2 * length + 1 for length in lengths)]) + SD.BATCH
     _place_state(block, rows, slots)
     _place_work(block)
     return block.flat()
@@ -243,7 +243,7 @@ def _put_spans(
     block: _Block, banks: Sequence[Bank], served: Sequence[Span]
 ) -> tuple[list[list[int]], list[list[int]]]:
     """Put the jobs of every span; return each span's row, begun, and its lanes' slots."""
-    found = []
+    span_rows = []
     slots = []
     outputs = int(block.head[SD.H_OUTPUTS])
     for span in served:
@@ -261,7 +261,7 @@ def _put_spans(
         late = shares.late(length, [job.parts for job in then])
         units = shares.first_units(early, late, length, span.wait)
         turns = np.pi * np.arange(length + 1) / length
-        found.append(
+        span_rows.append(
             [length, span.wait, length.bit_length() - 1, len(lanes), len(runs), block.put(runs)]
             + [len(rows), block.put(rows), len(early), block.put(units)]
             + [block.put([np.cos(turns), np.sin(turns)])]
@@ -269,7 +269,7 @@ def _put_spans(
         slots.append(
             [max(1, *(one.first + one.count - 1 for one in given if one.lane == lane)) for lane in lanes]
         )
-    return found, slots
+    return span_rows, slots
 
 
 def _filter_rows(block: _Block, job: Job, lanes: Sequence[int]) -> list[list[int]]:
@@ -285,32 +285,32 @@ def _place_state(block: _Block, rows: Sequence[list[int]], slots: Sequence[list[
 
     ``slots``: how many past spectra each lane of each span holds.
     """
-    found = block.head
-    channels, mics = int(found[SD.H_CHANNELS]), int(found[SD.H_MICS])
-    end = SD.SS_TABLES + SD.FIRST_ROWS * int(found[SD.H_RAW])
+    head = block.head
+    channels, mics = int(head[SD.H_CHANNELS]), int(head[SD.H_MICS])
+    end = SD.SS_TABLES + SD.FIRST_ROWS * int(head[SD.H_RAW])
 
     def room(size: float) -> int:
         nonlocal end
         place, end = end, end + int(size)
         return place
 
-    found[SD.H_S_SECOND] = room(SD.SECOND_ROWS * found[SD.H_RAW])
-    found[SD.H_S_TURNS] = room(SD.TURN_ROWS * 2 * found[SD.H_BALL_LANES])
-    found[SD.H_S_HIGH_PASS] = room(SD.HIGH_PASS_STATES * channels)
-    found[SD.H_S_CHANNELS] = room(found[SD.H_ROWS] * channels)
+    head[SD.H_S_SECOND] = room(SD.SECOND_ROWS * head[SD.H_RAW])
+    head[SD.H_S_TURNS] = room(SD.TURN_ROWS * 2 * head[SD.H_BALL_LANES])
+    head[SD.H_S_HIGH_PASS] = room(SD.HIGH_PASS_STATES * channels)
+    head[SD.H_S_CHANNELS] = room(head[SD.H_ROWS] * channels)
     complete = []
     for row, counts in zip(rows, slots, strict=True):
         length = row[SD.SPAN_BLOCK]
         lanes = [[count, room(count * 2 * (length + 1))] for count in counts]
-        outputs = int(found[SD.H_OUTPUTS])
+        outputs = int(head[SD.H_OUTPUTS])
         transform = room(2 * (length + 1) * in_fours(max(len(lanes), outputs)))
         sums = room(SD.sums_place(outputs - 1, length) + SD.MAX_FREQUENCIES + length + 1)
         complete.append([*row, block.put(lanes), transform, sums, room(length * in_fours(outputs))])
-    found[SD.H_AT_SPANS] = block.put(complete)
-    found[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * found[SD.H_LANES])
-    found[SD.H_S_METERS] = room(SD.METERS * mics)
-    found[SD.H_S_BANDS] = room(SD.BAND_SIZE * mics if found[SD.H_BANDS] else 0)
-    found[SD.H_STATE] = end
+    head[SD.H_AT_SPANS] = block.put(complete)
+    head[SD.H_S_A_WEIGHTING] = room(SD.A_SECTIONS * SD.SECTION_STATES * head[SD.H_LANES])
+    head[SD.H_S_METERS] = room(SD.METERS * mics)
+    head[SD.H_S_BANDS] = room(SD.BAND_SIZE * mics if head[SD.H_BANDS] else 0)
+    head[SD.H_STATE] = end
 
 
 def _bounds(groups: Sequence[Group], lines: Lines, channels: int) -> NDArray[np.float64]:
@@ -334,13 +334,13 @@ def _bounds(groups: Sequence[Group], lines: Lines, channels: int) -> NDArray[np.
 
 def _place_lines(block: _Block, lines: Lines) -> None:
     """Give every part of the state and work of a block of lines its place."""
-    found = block.head
-    channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
-    bearings, bands = lines.bearings, int(found[SD.H_BANDS])
+    head = block.head
+    channels, outputs, mics = (int(head[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
+    bearings, bands = lines.bearings, int(head[SD.H_BANDS])
     most = SL.most_lines(mics) * max(lines.bearings, 1) if lines.metered else 0
-    found[SD.H_LINES] = max(most, 1)
-    found[SD.H_BEARINGS] = bearings
-    found[SD.H_DELAY] = SD.LATENCY / SD.RATE
+    head[SD.H_LINES] = max(most, 1)
+    head[SD.H_BEARINGS] = bearings
+    head[SD.H_DELAY] = SD.LATENCY / SD.RATE
     end = SD.SS_TABLES
     for place, size in (
         (SD.H_S_METERS, SD.METERS * mics),
@@ -350,9 +350,9 @@ def _place_lines(block: _Block, lines: Lines) -> None:
         (SD.H_S_MEANS, SL.quantities(bearings, bands) * mics),
         (SD.H_S_BEATS, SL.MOST_BEATS * SL.beat_size(bearings, bands, mics) if most else 0),
     ):
-        found[place] = end
+        head[place] = end
         end += size
-    found[SD.H_STATE] = end
+    head[SD.H_STATE] = end
     end = 0
     for place, size in (
         (SD.H_W_OUTPUTS, 2 * outputs),
@@ -365,28 +365,28 @@ def _place_lines(block: _Block, lines: Lines) -> None:
         (SD.H_W_TURNS, SL.TURN),
         (SD.H_W_ANGLES, SL.ANGLES * max(bearings, 1)),
     ):
-        found[place] = end
+        head[place] = end
         end += size
-    found[SD.H_WORK] = end
+    head[SD.H_WORK] = end
 
 
 def _place_work(block: _Block) -> None:
     """Give every part of the work space its place; the decimated rows are first."""
-    found = block.head
-    channels, outputs, mics = (int(found[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
+    head = block.head
+    channels, outputs, mics = (int(head[k]) for k in (SD.H_CHANNELS, SD.H_OUTPUTS, SD.H_MICS))
     # of the balls' harmonics: sums and multiples
-    rows = SD.FAMILIES * SD.FAMILY_ROWS + found[SD.H_BALL_LANES]
-    scratch = [2 * int(found[SD.H_HARMONICS] * rows), SD.BAND_LANES]
-    end = SD.BATCH * int(found[SD.H_RAW])
+    rows = SD.FAMILIES * SD.FAMILY_ROWS + head[SD.H_BALL_LANES]
+    scratch = [2 * int(head[SD.H_HARMONICS] * rows), SD.BAND_LANES]
+    end = SD.BATCH * int(head[SD.H_RAW])
     for place, size in (
         (SD.H_W_FORMED, SD.BATCH * channels),
         (SD.H_W_OUTPUTS, SD.BATCH * in_fours(outputs)),
         (SD.H_W_LANES, SD.MAX_CHANNELS),
-        (SD.H_W_WEIGHTED, int(found[SD.H_LANES])),
-        (SD.H_W_SOURCES, SD.BATCH * int(found[SD.H_SOURCES]) * mics),
+        (SD.H_W_WEIGHTED, int(head[SD.H_LANES])),
+        (SD.H_W_SOURCES, SD.BATCH * int(head[SD.H_SOURCES]) * mics),
         (SD.H_W_METERS, SD.BATCH * SD.METERS * mics),
         (SD.H_W_SCRATCH, max(scratch)),
     ):
-        found[place] = end
+        head[place] = end
         end += size
-    found[SD.H_WORK] = end
+    head[SD.H_WORK] = end

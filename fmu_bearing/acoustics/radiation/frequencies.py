@@ -28,7 +28,7 @@ def spline_of(
     return CubicSpline(ends, np.concatenate([still[..., low][..., ::-1].conj(), still], axis=-1), axis=-1)
 
 
-def between(
+def interpolated_response(
     frequency: NDArray[np.float64],
     response: NDArray[np.complex128],
     flight: float,

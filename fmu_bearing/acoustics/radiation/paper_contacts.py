@@ -62,10 +62,10 @@ def contact_paths(radiators: Radiators, air: Air, circle: MicrophoneCircle, harm
     paths: list[Path] = []
     for m in range(harmonics + 1):
         # single, double: (cosine part, sine part) x family x frequency; a patch of family i answers j
-        answers = _surface(families, radiators.ball_count, k, m)
+        surface_responses = _surface(families, radiators.ball_count, k, m)
         channels: dict[int, NDArray[np.complex128]] = {}
         for i, family in enumerate(families):
-            response = single[m, i] + np.einsum("jf,jf->f", double[m], answers[:, i])
+            response = single[m, i] + np.einsum("jf,jf->f", double[m], surface_responses[:, i])
             response = response * (air.density * family.sign)
             channels[family.channels] = channels.get(family.channels, 0.0) + response
         cosine, sine = circle.order(m)
@@ -143,5 +143,5 @@ def _surface(families: list[_Family], count: int, k: NDArray[np.float64], m: int
             drive[:, i, j] += source.area * (green @ turn[apart])
         disc = np.sqrt(to.area / np.pi)  # the patch itself: a disc, seen from its centre
         drive[:, i, i] += 0.5 * disc * np.sinc(k * disc / (2 * np.pi)) * np.exp(-0.5j * k * disc)
-    answers: NDArray[np.complex128] = np.moveaxis(np.linalg.solve(system, drive).astype(complex), 0, -1)
-    return answers
+    responses: NDArray[np.complex128] = np.moveaxis(np.linalg.solve(system, drive).astype(complex), 0, -1)
+    return responses

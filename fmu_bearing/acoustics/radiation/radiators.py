@@ -72,7 +72,7 @@ class Path:
 
     ``response`` is pressure per channel at `fit_frequencies`, flight time included; ``flight`` the time in s
     to take out before the fit; ``weights`` one factor per microphone; ``kind`` the source type, a place in
-    ``engine.layout.sound.KINDS``; ``bearing`` which one of a set radiates, from 0.
+    ``engine.layout.sound_filters.KINDS``; ``bearing`` which one of a set radiates, from 0.
     """
 
     component: int

@@ -28,7 +28,7 @@ from pathlib import Path as File
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.radiation.frequencies import BAND, between, fit_frequencies
+from fmu_bearing.acoustics.radiation.frequencies import BAND, fit_frequencies, interpolated_response
 from fmu_bearing.acoustics.radiation.radiators import BALLS, Path
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.file_words import absent as no_file, why
@@ -223,22 +223,22 @@ def table_paths(
     responses = table.response[microphone]
     flight = _flight(table.frequencies, responses)
     f = fit_frequencies()
-    found: dict[int, Path] = {}
+    paths: dict[int, Path] = {}
     for name, response in zip(table.inputs, responses, strict=True):
         if name not in known:
             near = nearest(name, known)
             hint = f"did you mean '{near}'?" if near else "an example: outer_ring.acceleration.x"
             raise ValueError(f"sound.table_file: '{name}' is not an input of this scene; {hint}")
         component, channel, kind = known[name]
-        if channel in found:
+        if channel in paths:
             raise ValueError(
                 f"sound.table_file: '{name}' is given twice, as housing and as outer_ring: keep one"
             )
         if np.abs(response).max() > _SILENT * np.abs(responses).max():
             _check_spacing(table, microphone, name, response, flight)
-            transfer = between(table.frequencies, response, flight, f)
-            found[channel] = Path(component, channel, flight, transfer, np.ones(1), kind)
-    return list(found.values())
+            transfer = interpolated_response(table.frequencies, response, flight, f)
+            paths[channel] = Path(component, channel, flight, transfer, np.ones(1), kind)
+    return list(paths.values())
 
 
 def _flight(frequency: NDArray[np.float64], responses: NDArray[np.complex128]) -> float:

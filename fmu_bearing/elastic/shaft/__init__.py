@@ -10,7 +10,7 @@
 """
 
 from fmu_bearing.elastic.shaft.make import shaft_model
-from fmu_bearing.elastic.shaft.model import ShaftModel, placed
+from fmu_bearing.elastic.shaft.model import ShaftModel, rigid_transform
 from fmu_bearing.elastic.shaft.sections import shaft_sections
 
-__all__ = ["ShaftModel", "placed", "shaft_model", "shaft_sections"]
+__all__ = ["ShaftModel", "rigid_transform", "shaft_model", "shaft_sections"]

@@ -49,20 +49,20 @@ class Beam:
 
     def node(self, position: float) -> int:
         """Return the number of the node at a place (m), which must be one."""
-        found = int(np.argmin(np.abs(self.nodes - position)))
-        if abs(self.nodes[found] - position) > SAME:
+        nearest = int(np.argmin(np.abs(self.nodes - position)))
+        if abs(self.nodes[nearest] - position) > SAME:
             raise ValueError(f"there is no node at {position:g} m")
-        return found
+        return nearest
 
     def motion(self, position: float) -> NDArray[np.float64]:
         """Return deflection and slope at a place (m) per coordinate, shape (2, 2 N); ends go on rigidly."""
         inside = min(max(position, self.nodes[0]), self.nodes[-1])
         k = min(int(np.searchsorted(self.nodes, inside, side="right")) - 1, len(self.nodes) - 2)
         length = float(self.nodes[k + 1] - self.nodes[k])
-        found = np.zeros((2, 2 * len(self.nodes)))
-        found[:, 2 * k : 2 * k + 4] = shapes((inside - self.nodes[k]) / length, length, self.sections[k])
-        found[0] += (position - inside) * found[1]
-        return found
+        rows = np.zeros((2, 2 * len(self.nodes)))
+        rows[:, 2 * k : 2 * k + 4] = shapes((inside - self.nodes[k]) / length, length, self.sections[k])
+        rows[0] += (position - inside) * rows[1]
+        return rows
 
     def free_frequency(self) -> float:
         """Return the lowest bending frequency without supports, rad/s."""
@@ -92,12 +92,12 @@ def beam(sections: Sequence[Section], planes: Sequence[float] = (), finer: int =
 
 def _nodes(places: Sequence[float], longest: float, fewest: int) -> NDArray[np.float64]:
     """Return places in order, each once, with more between them so that no element is too long."""
-    found: list[float] = []
+    stations: list[float] = []
     for place in sorted(places):
-        if not found or place - found[-1] > SAME:
-            found.append(place)
-    nodes = [found[0]]
-    for start, end in pairwise(found):
+        if not stations or place - stations[-1] > SAME:
+            stations.append(place)
+    nodes = [stations[0]]
+    for start, end in pairwise(stations):
         count = max(fewest, math.ceil((end - start) / longest))
         nodes.extend(start + (end - start) * k / count for k in range(1, count))
         nodes.append(end)

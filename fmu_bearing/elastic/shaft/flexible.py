@@ -58,7 +58,7 @@ def flexible_model(
         return found
 
     full = spread(mass)
-    full[0, 0] = sum(one.mass for one in sections)
+    full[0, 0] = sum(section.mass for section in sections)
     rise = np.tile([1.0, 0.0], len(whole.nodes))
     lift = basis.T @ (whole.mass @ rise)
     rigid = spread(stiffness)
@@ -71,7 +71,7 @@ def flexible_model(
         at(0.0),
         tuple(at(place) for place in bearings),
         tuple(at(place) for place in spots),
-        sum(one.polar for one in sections),
+        sum(section.polar for section in sections),
         at,
     )
 
@@ -81,14 +81,14 @@ def reduction(whole: Beam, planes: Sequence[int], modes: int) -> NDArray[np.floa
 
     Modes have a largest deflection of 1, so their coordinates are in m.
     """
-    held = np.array([2 * node + k for node in planes for k in (0, 1)])
-    free = np.setdiff1d(np.arange(len(whole.mass)), held)
+    interface = np.array([2 * node + k for node in planes for k in (0, 1)])
+    free = np.setdiff1d(np.arange(len(whole.mass)), interface)
     inner = whole.stiffness[np.ix_(free, free)]
-    basis = np.zeros((len(whole.mass), len(held) + modes))
-    basis[held, np.arange(len(held))] = 1.0
-    basis[free, : len(held)] = -np.linalg.solve(inner, whole.stiffness[np.ix_(free, held)])
-    basis[free, len(held) :] = eigh(inner, whole.mass[np.ix_(free, free)])[1][:, :modes]
-    for k in range(len(held), len(held) + modes):
+    basis = np.zeros((len(whole.mass), len(interface) + modes))
+    basis[interface, np.arange(len(interface))] = 1.0
+    basis[free, : len(interface)] = -np.linalg.solve(inner, whole.stiffness[np.ix_(free, interface)])
+    basis[free, len(interface) :] = eigh(inner, whole.mass[np.ix_(free, free)])[1][:, :modes]
+    for k in range(len(interface), len(interface) + modes):
         deflection = basis[::2, k]
         basis[:, k] /= deflection[np.argmax(np.abs(deflection))]
     return basis

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 FREEDOMS = 5  # of a plane: x y z (m), tilts about y and z (rad); spin is prescribed
 
 
-def placed(sign: float, position: float) -> NDArray[np.float64]:
+def rigid_transform(sign: float, position: float) -> NDArray[np.float64]:
     """Return what takes a rigid body's displacement at X = 0 to that of a plane, shape (5, 5).
 
     ``sign``: -1 for the mirrored axes of a bearing that carries towards -X; ``position``: of the plane, m.
     """
-    found = np.diag([sign, 1.0, 1.0, sign, sign])
-    found[1, 4], found[2, 3] = position, -position
-    return found
+    transform = np.diag([sign, 1.0, 1.0, sign, sign])
+    transform[1, 4], transform[2, 3] = position, -position
+    return transform
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class ShaftModel:
     planes: tuple[NDArray[np.float64], ...]
     spots: tuple[NDArray[np.float64], ...]
     polar: float
-    at: Callable[[float], NDArray[np.float64]] = field(default=partial(placed, 1.0), compare=False)
+    at: Callable[[float], NDArray[np.float64]] = field(default=partial(rigid_transform, 1.0), compare=False)
 
     @property
     def count(self) -> int:

@@ -39,8 +39,8 @@ def shaft_sections(scene: Scene, shaft: Shaft) -> list[Section]:
     """Return the sections of a scene's shaft from the nose on."""
     material = si(shaft.material or scene.materials.inner_ring)
     elastic = (material.density, material.youngs_modulus, material.poisson_ratio)
-    found, start = [], 0.0
+    sections, start = [], 0.0
     for length, diameter, bore in shaft.sections_mm:
-        found.append(Section(start, 1e-3 * length, 5e-4 * diameter, 5e-4 * bore, *elastic))
+        sections.append(Section(start, 1e-3 * length, 5e-4 * diameter, 5e-4 * bore, *elastic))
         start += 1e-3 * length
-    return found
+    return sections

@@ -3,39 +3,39 @@
 After ``from fmu_bearing.engine.layout import P, S, W`` a kernel line shows which array it touches:
 ``p[P.MU]``, ``s[S.TIME]``, ``w[W.LOSS + j]``.
 
-================  ====  ==========================================================================
-module            as    array
-================  ====  ==========================================================================
-``sizes``               lengths that several arrays share, and `Places`, which hands out places
-``q``             Q     the bodies' 17 coordinates, in any array
-``y``             Y     positions and velocities of the mechanics: head of ``s``, and each stage
-``f``             F     right-hand side: accelerations, power, heat, torque
-``c``             C     conditions held over a communication step
-``u``             U     inputs
-``z``             Z     outputs
-``spindle``       SP    a set of bearings on one shaft: its own in ``p``, ``u``, ``s``, ``z``, ``w``
-``sound``         SD    sound blocks: parameters ``ps``, state ``ss``, work ``ws``
-``sound_lines``   SL    of a sound block of lines (fidelity response): more of ``ss`` and ``ws``
-``motion``        MO    one motion sample for the sound kernels
-``flexure``       FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
-``p``             P     parameters: written once by ``prepare``, read only in the engine
-``jacobian``      J     blocks of the Jacobian
-``factors``       A     factors of the Newton matrix
-``history``       H     what a march of fidelity rings keeps of its coordinates
-``condensed``     L     what fidelities rings and response keep in ``s``
-``lines``         LN    scratch of fidelity response in ``s`` while it renews its lines
-``drift``         DR    what fidelity response keeps of a drift of its inputs in ``s``
-``s``             S     state: all that a later step needs, and nothing else
-``equilibrium``   EQ    result of the quasi-static kernel
-``statics``       ST    work space of the quasi-static kernels
-``pattern``       PT    work space of the steady state of unequal balls
-``pose``          X     where a ball is in a body's frame: rows of ``w``
-``race``          R     contact of the balls with one race: rows of ``w``
-``contact``       K     how a contact answers motion: scratch of the Jacobian in ``w``
-``w``             W     work space: scratch, no value survives a call; its ledger of overlays
-``trial``         T     work space of fidelities rings and response
-``tableau``       TAB   coefficients of one Runge-Kutta method
-================  ====  ==========================================================================
+=================  ====  ============================================================================
+module             as    array
+=================  ====  ============================================================================
+``sizes``                lengths that several arrays share, and `Places`, which hands out places
+``q``              Q     the bodies' 17 coordinates, in any array
+``y``              Y     positions and velocities of the mechanics: head of ``s``, and each stage
+``f``              F     right-hand side: accelerations, power, heat, torque
+``c``              C     conditions held over a communication step
+``u``              U     inputs
+``z``              Z     outputs
+``spindle``        SP    a set of bearings on one shaft: its own in ``p``, ``u``, ``s``, ``z``, ``w``
+``sound_filters``  SD    sound blocks: parameters ``ps``, state ``ss``, work ``ws``
+``sound_lines``    SL    of a sound block of lines (fidelity response): more of ``ss`` and ``ws``
+``motion``         MO    one motion sample for the sound kernels
+``flexure``        FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
+``p``              P     parameters: written once by ``prepare``, read only in the engine
+``jacobian``       J     blocks of the Jacobian
+``factors``        A     factors of the Newton matrix
+``history``        H     what a march of fidelity rings keeps of its coordinates
+``condensed``      L     what fidelities rings and response keep in ``s``
+``lines``          LN    scratch of fidelity response in ``s`` while it renews its lines
+``drift``          DR    what fidelity response keeps of a drift of its inputs in ``s``
+``s``              S     state: all that a later step needs, and nothing else
+``equilibrium``    EQ    result of the quasi-static kernel
+``statics``        ST    work space of the quasi-static kernels
+``pattern``        PT    work space of the steady state of unequal balls
+``pose``           X     where a ball is in a body's frame: rows of ``w``
+``race``           R     contact of the balls with one race: rows of ``w``
+``contact``        K     derivatives of a contact by motion: scratch of the Jacobian in ``w``
+``w``              W     work space: scratch, no value survives a call; its ledger of overlays
+``trial``          T     work space of fidelities rings and response
+``tableau``        TAB   coefficients of one Runge-Kutta method
+=================  ====  ============================================================================
 
 All arrays are one-dimensional, of float64, in SI units. Per-ball quantities are structures of arrays: the
 *row* of a quantity is the place of ball 0, ball j is ``j`` places on, the next row ``STRIDE`` places on;
@@ -61,7 +61,7 @@ from fmu_bearing.engine.layout import (
     q as Q,
     race as R,
     s as S,
-    sound as SD,
+    sound_filters as SD,
     sound_lines as SL,
     spindle as SP,
     statics as ST,

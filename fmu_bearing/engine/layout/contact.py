@@ -1,4 +1,4 @@
-"""K: how a contact answers motion: scratch of the Jacobian, in ``w`` from ``W.CONTACT`` on.
+"""K: derivatives of a contact by motion: scratch of the Jacobian, in ``w`` from ``W.CONTACT`` on.
 
 First what traction does, in rows of all balls; then, for four balls at a time, columns of six: change of the
 force (N) and moment (N m) on the ball by a unit of one motion, in the contact's axes, later in the ball's.

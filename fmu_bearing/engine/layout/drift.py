@@ -21,7 +21,7 @@ STILL = _at()  # and since inputs moved
 HEAD = _at.next
 
 _at = Places()
-NOW = _at(COMPONENTS)  # how far conditions are from those held, in tolerances
+NOW = _at(COMPONENTS)  # how far conditions are from the frozen ones, in tolerances
 CHANGE = _at(COMPONENTS)  # differences between both renewals: of the conditions, in tolerances,
 HEAT = _at(HEATS)  # W: of the heats,
 TORQUE = _at()  # N m,

@@ -23,6 +23,6 @@ _at = Places()
 GROUPS = _at(STRIDE // FOUR * GROUP)
 S = _at(Q.SIZE * BORDER)  # inverse of what the balls leave of the bodies' block, by columns
 SPRING = _at()  # coupling of neighbouring balls: strength,
-SPRING_BODY = _at(Q.SIZE * STRIDE)  # bodies' answers,
+SPRING_BODY = _at(Q.SIZE * STRIDE)  # bodies' responses,
 SPRING_BALLS = _at(MAX_BALLS * MAX_BALLS)  # inverse Z x Z
 SIZE = _at.next

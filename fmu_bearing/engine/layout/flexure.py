@@ -12,8 +12,8 @@ COORDINATES = 2 * MAX_MODES  # two per mode, cosine and sine
 GROOVE = 3  # directions of the groove: axial, radial, circumferential
 # rows of the balls' answer to the groove's motion, entry (i, k) at (i * GROOVE + k) * STRIDE, then of the
 # groove's to the balls', entry (i, k) at (ANSWERS + i * BALL + k) * STRIDE
-ANSWERS = BALL * GROOVE
-FACTOR_ROWS = 2 * ANSWERS
+COUPLINGS = BALL * GROOVE
+FACTOR_ROWS = 2 * COUPLINGS
 INERTIA = GROOVE * GROOVE  # numbers of a groove's inertia against the motion of its own or the other ring's
 INERTIAS = 4 * INERTIA  # inner on inner, inner on outer, outer on inner, outer on outer ring
 PER_MODE = 6  # numbers of a mode's state: places, velocities, accelerations of two coordinates

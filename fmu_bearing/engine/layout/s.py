@@ -73,8 +73,8 @@ SOUND = _at.next  # sound state, then flexure (fidelity full) or lines (response
 def front(p):
     """Length of the part of ``s`` that steps go on from, which all of ``s`` is but in fidelity `response`.
 
-    There inputs and a second such part follow, in which what is held is renewed (``response/renewal``), then
-    what is kept of a drift (``DR``).
+    There inputs and a second such part follow, in which what is frozen is renewed (``response/renewal``),
+    then what is kept of a drift (``DR``).
     """
     if _SP.has_shaft(p):
         return int(p[int(p[_P.SET]) + _SP.FRONT])

@@ -5,7 +5,7 @@ order of that block's lanes.
 """
 
 from fmu_bearing.engine.layout.sizes import Places
-from fmu_bearing.engine.layout.sound import COMPONENTS, KINDS
+from fmu_bearing.engine.layout.sound_filters import COMPONENTS, KINDS
 
 MOST_LINES = 1024  # per bearing,
 FEWER_LINES, MANY_MICS = 512, 24  # and with more microphones than that

@@ -44,11 +44,11 @@ OUTER = _at(STRIDE)
 STEP = _at(STRIDE)  # m2: a ball's move in the last sweep, squared, as far as it is felt
 MOVED = _at(STRIDE)  # m2: all of it
 FORCE = _at(2 * FORCE_SIZE)  # on inner ring, then on outer ring: one row per component, see L.FORCES
-# behind the forces, as the components of a line have it: m, away from the held point, by patterns: L.AWAYS
+# behind the forces, as the components of a line have it: m, away from the frozen point, by patterns: L.AWAYS
 AWAY = _at(_L.AWAYS * _L.PATTERNS * STRIDE)
 ASIDE = _at(STRIDE)  # m: the balls' places of rest across their tracks
-HELD = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes
-LEAN = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
+LOADED = _at(STRIDE)  # 1 for a ball between both races, 0 for a loose one and for spare lanes
+FORM_SLOPE = _at(2 * STRIDE)  # m/rad: slope of the balls' own form across the track, inner and outer
 CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
 DR = _at(STRIDE)
@@ -56,7 +56,7 @@ PHASES = _at(STRIDE)  # rad: of one row of lines
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE
-LEAN_OUTER = LEAN + STRIDE
+FORM_SLOPE_OUTER = FORM_SLOPE + STRIDE
 CONTACT_OUTER = CONTACT + CONTACT_SIZE
 
 # trial numbers of a step
@@ -71,7 +71,7 @@ _SPARE = _at(-_at.next % FOUR)
 MODES_FREE = _at(_L.BOTH)  # modes of balls and cage at the end of the step if nothing drove them there,
 MODES_DRIVEN = _at(4 * _L.BOTH)  # what drives them there, see L.DRIVES: the four at the end
 MODES_END = _at(_L.BOTH)  # modes there
-LINEAR = _at(_L.COLUMN)  # m, rad: places of the rings less the held ones
+LINEAR = _at(_L.COLUMN)  # m, rad: places of the rings less the frozen ones
 FAMILY_PLACES = 2 * _L.FAMILY_RINGS  # numbers of a family: complex coordinates
 PLACES = _at(2 * FAMILY_PLACES)  # the same by families: of family 0, then of family 1
 RATES = _at(2 * FAMILY_PLACES)  # m/s, rad/s: and their velocities
@@ -106,9 +106,9 @@ TURNS = _at(2 * _INNER)
 VECTORS = _at(2 * _INNER)  # modes in columns
 MODES_INVERSE = _at(4 * _INNER)  # rows of the modes and of a unit matrix, which becomes their inverse
 BY_RINGS = _at(4 * _L.INTERNAL * _L.FAMILY_RINGS)  # rates by the rings' places and velocities
-HOLDS = _at(_L.AWAYS * _J.BALL)  # 1/s2: a ball's accelerations by its place of rest, by contacts: see L.AWAYS
-PUSHED = 2 * 2 * _L.AWAYS * _L.FAMILY_RINGS  # numbers of
-PUSHES = _at(PUSHED)  # 1/s2: accelerations of the rings by them
+RESTORING = _at(_L.AWAYS * _J.BALL)  # 1/s2: of a ball by its place of rest, by contacts: see L.AWAYS
+COUPLING_SIZE = 2 * 2 * _L.AWAYS * _L.FAMILY_RINGS  # numbers of
+COUPLING = _at(COUPLING_SIZE)  # 1/s2: accelerations of the rings by them
 PRESSED = _at(2 * PRESSED_SIZE)  # of each race
 HEIGHTENED = _at(_J.BALL)  # a ball's accelerations by the height of a race
 KEPT = _at(4 * _L.INTERNAL)  # states of balls and cage over a renewal, complex
@@ -117,21 +117,21 @@ OPERATOR_END = _at.next
 LINE_SIDE = _L.N * _L.COLUMN  # right side of the rings' equations: behind the columns of coefficients
 LINE_RE = _at(LINE_SIDE + _L.COLUMN)
 LINE_IM = _at(LINE_SIDE + _L.COLUMN)
-ANSWER = _at(2 * _L.BOTH)  # modes of balls and cage at a frequency, per drive: forward, then backward
+MODAL_RESPONSE = _at(2 * _L.BOTH)  # modes of balls and cage at a frequency, per drive: forward, then backward
 DRIVEN = _at(2 * _L.FAMILY_RINGS * _L.COMPLEX)  # and driven by each coordinate of a family
-BESIDE_RE = _at(_L.MATRIX)  # 1/s2: accelerations of the rings by them, and by what goes beside balls at rest
-BESIDE_IM = _at(_L.MATRIX)
+FEEDTHROUGH_RE = _at(_L.MATRIX)  # 1/s2: of the rings by them, and by what goes beside balls at rest
+FEEDTHROUGH_IM = _at(_L.MATRIX)
 LINE_FORCE = _at(_LN.COMPLEX)  # N, N m: one line's excitation
-# held values, which are found before the modes
+# frozen values, which are found before the modes
 _at = Places(STATES)
-HELD_F = _at(_F.SIZE)  # right-hand side at the held state
-HELD_ROWS = _at(2 * STRIDE)  # orbit speeds and places of the published state, set aside
-HELD_LOST = _at(_L.LOST)  # losses with even balls, set aside
+FROZEN_F = _at(_F.SIZE)  # right-hand side at the frozen state
+FROZEN_ROWS = _at(2 * STRIDE)  # orbit speeds and places of the published state, set aside
+FROZEN_LOST = _at(_L.LOST)  # losses with even balls, set aside
 
 _CONDENSED = frozenset({"condensed"})
 _LINES = frozenset({"lines"})
 _BOTH = _CONDENSED | _LINES
-_HELD = frozenset({"start", "inputs"})  # what is held is found with the full right-hand side
+_FROZEN = frozenset({"start", "inputs"})  # what is frozen is found with the full right-hand side
 #: Areas of ``w`` that only these fidelities use; see W.LEDGER.
 LEDGER: tuple[Area, ...] = (
     Area("T rows", 0, ROWS, _BOTH),
@@ -149,11 +149,11 @@ LEDGER: tuple[Area, ...] = (
     Area("T operator", STATES, OPERATOR_END - STATES, _CONDENSED),
     Area("T.LINE_RE", LINE_RE, LINE_SIDE + _L.COLUMN, _LINES),
     Area("T.LINE_IM", LINE_IM, LINE_SIDE + _L.COLUMN, _LINES),
-    Area("T.ANSWER", ANSWER, 2 * _L.BOTH, _LINES),
+    Area("T.MODAL_RESPONSE", MODAL_RESPONSE, 2 * _L.BOTH, _LINES),
     Area("T.DRIVEN", DRIVEN, 2 * _L.FAMILY_RINGS * _L.COMPLEX, _LINES),
-    Area("T.BESIDE", BESIDE_RE, 2 * _L.MATRIX, _LINES),
+    Area("T.BESIDE", FEEDTHROUGH_RE, 2 * _L.MATRIX, _LINES),
     Area("T.LINE_FORCE", LINE_FORCE, _LN.COMPLEX, _LINES),
-    Area("T.HELD_F", HELD_F, _F.SIZE, _HELD),
-    Area("T.HELD_ROWS", HELD_ROWS, 2 * STRIDE, _HELD),
-    Area("T.HELD_LOST", HELD_LOST, _L.LOST, _HELD),
+    Area("T.FROZEN_F", FROZEN_F, _F.SIZE, _FROZEN),
+    Area("T.FROZEN_ROWS", FROZEN_ROWS, 2 * STRIDE, _FROZEN),
+    Area("T.FROZEN_LOST", FROZEN_LOST, _L.LOST, _FROZEN),
 )

@@ -77,7 +77,7 @@ ACC = _at(STAGES * _F.SIZE)  # stage accelerations
 VEL = _at(STAGES * _F.SIZE)  # stage velocities in the layout of accelerations
 FLEX = _at(_FL.SIZE)  # flexible rings: see flexure
 MOTION = _at(_MO.SIZE)  # motion sample: see motion
-CONTACT = _at(_K.SIZE)  # how contacts answer motion: see contact
+CONTACT = _at(_K.SIZE)  # derivatives of contacts by motion: see contact
 PATTERN = _at(_PT.SIZE)  # steady state of unequal balls: see pattern
 SET = _at(_SP.work_size(1, _L.N))  # work space of a set's own, where the bearing is alone
 SOUND = _at.next  # work space of the sound kernels, then the matrices of PATTERN: see `steady.pattern`
@@ -85,7 +85,7 @@ SPARE = 8  # numbers between both
 
 LAST = ACC + (STAGES - 1) * _F.SIZE  # accelerations at the end of a step, of any method
 # where a run starts
-FOUND = VEL  # result of the quasi-static kernel
+EQUILIBRIUM = VEL  # result of the quasi-static kernel
 STATICS = POSE  # its work space: see statics
 SPIN_SYSTEM = FORCE  # equations for orbit and spin of one ball
 SPINS_FIRST = ACC  # rad/s: those rates of all balls before they are balanced
@@ -93,7 +93,7 @@ SPINS_FIRST = ACC  # rad/s: those rates of all balls before they are balanced
 _still = Places(D)
 STILL_INPUTS = _still(_U.SIZE)  # inputs at standstill and reference temperature,
 STILL_CONDITIONS = _still(_C.SIZE)  # what they mean,
-STILL_FOUND = _still(_ST.AXIAL_SIZE)  # and the equilibrium under axial load there
+STILL_EQUILIBRIUM = _still(_ST.AXIAL_SIZE)  # and the equilibrium under axial load there
 STILL_END = _still.next
 
 # the Newton system, over forces on balls that the evaluation before has added up: while it is factored
@@ -106,12 +106,12 @@ FACTOR_END = _factor.next
 # and while it is solved
 _solve = Places(FORCE)
 OWN = _solve(_J.BALL * STRIDE)  # the balls' own inverses times their residual
-REST = _solve(_A.BORDER)  # the bodies' residual less the balls' answers
+REST = _solve(_A.BORDER)  # the bodies' residual less the balls' solutions
 BODIES = _solve(_A.BORDER)  # the bodies' increment
 BODY_SUMS = _solve(_Q.SIZE * FOUR)  # what the balls put on the bodies, in four partial sums each
 SPRING_ORBIT = _solve(STRIDE)  # of springs between balls: U^T x, T U^T x and z of newton/springs
 SPRING_PULL = _solve(STRIDE)
-SPRING_ANSWER = _solve(STRIDE)
+SPRING_RESPONSE = _solve(STRIDE)
 SOLVE_END = _solve.next
 # flexible rings while their modes are factored, over rows that the evaluation before has done with
 _grooves = Places(FLEX + _FL.X)
@@ -176,7 +176,7 @@ LEDGER: tuple[Area, ...] = (
     # the last stage of ACC: the sound samples of a step and the new state are taken from it, by any method
     Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "sample"})),
     Area("VEL", VEL, STAGES * _F.SIZE, frozenset({"step", "solve"})),
-    Area("FOUND", FOUND, _EQ.SIZE, frozenset({"start"})),
+    Area("FOUND", EQUILIBRIUM, _EQ.SIZE, frozenset({"start"})),
     Area("FIRST_PLACES", FIRST_PLACES, 2 * STRIDE, frozenset({"start", "evaluation", "jacobian", "factor"})),
     Area("factor", FORCE, FACTOR_END - FORCE, frozenset({"factor"})),
     Area("solve", FORCE, SOLVE_END - FORCE, frozenset({"solve"})),

@@ -18,7 +18,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.contact import first_zonal, next_zonal
-from fmu_bearing.engine.mechanics.race import press
+from fmu_bearing.engine.mechanics.race import contact_load
 from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, store_three, three
 
@@ -71,7 +71,7 @@ def heights_under(p, lanes, row, w):
 
 @kernel
 def add_ball_waves(p, c, lanes, race, w):
-    """Put the balls' waviness into approach, its rate, load and ellipse that ``race.normal`` left.
+    """Put the balls' waviness into approach, its rate, load and ellipse that ``race.normal_contact`` left.
 
     Reads the axes in the rows ``W.AXES``; leaves the slope towards e_t and e_m for
     :func:`ball_wave_forces`.
@@ -96,12 +96,12 @@ def add_ball_waves(p, c, lanes, race, w):
         rate += bump_m * load(w, row + R.AT + j) - bump_t * load(w, row + R.AM + j)
         store(w, row + R.BUMP_T + j, bump_t)
         store(w, row + R.BUMP_M + j, bump_m)
-        press(p, race, row + j, approach, rate, w)
+        contact_load(p, race, row + j, approach, rate, w)
 
 
 @kernel
 def ball_wave_forces(p, lanes, race, w):
-    """Add lateral force and moment of the wavy balls to what ``race.collect`` gathered, loss included."""
+    """Add lateral force, moment and loss of the wavy balls to what ``race.sum_contact_forces`` gathered."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
     out = W.FORCE + race * W.FORCE_SIZE

@@ -5,11 +5,11 @@ import math
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, W, Y
-from fmu_bearing.engine.mechanics.cage import land
+from fmu_bearing.engine.mechanics.cage import land_contact
 
 
 @kernel
-def lands(p, c, y, speed, f, w):
+def land_forces(p, c, y, speed, f, w):
     """Add both lands' forces to the body rows of ``f``, their loss to the oil, their energy to ``w``."""
     i = Y.Q0
     k = Y.Q0 + Q.CAGE
@@ -24,7 +24,7 @@ def lands(p, c, y, speed, f, w):
         dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
         vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
         vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-        fy, fz, on_inner, on_cage, stored, lost = land(
+        fy, fz, on_inner, on_cage, stored, lost = land_contact(
             p, c[C.LAND_VISCOSITY], dy, dz, vy, vz, speed, y[vk + Q.TURN]
         )
         f[gk + Q.Y] += fy
@@ -155,7 +155,7 @@ def body_equations(p, c, y, angle, speed, speed_rate, w, f):
     w[W.LANDS_ENERGY] = 0.0
     if p[P.CAGE] != 0.0:
         if p[P.LAND] != 0.0:
-            lands(p, c, y, speed, f, w)
+            land_forces(p, c, y, speed, f, w)
         cage_body(p, c, y, f)
     else:
         for i in range(Q.SIZE - Q.CAGE):

@@ -43,7 +43,7 @@ def in_pocket(p, angle, turned, j, w):
 
 
 @kernel
-def pockets(p, c, angle, lanes, turned, w):
+def pocket_forces(p, c, angle, lanes, turned, w):
     """Pocket forces and moments on the balls and the power lost there.
 
     A pocket is a radial bore with clearance: Hertz contact with Hunt-Crossley damping once the clearance
@@ -67,11 +67,11 @@ def pockets(p, c, angle, lanes, turned, w):
         axial, around, apart, _, t = in_pocket(p, angle, turned, j, w)
         px = axial / apart
         pt = around / apart
-        push = max(apart - clearance, 0.0)
+        penetration = max(apart - clearance, 0.0)
         vn = dot(n, dv)
         vt = dot(t, dv)
         rate = px * vn + pt * vt
-        elastic, _, _ = hertz(stiffness, push)
+        elastic, _, _ = hertz(stiffness, penetration)
         pressing = max(elastic * (1.0 + damping * rate), 0.0)
         # contact point on the ball: radius along g; sliding there without its normal part
         g = added(scaled(px, n), scaled(pt, t))
@@ -82,7 +82,7 @@ def pockets(p, c, angle, lanes, turned, w):
         ft = -pressing * pt - film * vt
         force = added(added(drag, scaled(fn, n)), scaled(ft, t))
         moment = scaled(ball, cross(g, drag))
-        store(w, W.POCKET + j, push)
+        store(w, W.POCKET + j, penetration)
         store_three(w, out + W.FX + j, force)
         store_three(w, out + W.MX + j, moment)
         lost = -dot(force, dv) - dot(moment, dw) - elastic * rate
@@ -122,7 +122,7 @@ def film_force(ratio, closing, carried):
 
 
 @kernel
-def land(p, viscosity, dy, dz, vy, vz, journal, sleeve):
+def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     """Force (N) on the cage in y and z at one land, friction torques (N m) and stored energy (J).
 
     ``viscosity`` in Pa s; ``d`` and ``v`` are the cage centre's offset (m) and velocity (m/s) against the
@@ -157,9 +157,9 @@ def land(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     couple = 0.5 * (dy * fz - dz * fy)
     shear = TWO_PI * viscosity * radius * radius * radius * length * per_clearance
     shear *= (journal - sleeve) / math.sqrt(1.0 - ratio * ratio)
-    push = max(apart - limit, 0.0)
+    penetration = max(apart - limit, 0.0)
     stiffness = p[P.LAND_STOP_STIFFNESS]
-    stop = stiffness * push
+    stop = stiffness * penetration
     slip = p[P.LAND_STOP_SLIP]
     # Rubbing where the journal's surface meets the bore, a radius behind the inner ring's centre.
     rub = across + radius * journal - (radius + apart) * sleeve
@@ -168,6 +168,6 @@ def land(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     fz += -stop * ez + friction * ey
     on_journal = -shear - couple + radius * friction
     on_sleeve = shear - couple - (radius + apart) * friction
-    energy = 0.5 * stiffness * push * push
+    energy = 0.5 * stiffness * penetration * penetration
     lost = -(fy * vy + fz * vz + on_journal * journal + on_sleeve * sleeve) - stop * clearance * rate
     return fy, fz, on_journal, on_sleeve, energy, lost

@@ -127,7 +127,7 @@ def rolling_reduction(p, eta, speed):
 
 
 @kernel
-def mount(p, u, speed, c):
+def expand_races(p, u, speed, c):
     """Move the races by what fits and rotation at ``speed`` (rad/s) make them grow.
 
     A fit takes part of the interference to the race while it holds; loose, a ring grows by its own rotation
@@ -135,26 +135,26 @@ def mount(p, u, speed, c):
     """
     for race in range(2):
         numbers = P.RACES + race * P.RACE_SIZE
-        held = C.RACES + race * C.RACE_SIZE
+        raceway = C.RACES + race * C.RACE_SIZE
         ring = (u[U.INNER_T] if race == 0 else u[U.OUTER_T]) - REFERENCE_TEMPERATURE
         partner = (u[U.SHAFT_T] if race == 0 else u[U.HOUSING_T]) - REFERENCE_TEMPERATURE
         tight = 0.5 * (p[P.INTERFERENCE + race] + p[numbers + P.RACE_FIT_OWN])
         tight += p[numbers + P.RACE_FIT_RING] * ring + p[numbers + P.RACE_FIT_PARTNER] * partner
         tight += p[numbers + P.RACE_FIT_SPIN] * speed * speed
         growth = p[numbers + P.RACE_FIT_SHARE] * max(tight, 0.0) + p[numbers + P.RACE_SPIN] * speed * speed
-        c[held + C.INTERFERENCE] = tight
-        c[held + C.GROWTH] = growth
-        c[held + C.GROOVE_RADIUS] += growth
-        c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
+        c[raceway + C.INTERFERENCE] = tight
+        c[raceway + C.GROWTH] = growth
+        c[raceway + C.GROOVE_RADIUS] += growth
+        c[raceway + C.GROOVE_START] = c[raceway + C.GROOVE_RADIUS]
 
 
 @kernel
 def regrow(p, u, speed, c):
     """Let the races in ``c``, which are mounted, grow to another ``speed`` (rad/s)."""
     for race in range(2):
-        held = C.RACES + race * C.RACE_SIZE
-        c[held + C.GROOVE_RADIUS] -= c[held + C.GROWTH]
-    mount(p, u, speed, c)
+        raceway = C.RACES + race * C.RACE_SIZE
+        c[raceway + C.GROOVE_RADIUS] -= c[raceway + C.GROWTH]
+    expand_races(p, u, speed, c)
 
 
 @kernel
@@ -165,44 +165,44 @@ def ramp(p, u, speed, now, c, h):
     """
     regrow(p, u, speed, c)
     for race in range(2):
-        held = C.RACES + race * C.RACE_SIZE
-        away = c[held + C.GROWTH] - now[held + C.GROWTH]
+        raceway = C.RACES + race * C.RACE_SIZE
+        away = c[raceway + C.GROWTH] - now[raceway + C.GROWTH]
         # rounding is not worth a rate, which would cost an evaluation each step
         if abs(away) > _STILL:
-            c[held + C.GROWTH_RATE] = away / h
-            c[held + C.GROWTH] = now[held + C.GROWTH]
-            c[held + C.GROOVE_RADIUS] -= away
-            c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
+            c[raceway + C.GROWTH_RATE] = away / h
+            c[raceway + C.GROWTH] = now[raceway + C.GROWTH]
+            c[raceway + C.GROOVE_RADIUS] -= away
+            c[raceway + C.GROOVE_START] = c[raceway + C.GROOVE_RADIUS]
 
 
 @kernel
 def grow_to(c, t):
     """Let the races be those of the time ``t`` (s) after the state."""
     for race in range(2):
-        held = C.RACES + race * C.RACE_SIZE
-        c[held + C.GROOVE_RADIUS] = c[held + C.GROOVE_START] + t * c[held + C.GROWTH_RATE]
+        raceway = C.RACES + race * C.RACE_SIZE
+        c[raceway + C.GROOVE_RADIUS] = c[raceway + C.GROOVE_START] + t * c[raceway + C.GROWTH_RATE]
 
 
 @kernel
 def grow_on(c, h):
     """Move the races on with the state by the time ``h`` (s)."""
     for race in range(2):
-        held = C.RACES + race * C.RACE_SIZE
-        grown = h * c[held + C.GROWTH_RATE]
-        c[held + C.GROWTH] += grown
-        c[held + C.GROOVE_START] += grown
-        c[held + C.GROOVE_RADIUS] = c[held + C.GROOVE_START]
+        raceway = C.RACES + race * C.RACE_SIZE
+        grown = h * c[raceway + C.GROWTH_RATE]
+        c[raceway + C.GROWTH] += grown
+        c[raceway + C.GROOVE_START] += grown
+        c[raceway + C.GROOVE_RADIUS] = c[raceway + C.GROOVE_START]
 
 
 @kernel
-def unmount(p, c):
+def take_fit_growth_out(p, c):
     """Take the growth by fits out of ``c`` where the preload is that of the loose bearing."""
     if p[P.UNMOUNTED] == 0.0:
         return
     for race in range(2):
-        held = C.RACES + race * C.RACE_SIZE
-        c[held + C.GROOVE_RADIUS] -= c[held + C.GROWTH]
-        c[held + C.GROWTH] = 0.0
+        raceway = C.RACES + race * C.RACE_SIZE
+        c[raceway + C.GROOVE_RADIUS] -= c[raceway + C.GROWTH]
+        c[raceway + C.GROWTH] = 0.0
 
 
 @kernel
@@ -221,22 +221,22 @@ def conditions(p, u, speed, c):
     thick, thin = math.log(eta), math.log(felt)
     for race in range(2):
         numbers = P.RACES + race * P.RACE_SIZE
-        held = C.RACES + race * C.RACE_SIZE
+        raceway = C.RACES + race * C.RACE_SIZE
         growth = 1.0 + p[numbers + P.RACE_EXPANSION] * (rise_i if race == 0 else rise_o)
-        c[held + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
-        c[held + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
-        c[held + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
-        c[held + C.INTERFERENCE] = 0.0
-        c[held + C.GROWTH] = 0.0
-        c[held + C.GROWTH_RATE] = 0.0
-        c[held + C.GROOVE_START] = c[held + C.GROOVE_RADIUS]
+        c[raceway + C.GROOVE_X] = p[numbers + P.RACE_GROOVE_X] * growth
+        c[raceway + C.GROOVE_RADIUS] = p[numbers + P.RACE_GROOVE_RADIUS] * growth
+        c[raceway + C.FREE] = p[numbers + P.RACE_GROOVE] * growth - ball
+        c[raceway + C.INTERFERENCE] = 0.0
+        c[raceway + C.GROWTH] = 0.0
+        c[raceway + C.GROWTH_RATE] = 0.0
+        c[raceway + C.GROOVE_START] = c[raceway + C.GROOVE_RADIUS]
         reduced = math.exp(elastic * thin) * heating * starving
-        c[held + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(elastic * thick) * reduced
+        c[raceway + C.ROLLING] = p[numbers + P.RACE_ROLLING] * math.exp(elastic * thick) * reduced
         reduced = math.exp(rigid * thin) * heating * starving
-        c[held + C.RIGID] = p[numbers + P.RACE_RIGID] * math.exp(rigid * thick) * reduced
-        c[held + C.REGIME] = p[numbers + P.RACE_REGIME] * math.exp(REGIME_SPEED * (thick + thin))
+        c[raceway + C.RIGID] = p[numbers + P.RACE_RIGID] * math.exp(rigid * thick) * reduced
+        c[raceway + C.REGIME] = p[numbers + P.RACE_REGIME] * math.exp(REGIME_SPEED * (thick + thin))
     if p[P.FITS] != 0.0:
-        mount(p, u, speed, c)
+        expand_races(p, u, speed, c)
     c[C.BALL_RADIUS] = ball
     c[C.POCKET] = p[P.POCKET_STIFFNESS]
     c[C.NEUTRAL_Y] = 0.0

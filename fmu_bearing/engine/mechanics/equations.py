@@ -6,17 +6,24 @@ from fmu_bearing.engine.lanes import consecutive, load, select, store, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, P, Q, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces, has_wavy_balls
 from fmu_bearing.engine.mechanics.bodies import body_equations
-from fmu_bearing.engine.mechanics.cage import pockets
+from fmu_bearing.engine.mechanics.cage import pocket_forces
 from fmu_bearing.engine.mechanics.flexure import (
+    add_groove_sliding,
+    add_groove_slope,
     bends,
     flexure_equations,
-    lean,
+    modal_forces,
     move_groove,
-    press_modes,
-    slide,
 )
 from fmu_bearing.engine.mechanics.pose import relative_pose
-from fmu_bearing.engine.mechanics.race import collect, normal, plain_traction, rolling, traction, waves
+from fmu_bearing.engine.mechanics.race import (
+    normal_contact,
+    plain_traction,
+    rolling_moment,
+    sum_contact_forces,
+    traction,
+    waviness,
+)
 from fmu_bearing.engine.mechanics.springs import spring_forces
 from fmu_bearing.engine.mechanics.traction import lubricated_traction
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles
@@ -24,7 +31,7 @@ from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, thre
 
 
 @kernel
-def react(lanes, balls, body, first, spin, last, w):
+def body_reaction(lanes, balls, body, first, spin, last, w):
     """Generalised forces that each ball puts on one body; spare lanes put none.
 
     Force x, y, z into the rows of ``w`` from ``first`` on, the moment about the body's own axis into row
@@ -83,25 +90,25 @@ def race_forces(p, c, y, lanes, race, turned, w):
 
     ``race`` has to be a literal: places are then constants.
     """
-    waves(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
+    waviness(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
     flexible = bends(p, race)
     if flexible:
-        lean(lanes, race, w)
-    normal(p, c, y, lanes, race, w)
+        add_groove_slope(lanes, race, w)
+    normal_contact(p, c, y, lanes, race, w)
     if flexible:
-        slide(lanes, race, w)
+        add_groove_sliding(lanes, race, w)
     if has_wavy_balls(p, c):
         add_ball_waves(p, c, lanes, race, w)
     if plain_traction(p):
         traction(p, lanes, race, w)
     else:
         lubricated_traction(p, c, lanes, race, w)
-    rolling(p, c, lanes, race, w)
-    collect(p, c, lanes, race, w)
+    rolling_moment(p, c, lanes, race, w)
+    sum_contact_forces(p, c, lanes, race, w)
     if has_wavy_balls(p, c):
         ball_wave_forces(p, lanes, race, w)
     if flexible:
-        press_modes(p, c, lanes, race, w)
+        modal_forces(p, c, lanes, race, w)
 
 
 @kernel
@@ -110,7 +117,7 @@ def inner_forces(p, c, y, angle, speed, w):
     lanes = int(p[P.LANES])
     inner_pose(p, c, y, speed, w)
     race_forces(p, c, y, lanes, 0, angle, w)
-    react(lanes, p[P.BALLS], 0, W.BODY, W.SHAFT, W.BODY + Q.INNER_BY * STRIDE, w)
+    body_reaction(lanes, p[P.BALLS], 0, W.BODY, W.SHAFT, W.BODY + Q.INNER_BY * STRIDE, w)
 
 
 @kernel
@@ -120,7 +127,7 @@ def outer_forces(p, c, y, w):
     outer_pose(p, c, y, w)
     race_forces(p, c, y, lanes, 1, y[Y.Q0 + Q.OUTER + Q.TURN], w)
     rows = W.BODY + Q.OUTER * STRIDE
-    react(lanes, p[P.BALLS], 1, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
+    body_reaction(lanes, p[P.BALLS], 1, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
 
 
 @kernel
@@ -140,9 +147,9 @@ def cage_forces(p, c, y, w):
         p, y, lanes, 2, y[q], y[q + Q.Y], y[q + Q.Z], y[q + Q.BY], y[q + Q.BZ],
         y[v], y[v + Q.Y], y[v + Q.Z], y[v + Q.TURN], y[v + Q.BY], y[v + Q.BZ], w,
     )  # fmt: skip
-    pockets(p, c, y[Y.TH : Y.TH + STRIDE], lanes, y[q + Q.TURN], w)
+    pocket_forces(p, c, y[Y.TH : Y.TH + STRIDE], lanes, y[q + Q.TURN], w)
     rows = W.BODY + Q.CAGE * STRIDE
-    react(lanes, p[P.BALLS], 2, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
+    body_reaction(lanes, p[P.BALLS], 2, rows, rows + Q.TURN * STRIDE, rows + Q.BY * STRIDE, w)
 
 
 @kernel
@@ -203,7 +210,7 @@ def growth_power(p, c, w):
 
 
 @kernel
-def add_up(p, c, y, angle, speed, speed_rate, w, f):
+def sum_accelerations(p, c, y, angle, speed, speed_rate, w, f):
     """From the forces in the rows of ``w`` to the right-hand side ``f``."""
     ball_accelerations(p, y, w, f)
     lanes = int(p[P.LANES])
@@ -234,4 +241,4 @@ def right_hand_side(p, c, y, angle, speed, speed_rate, w, f):
     the inner ring (rad, rad/s, rad/s2); ``w`` work space; ``f`` result (see ``layout``). SI units.
     """
     ball_forces(p, c, y, angle, speed, w)
-    add_up(p, c, y, angle, speed, speed_rate, w, f)
+    sum_accelerations(p, c, y, angle, speed, speed_rate, w, f)

@@ -84,7 +84,7 @@ def first_order(race, j, w):
 
 
 @kernel
-def bend(p, race, spin, j, w, own):
+def groove_motion(p, race, spin, j, w, own):
     """Motion of the groove of one ring under four balls; each mode's cosine and sine into ``own``.
 
     Returns displacement (m) x, r, its change with the angle (m) x, r, velocity of the material (m/s)
@@ -134,15 +134,15 @@ def move_groove(p, c, lanes, race, spin, w):
     """Shift by its flexure what ``relative_pose`` left of the balls' places and velocities against a ring.
 
     Leaves in the rows ``FL.GX`` and ``FL.GR`` the slope of the track and the ratio of the radii that
-    :func:`lean` takes, in ``FL.VT`` the circumferential velocity.
+    :func:`add_groove_slope` takes, in ``FL.VT`` the circumferential velocity.
     """
     own = w[W.FLEX :]
     pose = W.POSE + race * X.SIZE
-    held = C.RACES + race * C.RACE_SIZE
-    groove_x = c[held + C.GROOVE_X]
-    groove_r = c[held + C.GROOVE_RADIUS]
+    raceway = C.RACES + race * C.RACE_SIZE
+    groove_x = c[raceway + C.GROOVE_X]
+    groove_r = c[raceway + C.GROOVE_RADIUS]
     for j in range(0, lanes, FOUR):
-        x, r, gx, gr, vx, vr, vt, turn = bend(p, race, spin, j, w, own)
+        x, r, gx, gr, vx, vr, vt, turn = groove_motion(p, race, spin, j, w, own)
         axial = load(w, pose + X.A + j) - x
         before = load(w, pose + X.RHO + j)
         rho = before - r
@@ -163,7 +163,7 @@ def move_groove(p, c, lanes, race, spin, w):
 
 
 @kernel
-def lean(lanes, race, w):
+def add_groove_slope(lanes, race, w):
     """Add the flexed track's slope to the waviness'; both over the radius before the shift."""
     own = w[W.FLEX :]
     row = W.RACE + race * R.SIZE + R.SLOPE
@@ -172,7 +172,7 @@ def lean(lanes, race, w):
 
 
 @kernel
-def slide(lanes, race, w):
+def add_groove_sliding(lanes, race, w):
     """Take the circumferential velocity of the groove from the sliding along the track."""
     own = w[W.FLEX :]
     row = W.RACE + race * R.SIZE + R.UT
@@ -187,9 +187,9 @@ def groove_forces(p, c, lanes, race, w, own):
     force = W.FORCE + race * W.FORCE_SIZE
     row = W.RACE + race * R.SIZE
     loss = W.LOSS + race * STRIDE
-    held = C.RACES + race * C.RACE_SIZE
-    groove_x = c[held + C.GROOVE_X]
-    groove_r = c[held + C.GROOVE_RADIUS]
+    raceway = C.RACES + race * C.RACE_SIZE
+    groove_x = c[raceway + C.GROOVE_X]
+    groove_r = c[raceway + C.GROOVE_RADIUS]
     for j in range(0, lanes, FOUR):
         live = select(consecutive(j) < p[P.BALLS], -1.0, 0.0)
         on_ball = three(w, force + W.FX + j)
@@ -223,15 +223,15 @@ def mode_force(p, mode, lanes, own, at, turning):
     for j in range(0, lanes, FOUR):
         c = load(own, at + j)
         s = load(own, at + STRIDE + j)
-        push = psi_x * load(own, FL.X + j) + psi_r * load(own, FL.R + j) + tilt * load(own, FL.GR + j)
+        radial_force = psi_x * load(own, FL.X + j) + psi_r * load(own, FL.R + j) + tilt * load(own, FL.GR + j)
         drag = psi_t * load(own, FL.GX + j)
-        cosine += push * c + drag * s
-        sine += push * s - drag * c
+        cosine += radial_force * c + drag * s
+        sine += radial_force * s - drag * c
     return sum_four(cosine), sum_four(sine)
 
 
 @kernel
-def press_modes(p, c, lanes, race, w):
+def modal_forces(p, c, lanes, race, w):
     """Generalised forces of the balls on the modes of one ring, from the forces in the rows of ``w``."""
     own = w[W.FLEX :]
     groove_forces(p, c, lanes, race, w, own)

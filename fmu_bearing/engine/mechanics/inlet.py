@@ -34,8 +34,8 @@ def inlet_factors(p, c, race):
     """Factors of the moments (N m) in EHL and of rigid surfaces, and of the weight of EHL against those."""
     if p[P.ROLLING] == 0.0:
         return 0.0, 0.0, 0.0
-    held = C.RACES + race * C.RACE_SIZE
-    return c[held + C.ROLLING], c[held + C.RIGID], c[held + C.REGIME]
+    raceway = C.RACES + race * C.RACE_SIZE
+    return c[raceway + C.ROLLING], c[raceway + C.RIGID], c[raceway + C.REGIME]
 
 
 @kernel
@@ -46,7 +46,7 @@ def power_law(factor, s, w, speed, weight, pressing):
 
 @kernel
 def inlet_moments(p, lanes, factors, row, w):
-    """Write the moment (N m) of the oil at the inlets of one race, against rolling, where ``ROLL`` stands.
+    """Write the moment (N m) of the oil at the inlets of one race, against rolling, at ``ROLL``.
 
     What ``p`` holds is read before the loops: within them LLVM has to assume that storing a row changes it.
     """

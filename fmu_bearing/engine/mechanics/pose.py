@@ -15,7 +15,7 @@ def axis_cosine(by, bz):
 
 
 @kernel
-def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
+def ball_in_orbiting_axes(co, si, x, radius, ux, uy, uz, by, bz, nx):
     """Ball centre from a body's centre, the body's axis n and their product, in the ball's orbiting axes.
 
     ``co``, ``si``: of the ball's angle; ``x``, ``radius``: its place (m); ``u``: the body's displacement
@@ -31,7 +31,7 @@ def resolved(co, si, x, radius, ux, uy, uz, by, bz, nx):
 
 
 @kernel
-def off_axis(axial, qx, qr, qt, nx, nr, nt):
+def axis_distance(axial, qx, qr, qt, nx, nr, nt):
     """Distance (m) of a ball's centre q from a body's axis n, then the unit vector h; ``axial``: q n (m)."""
     hx = qx - axial * nx
     hr = qr - axial * nr
@@ -42,13 +42,13 @@ def off_axis(axial, qx, qr, qt, nx, nr, nt):
 
 
 @kernel
-def seen(co, si, x, radius, ux, uy, uz, by, bz, nx):
-    """Return what :func:`resolved` does, then the distance from the axis (m) and the radial unit vector h.
+def ball_pose(co, si, x, radius, ux, uy, uz, by, bz, nx):
+    """Return what `ball_in_orbiting_axes` does, then distance from the axis (m) and radial unit vector h.
 
     In order: q (x, r, theta), n (r, theta), q n, distance, h (x, r, theta). Arguments as there.
     """
-    qx, qr, qt, nr, nt, axial = resolved(co, si, x, radius, ux, uy, uz, by, bz, nx)
-    rho, hx, hr, ht = off_axis(axial, qx, qr, qt, nx, nr, nt)
+    qx, qr, qt, nr, nt, axial = ball_in_orbiting_axes(co, si, x, radius, ux, uy, uz, by, bz, nx)
+    rho, hx, hr, ht = axis_distance(axial, qx, qr, qt, nx, nr, nt)
     return qx, qr, qt, nr, nt, axial, rho, hx, hr, ht
 
 
@@ -72,7 +72,7 @@ def relative_pose(p, y, lanes, body, ux, uy, uz, by, bz, vx, vy, vz, spin, dby, 
         s = load(w, W.SIN + j)
         radius = pitch + load(y, Y.R + j)
         x = load(y, Y.X + j)
-        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(c, s, x, radius, ux, uy, uz, by, bz, nx)
+        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = ball_pose(c, s, x, radius, ux, uy, uz, by, bz, nx)
         q = (qx, qr, qt)
         n = (splat(nx), nr, nt)
         h = (hx, hr, ht)

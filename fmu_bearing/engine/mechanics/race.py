@@ -25,7 +25,7 @@ def wave_time(p, speed):
 
 
 @kernel
-def wave_under(p, c, y_angle, race, turned, j, w):
+def waviness_under(p, c, y_angle, race, turned, j, w):
     """Race height (m, towards the ball), slope (m/rad) and curvature (m/rad2) under four balls.
 
     ``turned`` is the race's own angle (rad).
@@ -40,7 +40,7 @@ def wave_under(p, c, y_angle, race, turned, j, w):
 
 
 @kernel
-def waves(p, c, y_angle, lanes, race, turned, w):
+def waviness(p, c, y_angle, lanes, race, turned, w):
     """Write race height (m, towards the ball) and slope (m/rad) under each ball into their rows."""
     row = W.RACE + race * R.SIZE
     if p[P.WAVINESS] == 0.0:
@@ -49,13 +49,13 @@ def waves(p, c, y_angle, lanes, race, turned, w):
             store(w, row + R.SLOPE + j, 0.0)
         return
     for j in range(0, lanes, FOUR):
-        height, slope, _ = wave_under(p, c, y_angle, race, turned, j, w)
+        height, slope, _ = waviness_under(p, c, y_angle, race, turned, j, w)
         store(w, row + R.WAVE + j, height)
         store(w, row + R.SLOPE + j, slope)
 
 
 @kernel
-def press(p, race, at, approach, rate, w):
+def contact_load(p, race, at, approach, rate, w):
     """Write approach (m), its rate (m/s), loads and ellipse of four balls into a race's rows at ``at``."""
     numbers = P.RACES + race * P.RACE_SIZE
     stiffness = p[numbers + P.RACE_STIFFNESS]
@@ -70,14 +70,14 @@ def press(p, race, at, approach, rate, w):
 
 
 @kernel
-def normal(p, c, y, lanes, race, w):
+def normal_contact(p, c, y, lanes, race, w):
     """Contact direction, approach and its rate, load and sliding at the contact's middle."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE
-    held = C.RACES + race * C.RACE_SIZE
-    groove_x = c[held + C.GROOVE_X]
-    groove_r = c[held + C.GROOVE_RADIUS]
-    free = c[held + C.FREE]
+    raceway = C.RACES + race * C.RACE_SIZE
+    groove_x = c[raceway + C.GROOVE_X]
+    groove_r = c[raceway + C.GROOVE_RADIUS]
+    free = c[raceway + C.FREE]
     ball = c[C.BALL_RADIUS]
     sizes = int(p[P.AT_OVERSIZE])
     half_scale = 0.5 * c[C.OVERSIZE_SCALE]
@@ -107,7 +107,7 @@ def normal(p, c, y, lanes, race, w):
         store(w, row + R.PER_GROOVE + j, per_distance)
         store(w, row + R.SINA + j, sina)
         store(w, row + R.COSA + j, cosa)
-        press(p, race, row + j, approach, rate, w)
+        contact_load(p, race, row + j, approach, rate, w)
         store(w, row + R.UT + j, ut)
         store(w, row + R.UM + j, dot(m, dv) - ball * at)
         store(w, row + R.AN + j, dot(e, dw))
@@ -172,7 +172,7 @@ def traction(p, lanes, race, w):
 
 
 @kernel
-def rolling(p, c, lanes, race, w):
+def rolling_moment(p, c, lanes, race, w):
     """Write the rolling moment (N m) about e_m, which opposes the relative rolling of the two surfaces.
 
     One part is that of the oil at the inlet, a force on either surface, so that the pair dissipates twice
@@ -190,7 +190,7 @@ def rolling(p, c, lanes, race, w):
 
 
 @kernel
-def collect(p, c, lanes, race, w):
+def sum_contact_forces(p, c, lanes, race, w):
     """Force and moment on each ball and the power lost in the contact; spare lanes lose none."""
     row = W.RACE + race * R.SIZE
     pose = W.POSE + race * X.SIZE

@@ -1,8 +1,8 @@
 """Traction laws beside the regularised one of ``race``: Eyring's, the multi-source paper's, heated oil.
 
-Both take the sliding from the rows that ``race.normal`` wrote, walk over the same strips across the major
-axis and leave their result in the rows of ``race.traction``. Their film is the central one of Hamrock and
-Dowson (1977) at the contact's present entrainment speed.
+Both take the sliding from the rows that ``race.normal_contact`` wrote, walk over the same strips across the
+major axis and leave their result in the rows of ``race.traction``. Their film is the central one of Hamrock
+and Dowson (1977) at the contact's present entrainment speed.
 """
 
 import math

@@ -125,7 +125,7 @@ def factor_group(jac, j, cv, cx, cx_ball, fac, at):
 
 
 @kernel
-def through_balls(fac, g, lanes, sums):
+def eliminated_row(fac, g, lanes, sums):
     """Row ``g`` for the balls times all columns of W, over all balls: four partial sums each."""
     for h in range(Q.SIZE):
         store(sums, h * FOUR, 0.0)
@@ -149,7 +149,7 @@ def factor(p, jac, cv, cx, cx_ball, fac, w):
     border = w[W.BORDER : W.BORDER + Q.SIZE * Q.SIZE]
     sums = w[W.BORDER_SUMS : W.BORDER_SUMS + Q.SIZE * FOUR]
     for g in range(Q.SIZE):
-        through_balls(fac, g, lanes, sums)
+        eliminated_row(fac, g, lanes, sums)
         for h in range(Q.SIZE):
             place = J.E + g * J.BODIES + h
             total = 1.0 if g == h else 0.0
@@ -213,8 +213,8 @@ def border_product(fac, w, d):
 
 
 @kernel
-def answer_alone(fac, lanes, d, w):
-    """Put what each ball answers to its residual in ``d``, the bodies held, into the rows ``W.OWN``.
+def solve_balls(fac, lanes, d, w):
+    """Put each ball's solution for its residual in ``d``, the bodies fixed, into the rows ``W.OWN``.
 
     What that puts on the bodies goes to ``W.BODY_SUMS``, in four partial sums each.
     """
@@ -230,8 +230,8 @@ def answer_alone(fac, lanes, d, w):
 
 
 @kernel
-def follow_bodies(fac, lanes, d, w):
-    """Put the balls' increments into ``d``: their own answer less what the bodies' increments there do."""
+def back_substitute(fac, lanes, d, w):
+    """Put the balls' increments into ``d``: their own solution less what the bodies' increments there do."""
     for j in range(0, lanes, FOUR):
         at = in_groups(j, A.GROUP)
         own = six(w, W.OWN + j, STRIDE)
@@ -248,11 +248,11 @@ def solve(p, fac, c, s, d, w):
     """
     lanes = int(p[P.LANES])
     turn_pairs(d, F.BODY, c, -s)
-    answer_alone(fac, lanes, d, w)
+    solve_balls(fac, lanes, d, w)
     for g in range(Q.SIZE):
         w[W.REST + g] = d[F.BODY + g] - sum_four(load(w, W.BODY_SUMS + g * FOUR))
     border_product(fac, w, d)
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         couple_springs(p, fac, d, w)
-    follow_bodies(fac, lanes, d, w)
+    back_substitute(fac, lanes, d, w)
     turn_pairs(d, F.BODY, c, s)

@@ -10,7 +10,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, J, P, Q, W, Y
-from fmu_bearing.engine.mechanics.cage import land
+from fmu_bearing.engine.mechanics.cage import land_contact
 
 # steps of the differences: small against clearance and surface speeds, large against rounding
 _PLACE = 1e-6  # of the clearance
@@ -56,7 +56,7 @@ def gyroscope(p, by, angular_momentum, jac):
 
 
 @kernel
-def spun_up(p, y, turn, polar, jac):
+def spin_columns(p, y, turn, polar, jac):
     """Take what a body's own spin changes of its gyroscopic moments into block E."""
     by = turn + 1
     per = polar / inertia(p, by)
@@ -65,7 +65,7 @@ def spun_up(p, y, turn, polar, jac):
 
 
 @kernel
-def reached(axis, k, x):
+def land_coordinate(axis, k, x):
     """Coordinate of cage or inner ring that moves the cage in its land, and how far per unit.
 
     ``axis``: along y (0) or z (1); ``k``: translation and tilt of the cage, then of the inner ring; ``x``:
@@ -81,16 +81,16 @@ def reached(axis, k, x):
 
 @kernel
 def land_column(p, x, axis, rate, dfy, dfz, dturn, jac):
-    """Spread the answer of a land to the cage's motion in it along ``axis`` over block E."""
+    """Spread the derivatives of a land by the cage's motion in it along ``axis`` over block E."""
     for k in range(4):
-        column, by = reached(axis, k, x)
+        column, by = land_coordinate(axis, k, x)
         column += rate * Q.SIZE
         turn = Q.CAGE + Q.TURN
         jac[J.E + turn * J.BODIES + column] += dturn * by / p[P.CAGE_POLAR]
         for i in range(4):
-            row, lever = reached(0, i, x)
+            row, lever = land_coordinate(0, i, x)
             jac[J.E + row * J.BODIES + column] += dfy * by * lever / inertia(p, row)
-            row, lever = reached(1, i, x)
+            row, lever = land_coordinate(1, i, x)
             jac[J.E + row * J.BODIES + column] += dfz * by * lever / inertia(p, row)
 
 
@@ -107,24 +107,24 @@ def land_slopes(p, c, y, speed, x, jac):
     dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
     vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
     vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-    fy, fz, _, turn, _, _ = land(p, viscosity, dy, dz, vy, vz, speed, sleeve)
+    fy, fz, _, turn, _, _ = land_contact(p, viscosity, dy, dz, vy, vz, speed, sleeve)
     for rate in range(2):
         h = _VELOCITY if rate == 1 else _PLACE * p[P.LAND_CLEARANCE]
         near = h if rate == 0 else 0.0
         fast = h if rate == 1 else 0.0
         per = 1.0 / h
-        fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy + near, dz, vy + fast, vz, speed, sleeve)
+        fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy + near, dz, vy + fast, vz, speed, sleeve)
         land_column(p, x, 0, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
-        fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy, dz + near, vy, vz + fast, speed, sleeve)
+        fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy, dz + near, vy, vz + fast, speed, sleeve)
         land_column(p, x, 1, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
     per = 1.0 / _RATE
-    fy1, fz1, _, turn1, _, _ = land(p, viscosity, dy, dz, vy, vz, speed, sleeve + _RATE)
+    fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy, dz, vy, vz, speed, sleeve + _RATE)
     column = Q.SIZE + Q.CAGE + Q.TURN
     jac[J.E + (Q.CAGE + Q.TURN) * J.BODIES + column] += (turn1 - turn) * per / p[P.CAGE_POLAR]
     for n in range(4):
-        row, lever = reached(0, n, x)
+        row, lever = land_coordinate(0, n, x)
         jac[J.E + row * J.BODIES + column] += (fy1 - fy) * per * lever / inertia(p, row)
-        row, lever = reached(1, n, x)
+        row, lever = land_coordinate(1, n, x)
         jac[J.E + row * J.BODIES + column] += (fz1 - fz) * per * lever / inertia(p, row)
 
 
@@ -196,7 +196,7 @@ def body_slopes(p, c, y, speed, jac):
     support(p, Q.INNER + Q.INNER_BZ, p[P.TILT_STIFFNESS], p[P.TILT_DAMPING], jac)
     outer = Q.OUTER
     gyroscope(p, outer + Q.BY, p[P.OUTER_POLAR] * y[Y.V0 + outer + Q.TURN], jac)
-    spun_up(p, y, outer + Q.TURN, p[P.OUTER_POLAR], jac)
+    spin_columns(p, y, outer + Q.TURN, p[P.OUTER_POLAR], jac)
     support(p, outer, c[C.PEDESTAL_AXIAL], c[C.DAMPING_AXIAL], jac)
     support(p, outer + Q.Y, c[C.PEDESTAL_Y], c[C.DAMPING_Y], jac)
     support(p, outer + Q.Z, c[C.PEDESTAL_Z], c[C.DAMPING_Z], jac)
@@ -209,7 +209,7 @@ def body_slopes(p, c, y, speed, jac):
     support(p, outer + Q.BZ, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_ROTATIONAL], jac)
     if p[P.CAGE] != 0.0:
         gyroscope(p, Q.CAGE + Q.BY, p[P.CAGE_POLAR] * y[Y.V0 + Q.CAGE + Q.TURN], jac)
-        spun_up(p, y, Q.CAGE + Q.TURN, p[P.CAGE_POLAR], jac)
+        spin_columns(p, y, Q.CAGE + Q.TURN, p[P.CAGE_POLAR], jac)
         if p[P.LAND] != 0.0:
             land_slopes(p, c, y, speed, p[P.LAND_OFFSET], jac)
             land_slopes(p, c, y, speed, -p[P.LAND_OFFSET], jac)

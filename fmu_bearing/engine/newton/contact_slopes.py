@@ -14,7 +14,7 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.cage import in_pocket
 from fmu_bearing.engine.mechanics.contact import damped_slopes, hertz
-from fmu_bearing.engine.mechanics.race import wave_under
+from fmu_bearing.engine.mechanics.race import waviness_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
 
 # m^0.5: root of the approach; where a contact opens, the slope of its damping has no bound
@@ -54,7 +54,7 @@ def both(force, moment):
 
 
 @kernel
-def levered(w, column, j, ball):
+def with_moment(w, column, j, ball):
     """Column of traction as force and moment on the ball, of radius ``ball``, in the contact's axes."""
     at = W.CONTACT + K.TRACTION + column * K.TRACTION_SIZE + j
     ft = load(w, at)
@@ -64,7 +64,7 @@ def levered(w, column, j, ball):
 
 
 @kernel
-def answers_to_motion(ball, gradient, bumps, stiffness, film, j, w):
+def motion_columns(ball, gradient, bumps, stiffness, film, j, w):
     """Fill the columns of velocity, spin and entrainment; return the columns of load and approach.
 
     ``gradient`` of the approach by the ball's place; ``bumps``: slopes of the ball's own surface towards t
@@ -75,24 +75,24 @@ def answers_to_motion(ball, gradient, bumps, stiffness, film, j, w):
     bump_t, bump_m = bumps
     by_approach, by_rate, growth = stiffness
     at = W.CONTACT
-    _, ft, fm, me, mt, mm = levered(w, K.LOAD, j, ball)
+    _, ft, fm, me, mt, mm = with_moment(w, K.LOAD, j, ball)
     loaded = (-ge, ft - gt, fm - gm, me, mt - bump_m, mm + bump_t)
-    entrained = levered(w, K.ENTRAIN, j, ball)
+    entrained = with_moment(w, K.ENTRAIN, j, ball)
     # half the sliding is taken from the entrainment speed
-    slid = plus_scaled(levered(w, K.UT, j, ball), -0.5, entrained)
-    across = levered(w, K.UM, j, ball)
-    about_t = plus_scaled(levered(w, K.AT, j, ball), -ball, across)
-    about_m = plus_scaled(levered(w, K.AM, j, ball), ball, slid)
+    slid = plus_scaled(with_moment(w, K.UT, j, ball), -0.5, entrained)
+    across = with_moment(w, K.UM, j, ball)
+    about_t = plus_scaled(with_moment(w, K.AT, j, ball), -ball, across)
+    about_m = plus_scaled(with_moment(w, K.AM, j, ball), ball, slid)
     fe, ft, fm, me, mt, mm = scaled_six(by_rate * ge, loaded)
     store_six(w, at + K.RATE, FOUR, (fe - film, ft, fm, me, mt, mm))
     store_six(w, at + K.RATE + A.SIX, FOUR, plus_scaled(slid, by_rate * gt, loaded))
     fe, ft, fm, me, mt, mm = plus_scaled(across, by_rate * gm, loaded)
     store_six(w, at + K.RATE + 2 * A.SIX, FOUR, (fe, ft, fm - film, me, mt, mm))
-    store_six(w, at + K.SPIN, FOUR, levered(w, K.AN, j, ball))
+    store_six(w, at + K.SPIN, FOUR, with_moment(w, K.AN, j, ball))
     store_six(w, at + K.SPIN + A.SIX, FOUR, plus_scaled(about_t, by_rate * bump_m, loaded))
     store_six(w, at + K.SPIN + 2 * A.SIX, FOUR, plus_scaled(about_m, -by_rate * bump_t, loaded))
     store_six(w, at + K.ENTRAINED, FOUR, entrained)
-    return loaded, plus_scaled(scaled_six(by_approach, loaded), growth, levered(w, K.HALF, j, ball))
+    return loaded, plus_scaled(scaled_six(by_approach, loaded), growth, with_moment(w, K.HALF, j, ball))
 
 
 @kernel
@@ -138,7 +138,7 @@ def place_column(i, along_axis, pressed, turned, tipped, material, w):
 
 
 @kernel
-def answers_to_place(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w):
+def place_columns(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w):
     """Fill the columns of the ball's place, the body's motion and the ball's velocity held.
 
     ``pressed``: answer to the approach; ``about``: the body's axis in the contact's axes; ``around``,
@@ -218,11 +218,11 @@ def contact_columns(y, body, ball, contact, j, w):
     the gradient along t; entrainment speed by the ball's spin.
     """
     frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, arm = contact
-    loaded, pressed = answers_to_motion(ball, gradient, bumps, stiffness, film, j, w)
+    loaded, pressed = motion_columns(ball, gradient, bumps, stiffness, film, j, w)
     _, by_rate, _ = stiffness
     v = components(three(w, W.POSE + body * X.SIZE + X.DV + j), frame)
     bent = bent_gradient(change, pressing, by_rate, v, loaded)
-    answers_to_place(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w)
+    place_columns(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w)
     into_ball_axes(frame, w)
     own_spin(arm, w)
 
@@ -268,7 +268,7 @@ def race_contact(p, c, y, race, turned, j, w):
         tip = bump_m * per_distance
     curvature = zero
     if p[P.WAVINESS] != 0.0:
-        _, _, curvature = wave_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
+        _, _, curvature = waviness_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
     return (
         frame,
         (splat(1.0), lean, tip),
@@ -286,7 +286,7 @@ def race_contact(p, c, y, race, turned, j, w):
 
 @kernel
 def pocket_traction(p, pressing, ut, um, j, w):
-    """Columns of the friction in a pocket: one point of contact, the law of ``cage.pockets``."""
+    """Columns of the friction in a pocket: one point of contact, the law of ``cage.pocket_forces``."""
     floor = p[P.POCKET_SLIP]
     per_square = 1.0 / (ut * ut + um * um + floor * floor)
     share = -p[P.POCKET_FRICTION] * math.sqrt(per_square)

@@ -1,4 +1,4 @@
-"""Jacobian of the accelerations, from how each contact answers motion (``contact_slopes``).
+"""Jacobian of the accelerations, from how each contact's force follows motion (``contact_slopes``).
 
 What a contact does depends on where the ball is and how fast it moves against one body. A body's own motion
 is therefore minus the ball's, with the levers of a rigid body; where it tilts, everything turns with it. A
@@ -303,8 +303,8 @@ def clear(p, jac, w):
         jac[J.E + i] = 0.0
     for i in range(Q.SIZE):
         # rigid preload: no force moves the inner ring along its axis
-        held = i == Q.X and p[P.RIGID] != 0.0
-        w[W.CONTACT + K.PER_INERTIA + i] = 0.0 if held else 1.0 / inertia(p, i)
+        fixed = i == Q.X and p[P.RIGID] != 0.0
+        w[W.CONTACT + K.PER_INERTIA + i] = 0.0 if fixed else 1.0 / inertia(p, i)
 
 
 @kernel

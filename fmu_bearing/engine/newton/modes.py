@@ -43,7 +43,7 @@ def local_column(jac, first, column, c, s, axis, j):
 
 
 @kernel
-def answers(jac, race, c, s, cv, cx, j, factors):
+def ball_groove_coupling(jac, race, c, s, cv, cx, j, factors):
     """Ball ``j``'s rows of the Newton matrix for motion of the groove under it, into ``factors``.
 
     The groove's motion along itself presses nothing: its place has no effect, only its velocity.
@@ -58,7 +58,7 @@ def answers(jac, race, c, s, cv, cx, j, factors):
 
 
 @kernel
-def returns(p, jac, fac, race, c, s, cv, cx, j, factors, row):
+def groove_ball_coupling(p, jac, fac, race, c, s, cv, cx, j, factors, row):
     """Groove's rows for the ball's motion, times the inverse of the ball's own block.
 
     They follow in ``factors``; ``row``: scratch for ``J.BALL`` numbers.
@@ -75,25 +75,25 @@ def returns(p, jac, fac, race, c, s, cv, cx, j, factors, row):
             total = 0.0
             for m in range(J.BALL):
                 total += row[m] * fac[in_groups(j, A.GROUP) + A.INVERSE + m * A.SIX + k * FOUR]
-            factors[(FL.ANSWERS + axis * J.BALL + k) * STRIDE + j] = total
+            factors[(FL.COUPLINGS + axis * J.BALL + k) * STRIDE + j] = total
 
 
 @kernel
-def ring_answers(p, jac, fac, y, turned, race, cv, cx, factors, row):
+def ring_couplings(p, jac, fac, y, turned, race, cv, cx, factors, row):
     """Rows of one ring at all balls into ``factors``."""
     for j in range(int(p[P.LANES])):
         angle = y[Y.TH + j] - turned
         c = math.cos(angle)
         s = math.sin(angle)
-        answers(jac, race, c, s, cv, cx, j, factors)
-        returns(p, jac, fac, race, c, s, cv, cx, j, factors, row)
+        ball_groove_coupling(jac, race, c, s, cv, cx, j, factors)
+        groove_ball_coupling(p, jac, fac, race, c, s, cv, cx, j, factors, row)
 
 
 @kernel
 def groove_inertia(p, pushed, moved, same, total):
     """Inertia (kg, 3 x 3) of one groove against another's motion, or its own, summed over the balls.
 
-    ``pushed``, ``moved``: rows of the two rings as :func:`ring_answers` left them; ``same``: one ring.
+    ``pushed``, ``moved``: rows of the two rings as :func:`ring_couplings` left them; ``same``: one ring.
     """
     lever = p[P.PITCH_RADIUS]
     for a in range(FL.GROOVE):
@@ -105,14 +105,14 @@ def groove_inertia(p, pushed, moved, same, total):
                     # what the ball is pushed by, the groove is pushed back by
                     value -= p[P.BALL_MASS] * (lever if a == 2 else 1.0) * moved[own + j]
                 for k in range(J.BALL):
-                    back = (FL.ANSWERS + a * J.BALL + k) * STRIDE
+                    back = (FL.COUPLINGS + a * J.BALL + k) * STRIDE
                     value -= pushed[back + j] * moved[(k * FL.GROOVE + b) * STRIDE + j]
             total[a * FL.GROOVE + b] = value
 
 
 @kernel
 def coupling(p, mode, other, total):
-    """How a mode answers another of its order through the balls: complex.
+    """How a mode couples to another of its order through the balls: complex.
 
     ``total``: inertia (kg) of the mode's groove against the motion of the other's, row by row. The mean over
     all places of the balls; (a + i b) of the other mode is multiplied by it.
@@ -147,19 +147,19 @@ def partner(p, k):
     """Mode of the other ring with the order of mode ``k``; -1 where there is none."""
     table = int(p[P.AT_MODES])
     own = table + k * P.MODE_SIZE
-    found = -1
+    mate = -1
     for m in range(int(p[P.MODES])):
         other = table + m * P.MODE_SIZE
         if (
             p[other + P.MODE_ORDER] == p[own + P.MODE_ORDER]
             and p[other + P.MODE_BODY] != p[own + P.MODE_BODY]
         ):
-            found = m
-    return found
+            mate = m
+    return mate
 
 
 @kernel
-def between(pushed, moved):
+def inertia_place(pushed, moved):
     """Return the place of one groove's inertia against the motion of one (0 inner, 1 outer ring)."""
     return (2 * pushed + moved) * FL.INERTIA
 
@@ -183,16 +183,16 @@ def invert_modes(p, speed, cv, cx, totals, inverse):
     for k in range(int(p[P.MODES])):
         mode = table + k * P.MODE_SIZE
         race = int(p[mode + P.MODE_BODY])
-        a = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[between(race, race) :])
+        a = mode_block(p, mode, speed if race == 0 else 0.0, cv, cx, totals[inertia_place(race, race) :])
         m = partner(p, k)
         b, d, determinant = 0j, complex(1.0, 0.0), a
         if m >= 0:
             other = table + m * P.MODE_SIZE
             opposite = 1 - race
             spin = 0.0 if race == 0 else speed
-            b = coupling(p, mode, other, totals[between(race, opposite) :])
-            c = coupling(p, other, mode, totals[between(opposite, race) :])
-            d = mode_block(p, other, spin, cv, cx, totals[between(opposite, opposite) :])
+            b = coupling(p, mode, other, totals[inertia_place(race, opposite) :])
+            c = coupling(p, other, mode, totals[inertia_place(opposite, race) :])
+            d = mode_block(p, other, spin, cv, cx, totals[inertia_place(opposite, opposite) :])
             determinant = a * d - b * c
         found = complex_at(inverse, k * FL.PER_INVERSE, 2)
         found[FL.OWN // 2] = over(d, determinant)
@@ -215,12 +215,12 @@ def factor_modes(p, jac, fac, y, turned, speed, cv, cx, flexure, w):
     inner = bends(p, 0)
     outer = bends(p, 1)
     if inner:
-        ring_answers(p, jac, fac, y, turned, 0, cv, cx, first, row)
+        ring_couplings(p, jac, fac, y, turned, 0, cv, cx, first, row)
         groove_inertia(p, first, first, True, totals)
     if outer:
-        ring_answers(p, jac, fac, y, turned, 1, cv, cx, second, row)
-        groove_inertia(p, second, second, True, totals[between(1, 1) :])
+        ring_couplings(p, jac, fac, y, turned, 1, cv, cx, second, row)
+        groove_inertia(p, second, second, True, totals[inertia_place(1, 1) :])
     if inner and outer:
-        groove_inertia(p, first, second, False, totals[between(0, 1) :])
-        groove_inertia(p, second, first, False, totals[between(1, 0) :])
+        groove_inertia(p, first, second, False, totals[inertia_place(0, 1) :])
+        groove_inertia(p, second, first, False, totals[inertia_place(1, 0) :])
     invert_modes(p, speed, cv, cx, totals, inverse_of_modes(flexure, modes))

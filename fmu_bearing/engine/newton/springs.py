@@ -7,7 +7,7 @@ gives across them, up to a tenth of a contact's stiffness at 2.5e7 N/m, and ball
 1e-4, are left to the iterations of a modified Newton method.
 
 Sherman, Morrison and Woodbury: M^-1 r = x + M0^-1 U z with x = M0^-1 r, z = (I - T G)^-1 T U^T x and
-G = U^T M0^-1 U. M0^-1 U is not stored: with b_j the bodies' answer to a unit on ball j's orbit row, the
+G = U^T M0^-1 U. M0^-1 U is not stored: with b_j the bodies' response to a unit on ball j's orbit row, the
 correction is one change of the bodies' part and one column of each ball's own inverse, both before the balls
 are substituted back.
 """
@@ -24,7 +24,7 @@ _ORBIT = 2  # row of a ball's accelerations
 
 @kernel
 def spring_matrix(p, cv, cx, fac, w):
-    """Bodies' answers b_j and the matrix I - T G into ``fac`` (Z x Z at ``A.SPRING_BALLS``, to be inverted).
+    """Bodies' response b_j and the matrix I - T G into ``fac`` (Z x Z at ``A.SPRING_BALLS``, to be inverted).
 
     ``cv``, ``cx``: weights of velocity and position as in ``block_arrow.factor``, whose factors are in
     ``fac`` already.
@@ -83,15 +83,15 @@ def couple_springs(p, fac, d, w):
         total = 0.0
         for j in range(balls):
             total += fac[A.SPRING_BALLS + i * balls + j] * w[W.SPRING_PULL + j]
-        w[W.SPRING_ANSWER + i] = total
+        w[W.SPRING_RESPONSE + i] = total
     for j in range(balls, int(p[P.LANES])):
-        w[W.SPRING_ANSWER + j] = w[W.SPRING_ANSWER]
+        w[W.SPRING_RESPONSE + j] = w[W.SPRING_RESPONSE]
     for g in range(Q.SIZE):
         total = d[F.BODY + g]
         for j in range(balls):
-            total += fac[A.SPRING_BODY + g * STRIDE + j] * w[W.SPRING_ANSWER + j]
+            total += fac[A.SPRING_BODY + g * STRIDE + j] * w[W.SPRING_RESPONSE + j]
         d[F.BODY + g] = total
     for j in range(int(p[P.LANES])):
         own = in_groups(j, A.GROUP) + A.INVERSE + _ORBIT * FOUR
         for k in range(J.BALL):
-            w[W.OWN + k * STRIDE + j] += fac[own + k * A.SIX] * w[W.SPRING_ANSWER + j]
+            w[W.OWN + k * STRIDE + j] += fac[own + k * A.SIX] * w[W.SPRING_RESPONSE + j]

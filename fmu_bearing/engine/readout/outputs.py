@@ -88,13 +88,13 @@ def fits(p, s, z):
     square = s[S.SPEED] * s[S.SPEED]
     for race in range(2):
         numbers = P.RACES + race * P.RACE_SIZE
-        held = C.RACES + race * C.RACE_SIZE
+        raceway = C.RACES + race * C.RACE_SIZE
         at = Z.FIT + Z.FIT_SIZE * race
-        pressure = p[numbers + P.RACE_FIT_PRESSURE] * max(c[held + C.INTERFERENCE], 0.0)
-        z[at + Z.FIT_INTERFERENCE] = 2.0 * c[held + C.INTERFERENCE]
+        pressure = p[numbers + P.RACE_FIT_PRESSURE] * max(c[raceway + C.INTERFERENCE], 0.0)
+        z[at + Z.FIT_INTERFERENCE] = 2.0 * c[raceway + C.INTERFERENCE]
         z[at + Z.FIT_PRESSURE] = pressure
         z[at + Z.FIT_HOOP] = p[numbers + P.RACE_HOOP] * pressure + p[numbers + P.RACE_SPIN_HOOP] * square
-        z[at + Z.FIT_GROWTH] = c[held + C.GROWTH]
+        z[at + Z.FIT_GROWTH] = c[raceway + C.GROWTH]
 
 
 @kernel

@@ -243,7 +243,7 @@ def add_pair(ps, ss, ws, one, other):
     rolled = ss[a + SL.LINE_ROLLED] - (ss[b + SL.LINE_ROLLED] if same else 0.0)
     other_rolled = 0.0 if same else ss[b + SL.LINE_ROLLED]
     shaft = ss[a + SL.LINE_SHAFT] - ss[b + SL.LINE_SHAFT]
-    found = -1
+    slot = -1
     count = int(ss[SD.SS_BEATS])
     for beat in range(count):
         k = at + beat * wide
@@ -256,21 +256,21 @@ def add_pair(ps, ss, ws, one, other):
             and ss[k + SL.BEAT_OTHER_BALL] == other_ball
             and ss[k + SL.BEAT_OTHER_ROLLED] == other_rolled
         ):
-            found = k
+            slot = k
             break
-    if found < 0:
+    if slot < 0:
         if count >= SL.MOST_BEATS:
             return
-        found = at + count * wide
+        slot = at + count * wide
         for i in range(wide):
-            ss[found + i] = 0.0
-        ss[found + SL.BEAT_ONE] = ss[a + SL.LINE_MEMBER]
-        ss[found + SL.BEAT_OTHER] = ss[b + SL.LINE_MEMBER]
-        ss[found + SL.BEAT_BALL] = ball
-        ss[found + SL.BEAT_OTHER_BALL] = other_ball
-        ss[found + SL.BEAT_SHAFT] = shaft
-        ss[found + SL.BEAT_ROLLED] = rolled
-        ss[found + SL.BEAT_OTHER_ROLLED] = other_rolled
+            ss[slot + i] = 0.0
+        ss[slot + SL.BEAT_ONE] = ss[a + SL.LINE_MEMBER]
+        ss[slot + SL.BEAT_OTHER] = ss[b + SL.LINE_MEMBER]
+        ss[slot + SL.BEAT_BALL] = ball
+        ss[slot + SL.BEAT_OTHER_BALL] = other_ball
+        ss[slot + SL.BEAT_SHAFT] = shaft
+        ss[slot + SL.BEAT_ROLLED] = rolled
+        ss[slot + SL.BEAT_OTHER_ROLLED] = other_rolled
         ss[SD.SS_BEATS] = count + 1.0
     parts, half = int(ps[SD.H_W_PARTS]), part_rows(ps) * n
     x, y = parts + one * part_size(ps), parts + other * part_size(ps)
@@ -282,7 +282,7 @@ def add_pair(ps, ss, ws, one, other):
         if gain >= 0:
             by = math.sqrt(ws[gains + one * filters + gain] * ws[gains + other * filters + gain])
         row = row_of(ps, q) * n
-        re = found + SL.BEAT_PRODUCT + q * n
+        re = slot + SL.BEAT_PRODUCT + q * n
         im = re + many * n
         for i in range(row, row + n):
             xr, xi, yr, yi = ws[x + i], ws[x + half + i], ws[y + i], ws[y + half + i]

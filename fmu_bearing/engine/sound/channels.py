@@ -40,7 +40,7 @@ def keep(ps, motion, row):
 def form(ps, ws, x, turns, out):
     """Form the channels ``out`` from a decimated raw row ``x`` and the balls' cosines and sines ``turns``.
 
-    For their order see `layout.sound.formed`.
+    For their order see `layout.sound_filters.formed`.
     """
     chosen = int(ps[SD.H_FORM])
     if chosen == SCALARS:
@@ -125,7 +125,7 @@ def _keep_accelerations(ps, motion, row):
 def _form_accelerations(ps, x, turns, table, out):
     """Form vectors: the balls' accelerations as circumferential harmonics, the rest as it is.
 
-    For their order see `layout.sound.formed`.
+    For their order see `layout.sound_filters.formed`.
     """
     lanes = int(ps[SD.H_BALL_LANES])
     orders = int(ps[SD.H_HARMONICS])

@@ -6,7 +6,7 @@ onto them, the shaft's equations are few and dense; what they find goes back int
 Craig and Bampton 1968 for the shaft's own coordinates). A single bearing is a set of one without shaft,
 coordinates and driven rows.
 
-===============  ==========================================================================
+===============  ===========================================================================================
 ``members``      arrays and numbers of one bearing; its motion with the shaft; arguments of all kernels here
 ``shaft``        loads, springs, energy of shaft and housing
 ``port``         a shaft that another model owns
@@ -16,7 +16,7 @@ coordinates and driven rows.
 ``coupling``     Newton's equations of all bearings and the shaft
 ``rest``         where shaft, housing and outer rings rest: Newton's method in displacements
 ``steady``       that rest with the steady forces of the bearings
-``sound``        sound samples of all bearings at the same instants, and levels of their sum
+``sound_sum``    sound samples of all bearings at the same instants, and levels of their sum
 ``outputs``      from the state to the outputs
-===============  ==========================================================================
+===============  ===========================================================================================
 """

@@ -16,29 +16,29 @@ from fmu_bearing.engine.layout import SP, P, Q, S, Y
 from fmu_bearing.engine.newton.block_arrow import turn_pair
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.elimination import (
-    answer_driven,
-    answer_free,
+    condense_residual,
     keep_columns,
+    solve_driven,
     turn_driven,
 )  # fmt: skip
-from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
-from fmu_bearing.engine.spindle.shaft import feet, has_housing
+from fmu_bearing.engine.spindle.port import clear, fix_rows, has_port
+from fmu_bearing.engine.spindle.shaft import has_housing, pedestal_force
 
 
 @kernel
-def feet_matrix(p, own, stiffness, scale, ws, at, width, spare):
+def pedestal_matrix(p, own, stiffness, scale, ws, at, width, spare):
     """Add ``scale`` times the pedestal's matrix to the housing's, at ``ws[at:]`` in rows of ``width``.
 
     ``stiffness``: place in the set's own state; ``spare``: twelve numbers of scratch.
     """
-    answer = spare + SP.HOUSING
+    force = spare + SP.HOUSING
     for k in range(SP.HOUSING):
         for i in range(2 * SP.HOUSING):
             ws[spare + i] = 0.0
         ws[spare + k] = 1.0
-        feet(p, own, stiffness, ws, spare, scale, ws, answer)
+        pedestal_force(p, own, stiffness, ws, spare, scale, ws, force)
         for i in range(SP.HOUSING):
-            ws[at + i * width + k] += ws[answer + i]
+            ws[at + i * width + k] += ws[force + i]
 
 
 @kernel
@@ -65,8 +65,8 @@ def shaft_matrix(p, own, ws, speed, by_mass, by_rate, by_place, at):
     if has_housing(p):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
         spare = members.scratch(p, 0)
-        feet_matrix(p, own, SP.FEET, by_place, ws, at + h * n + h, n, spare)
-        feet_matrix(p, own, SP.FEET_DAMPING, by_rate, ws, at + h * n + h, n, spare)
+        pedestal_matrix(p, own, SP.PEDESTAL_STIFFNESS, by_place, ws, at + h * n + h, n, spare)
+        pedestal_matrix(p, own, SP.PEDESTAL_DAMPING, by_rate, ws, at + h * n + h, n, spare)
 
 
 @kernel
@@ -135,11 +135,11 @@ def condense_set(p, s, w, gh):
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, gh, gh * gh, at)
     spare = at + n * n
     first = orbited(s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
         angle = orbited(members.state(p, s, b)) - first
-        answer = members.per_bearing(p, b) + SP.ANSWER
-        turned_rows(own, answer, count, math.cos(angle), math.sin(angle), ws, spare)
+        schur = members.per_bearing(p, b) + SP.SCHUR
+        turned_rows(own, schur, count, math.cos(angle), math.sin(angle), ws, spare)
         add_driven(p, b, ws, spare, count, 1, ws, at)
 
 
@@ -152,7 +152,7 @@ def factor_set(p, s, w, gh):
     ws = members.set_work(p, w)
     n = members.coordinates(p)
     if has_port(p):
-        hold_rows(ws, members.matrix(p), SP.PLANE, n, n)
+        fix_rows(ws, members.matrix(p), SP.PLANE, n, n)
     return invert_set(p, members.set_state(p, s), ws)
 
 
@@ -184,7 +184,7 @@ def turned(sb, t):
 def turn_since(p, s, w, t):
     """Store cosine and sine of the bearings' orbit angles since their Jacobians, ``t`` (s) into the step."""
     ws = members.set_work(p, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         at = members.scratch(p, b) + SP.TURNED
         ws[at], ws[at + 1] = turned(members.state(p, s, b), t)
 
@@ -205,17 +205,17 @@ def solve_shaft(p, own, ws):
     """Solve the shaft's equations for its increment, in axes that turn with the first bearing."""
     lanes = members.padded_size(p)
     residual = members.vector(p, SP.RESIDUAL)
-    found = members.vector(p, SP.INCREMENT)
+    increment = members.vector(p, SP.INCREMENT)
     c = ws[members.scratch(p, 0) + SP.TURNED]
     s = ws[members.scratch(p, 0) + SP.TURNED + 1]
     if has_port(p):
         clear(ws, residual, SP.PLANE)
     turn_coordinates(p, ws, residual, c, -s)
     for i in range(lanes):
-        ws[found + i] = 0.0
+        ws[increment + i] = 0.0
     at = members.inverse(p)
-    members.add_columns(own, at, lanes, members.coordinates(p), 1.0, ws, residual, ws, found)
-    turn_coordinates(p, ws, found, c, s)
+    members.add_columns(own, at, lanes, members.coordinates(p), 1.0, ws, residual, ws, increment)
+    turn_coordinates(p, ws, increment, c, s)
 
 
 @kernel
@@ -227,10 +227,10 @@ def solve_set(p, s, w):
     """
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
-        answer_free(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)
+        condense_residual(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)
     solve_shaft(p, own, ws)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
-        answer_driven(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)
+        solve_driven(p, b, pb, members.state(p, s, b), members.work(p, w, b), own, ws)

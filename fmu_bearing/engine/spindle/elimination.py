@@ -19,10 +19,10 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four
 from fmu_bearing.engine.layout import FOUR, SP, A, F, P, Q, S, W
 from fmu_bearing.engine.newton.block_arrow import (
-    answer_alone,
+    back_substitute,
     border_product,
-    follow_bodies,
     solve,
+    solve_balls,
     turn_pair,
     turn_pairs,
 )  # fmt: skip
@@ -32,12 +32,12 @@ from fmu_bearing.engine.spindle import members
 
 @kernel
 def tied(pb):
-    """Whether springs tie the balls together: the border alone does not give the bearing's answers then."""
+    """Whether springs tie the balls together: the border alone is not the bearing's compliance then."""
     return (pb[P.SPRINGS] != 0.0) & (pb[P.CAGE] == 0.0)
 
 
 @kernel
-def driven_answers(p, b, pb, sb, wb, ws, at):
+def driven_compliance(p, b, pb, sb, wb, ws, at):
     """Put R, the driven rows and columns of N^-1, of bearing ``b`` to ``ws[at:]``, by rows."""
     r = members.row(p, b)
     count = int(p[r + SP.ROW_DRIVEN])
@@ -64,19 +64,19 @@ def condense_bearing(p, s, w, b):
     sb = members.state(p, s, b)
     wb = members.work(p, w, b)
     count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
-    driven_answers(p, b, pb, sb, wb, wb, W.F0)
+    driven_compliance(p, b, pb, sb, wb, wb, W.F0)
     spare = members.matrix(p)
     if not invert(wb, W.F0, count, ws, spare):
         return False
-    keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.ANSWER)
+    keep_columns(ws, spare, count, SP.LANES, own, members.per_bearing(p, b) + SP.SCHUR)
     if not tied(pb):
-        sweep(sb[S.FAC : S.CONDENSED], count, own, members.per_bearing(p, b) + SP.ANSWER, ws, spare)
+        sweep(sb[S.FAC : S.CONDENSED], count, own, members.per_bearing(p, b) + SP.SCHUR, ws, spare)
     return True
 
 
 @kernel
-def sweep(fac, count, own, answer, ws, at):
-    """Sweep S^-1 in a bearing's factors over its ``count`` driven rows; R^-1 is at ``own[answer:]``.
+def sweep(fac, count, own, schur, ws, at):
+    """Sweep S^-1 in a bearing's factors over its ``count`` driven rows; R^-1 is at ``own[schur:]``.
 
     ``ws[at:]``: scratch of ``SP.LANES`` numbers.
     """
@@ -84,7 +84,7 @@ def sweep(fac, count, own, answer, ws, at):
         column = A.S + h * A.BORDER
         for i in range(SP.LANES):
             ws[at + i] = 0.0
-        members.add_columns(own, answer, SP.LANES, count, 1.0, fac, column, ws, at)
+        members.add_columns(own, schur, SP.LANES, count, 1.0, fac, column, ws, at)
         for i in range(count):
             fac[column + i] = ws[at + i]
             for g in range(count, Q.SIZE):
@@ -95,11 +95,11 @@ def sweep(fac, count, own, answer, ws, at):
         for k in range(count):
             total = 0.0
             for i in range(count):
-                total += ws[at + i] * own[answer + k * SP.LANES + i]
+                total += ws[at + i] * own[schur + k * SP.LANES + i]
             fac[A.S + k * A.BORDER + g] = total
     for k in range(count):
         for i in range(count):
-            fac[A.S + k * A.BORDER + i] = own[answer + k * SP.LANES + i]
+            fac[A.S + k * A.BORDER + i] = own[schur + k * SP.LANES + i]
 
 
 @kernel
@@ -147,13 +147,13 @@ def put_border(m, at, count, x, first, out, to):
 
 
 @kernel
-def answer_free(p, b, pb, sb, wb, own, ws):
+def condense_residual(p, b, pb, sb, wb, own, ws):
     """Add the forces of bearing ``b`` to the shaft's residual, its driven rows where the shaft has them.
 
     ``W.D`` of ``wb`` holds the bearing's residual.
     """
     if tied(pb):
-        answer_tied(p, b, pb, sb, wb, own, ws)
+        condense_residual_tied(p, b, pb, sb, wb, own, ws)
         return
     r = members.row(p, b)
     count = int(p[r + SP.ROW_DRIVEN])
@@ -163,7 +163,7 @@ def answer_free(p, b, pb, sb, wb, own, ws):
     d = wb[W.D : W.D + F.SIZE]
     fac = sb[S.FAC : S.CONDENSED]
     turn_pairs(d, F.BODY, c, -s)
-    answer_alone(fac, int(pb[P.LANES]), d, wb)
+    solve_balls(fac, int(pb[P.LANES]), d, wb)
     for g in range(Q.SIZE):
         wb[W.REST + g] = d[F.BODY + g] - sum_four(load(wb, W.BODY_SUMS + g * FOUR))
     put_border(fac, A.S + count * A.BORDER, Q.SIZE - count, wb, W.REST + count, wb, W.BODIES)
@@ -172,14 +172,14 @@ def answer_free(p, b, pb, sb, wb, own, ws):
     turn_driven(count, ws, at, c, s)
     for i in range(count):
         ws[at + i] *= p[r + SP.ROW_MASS + i]
-    members.pull(p, b, ws, at, ws, members.vector(p, SP.RESIDUAL))
+    members.project_forces(p, b, ws, at, ws, members.vector(p, SP.RESIDUAL))
 
 
 @kernel
-def answer_driven(p, b, pb, sb, wb, own, ws):
+def solve_driven(p, b, pb, sb, wb, own, ws):
     """Solve bearing ``b`` with its driven rows following the shaft; the increment ends in ``W.D``."""
     if tied(pb):
-        drive_tied(p, b, pb, sb, wb, own, ws)
+        solve_driven_tied(p, b, pb, sb, wb, own, ws)
         return
     count = int(p[members.row(p, b) + SP.ROW_DRIVEN])
     at = members.scratch(p, b)
@@ -187,20 +187,20 @@ def answer_driven(p, b, pb, sb, wb, own, ws):
     s = ws[at + SP.TURNED + 1]
     d = wb[W.D : W.D + F.SIZE]
     fac = sb[S.FAC : S.CONDENSED]
-    members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, at)
+    members.driven_motion(p, b, ws, members.vector(p, SP.INCREMENT), ws, at)
     turn_driven(count, ws, at, c, -s)
     put_border(fac, A.S, count, ws, at, wb, W.REST)
     for g in range(count):
         d[F.BODY + g] = ws[at + g]
     for g in range(count, Q.SIZE):
         d[F.BODY + g] = wb[W.BODIES + g] + wb[W.REST + g]
-    follow_bodies(fac, int(pb[P.LANES]), d, wb)
+    back_substitute(fac, int(pb[P.LANES]), d, wb)
     turn_pairs(d, F.BODY, c, s)
 
 
 @kernel
 def find_drive(p, b, pb, wb, ws):
-    """Put to ``ws[at + SP.LANES:]`` what drove the rows of bearing ``b`` in `answer_driven` (m/s2, rad/s2).
+    """Put to ``ws[at + SP.LANES:]`` what drove the rows of bearing ``b`` in `solve_driven` (m/s2, rad/s2).
 
     In axes that turn with the Jacobian: a beyond their residual as free rows.
     """
@@ -213,8 +213,8 @@ def find_drive(p, b, pb, wb, ws):
 
 
 @kernel
-def answer_tied(p, b, pb, sb, wb, own, ws):
-    """Do `answer_free` for balls that springs tie together.
+def condense_residual_tied(p, b, pb, sb, wb, own, ws):
+    """Do `condense_residual` for balls that springs tie together.
 
     ``W.D`` of ``wb`` ends turned back and zero in driven rows. The answers there with these rows free, d0,
     stay in the scratch.
@@ -231,7 +231,7 @@ def answer_tied(p, b, pb, sb, wb, own, ws):
         ws[at + 2 * SP.LANES + i] = p[r + SP.ROW_MASS + i] * d[F.BODY + i]
         d[F.BODY + i] = 0.0
     turn_pairs(d, F.BODY, c, -s)
-    answer_alone(fac, int(pb[P.LANES]), d, wb)
+    solve_balls(fac, int(pb[P.LANES]), d, wb)
     for g in range(Q.SIZE):
         wb[W.REST + g] = d[F.BODY + g] - sum_four(load(wb, W.BODY_SUMS + g * FOUR))
     border_product(fac, wb, d)
@@ -241,17 +241,17 @@ def answer_tied(p, b, pb, sb, wb, own, ws):
     # m R^-1 d0 in fixed axes, with m r_I
     for i in range(SP.LANES):
         ws[to + i] = 0.0
-    answer = members.per_bearing(p, b) + SP.ANSWER
-    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, at, ws, to)
+    schur = members.per_bearing(p, b) + SP.SCHUR
+    members.add_columns(own, schur, SP.LANES, count, 1.0, ws, at, ws, to)
     turn_driven(count, ws, to, c, s)
     for i in range(count):
         ws[to + i] = p[r + SP.ROW_MASS + i] * ws[to + i] + ws[at + 2 * SP.LANES + i]
-    members.pull(p, b, ws, to, ws, members.vector(p, SP.RESIDUAL))
+    members.project_forces(p, b, ws, to, ws, members.vector(p, SP.RESIDUAL))
 
 
 @kernel
-def drive_tied(p, b, pb, sb, wb, own, ws):
-    """Do `answer_driven` for balls that springs tie together.
+def solve_driven_tied(p, b, pb, sb, wb, own, ws):
+    """Do `solve_driven` for balls that springs tie together.
 
     R^-1 (T ds - d0), the accelerations that drive the rows, stays in the scratch at ``SP.LANES``.
     """
@@ -265,18 +265,18 @@ def drive_tied(p, b, pb, sb, wb, own, ws):
     c = ws[at + SP.TURNED]
     s = ws[at + SP.TURNED + 1]
     lanes = int(pb[P.LANES])
-    members.moved(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
+    members.driven_motion(p, b, ws, members.vector(p, SP.INCREMENT), ws, to)
     turn_driven(count, ws, to, c, -s)
     for i in range(SP.LANES):
         ws[driving + i] = 0.0
     for i in range(count):
         ws[to + i] -= ws[at + i]
-    answer = members.per_bearing(p, b) + SP.ANSWER
-    members.add_columns(own, answer, SP.LANES, count, 1.0, ws, to, ws, driving)
+    schur = members.per_bearing(p, b) + SP.SCHUR
+    members.add_columns(own, schur, SP.LANES, count, 1.0, ws, to, ws, driving)
     for i in range(count):
         wb[W.REST + i] += ws[driving + i]
     border_product(fac, wb, d)
-    answer_alone(fac, lanes, d, wb)
+    solve_balls(fac, lanes, d, wb)
     couple_springs(pb, fac, d, wb)
-    follow_bodies(fac, lanes, d, wb)
+    back_substitute(fac, lanes, d, wb)
     turn_pairs(d, F.BODY, c, s)

@@ -4,7 +4,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, F, P, Q, S, W, Y
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.port import clear, feel, has_port, led_acceleration
+from fmu_bearing.engine.spindle.port import add_bearing_force, clear, has_port, prescribed_acceleration
 from fmu_bearing.engine.spindle.shaft import shaft_forces, weighs
 
 
@@ -14,13 +14,13 @@ def copy_rows(p, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     lanes = members.padded_size(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         r = members.row(p, b)
         at = members.scratch(p, b)
         bearing_at = members.per_bearing(p, b)
         members.place_rows(p, b, own, own, SP.S_HEAD, ws, at)
-        members.moved(p, b, own, SP.S_HEAD + lanes, ws, at + SP.LANES)
+        members.driven_motion(p, b, own, SP.S_HEAD + lanes, ws, at + SP.LANES)
         for i in range(int(p[r + SP.ROW_DRIVEN])):
             axial = 1.0 if i == Q.X else 0.0
             sb[S.Y + Y.Q0 + i] = ws[at + i]
@@ -91,7 +91,7 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
         q = SP.S_HEAD
         v = SP.S_HEAD + lanes
     work, bent, shaken = shaft_forces(p, own, x, q, v, angle, speed, rate, ws, force)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -99,31 +99,31 @@ def accelerate(p, s, w, stage, t, angle, speed, rate):
         free_forces(p, b, pb, f, ws, members.scratch(p, b))
         if not stage:
             keep_load(p, b, pb, own, ws, members.scratch(p, b))
-        members.pull(p, b, ws, members.scratch(p, b), ws, force)
-    found = members.vector(p, SP.ACCELERATION)
+        members.project_forces(p, b, ws, members.scratch(p, b), ws, force)
+    acceleration = members.vector(p, SP.ACCELERATION)
     for i in range(lanes):
-        ws[found + i] = 0.0
-    members.add_product(p, members.table(p, SP.AT_INVERSE), 1.0, ws, force, ws, found)
+        ws[acceleration + i] = 0.0
+    members.add_product(p, members.table(p, SP.AT_INVERSE), 1.0, ws, force, ws, acceleration)
     led = has_port(p)
     if led:
-        led_acceleration(own, s, t, ws, found)
+        prescribed_acceleration(own, s, t, ws, acceleration)
         clear(ws, force, lanes)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         f = wb[W.F : W.F + F.SIZE] if stage else sb[S.F : S.F + F.SIZE]
         free = f[F.BODY]
         at = members.scratch(p, b)
-        members.moved(p, b, ws, found, ws, at + SP.LANES)
+        members.driven_motion(p, b, ws, acceleration, ws, at + SP.LANES)
         drive(p, b, f, ws, at + SP.LANES)
         if led:
             y = wb[W.STAGE : W.STAGE + Y.SIZE] if stage else sb[S.Y : S.Y + Y.SIZE]
-            work += feel(p, b, members.parameters(p, b), y, f, ws, at, force)
+            work += add_bearing_force(p, b, members.parameters(p, b), y, f, ws, at, force)
         else:
             work += growth_power(p, b, own, free, f[F.BODY])
     if not stage:
         for i in range(SP.PLANE):
             own[SP.PORT_FORCE + i] = ws[force + i] if led else 0.0
         for i in range(lanes):
-            own[SP.S_HEAD + 2 * lanes + i] = ws[found + i]
+            own[SP.S_HEAD + 2 * lanes + i] = ws[acceleration + i]
     return work, bent, shaken

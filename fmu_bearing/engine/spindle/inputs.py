@@ -10,16 +10,16 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, P, Q, S, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions, regrow
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.shaft import has_housing, hold_load
+from fmu_bearing.engine.spindle.shaft import has_housing, static_load
 
 _STILL = 1e-15  # m
-_PEDESTAL = 1e8  # N/m: of a ring that is held, so read by nothing
+_PEDESTAL = 1e8  # N/m: of a ring that is fixed, so read by nothing
 
 
 @kernel
 def inputs(p):
     """Return how many inputs there are."""
-    return U.BEARINGS + members.count(p) * U.ROW
+    return U.BEARINGS + members.bearing_count(p) * U.ROW
 
 
 @kernel
@@ -55,7 +55,7 @@ def grow(p, u, s, w, speed):
     Growth that changed at communication points alone would sound at their rate.
     """
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing_inputs(p, u, b, given)
         regrow(members.parameters(p, b), given, speed, members.state(p, s, b)[S.C : S.C + C.SIZE])
 
@@ -80,7 +80,10 @@ def loads_differ(p, u, own):
     for i in range(SP.PLANE):
         if own[SP.NOSE + i] != u[U.NOSE + i]:
             return True
-    return has_housing(p) and own[SP.FEET + Q.Z] != u[U.PEDESTAL] * p[int(p[P.SET]) + SP.PEDESTAL_Z]
+    return (
+        has_housing(p)
+        and own[SP.PEDESTAL_STIFFNESS + Q.Z] != u[U.PEDESTAL] * p[int(p[P.SET]) + SP.PEDESTAL_Z]
+    )
 
 
 @kernel
@@ -92,11 +95,11 @@ def take_loads(p, u, own):
     own[SP.SPRING] = u[U.PRELOAD]
     for i in range(SP.PLANE):
         own[SP.NOSE + i] = u[U.NOSE + i]
-    hold_load(p, own)
+    static_load(p, own)
     if not has_housing(p):
         return
     radial = u[U.PEDESTAL]
-    for i in range(SP.FOOT):
+    for i in range(SP.PEDESTAL_TERMS):
         stiffness = radial
         inertia = p[block + SP.HOUSING_MASS]
         if i == Q.X:
@@ -104,19 +107,19 @@ def take_loads(p, u, own):
         elif Q.TURN <= i < SP.HOUSING:
             stiffness = radial * p[block + SP.ROTATIONAL_RATIO]
             inertia = p[block + (SP.HOUSING_POLAR if i == Q.TURN else SP.HOUSING_TRANSVERSE)]
-        own[SP.FEET + i] = stiffness
-        own[SP.FEET_DAMPING + i] = 2.0 * p[block + SP.PEDESTAL_ZETA] * math.sqrt(stiffness * inertia)
+        own[SP.PEDESTAL_STIFFNESS + i] = stiffness
+        own[SP.PEDESTAL_DAMPING + i] = 2.0 * p[block + SP.PEDESTAL_ZETA] * math.sqrt(stiffness * inertia)
     # along y, along z and between both, as `conditions` has them of one bearing
     for k in range(3):
         i = SP.BETWEEN if k == 2 else Q.Y + k
-        own[SP.FEET + i] *= p[block + SP.PEDESTAL_Y + k]
-        own[SP.FEET_DAMPING + i] *= p[block + SP.PEDESTAL_DAMPING_Y + k]
+        own[SP.PEDESTAL_STIFFNESS + i] *= p[block + SP.PEDESTAL_Y + k]
+        own[SP.PEDESTAL_DAMPING + i] *= p[block + SP.PEDESTAL_DAMPING_Y + k]
 
 
 @kernel
 def spread_choices(p):
     """Copy the parameters that are tunable before initialisation from the first bearing to the others."""
-    for b in range(1, members.count(p)):
+    for b in range(1, members.bearing_count(p)):
         pb = members.parameters(p, b)
         for i in range(P.TUNABLE):
             pb[i] = p[i]

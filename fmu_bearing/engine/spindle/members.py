@@ -35,7 +35,7 @@ from fmu_bearing.engine.layout import FOUR, SP, H, L, P, Q, S, W
 
 
 @kernel
-def count(p):
+def bearing_count(p):
     """Return how many bearings the set has."""
     if not has_shaft(p):
         return 1
@@ -150,7 +150,7 @@ def per_bearing(p, b):
 @kernel
 def inverse(p):
     """Place in the set's own state of the inverse Newton matrix, by columns."""
-    return SP.S_HEAD + SP.MOTION * padded_size(p) + count(p) * SP.PER_BEARING
+    return SP.S_HEAD + SP.MOTION * padded_size(p) + bearing_count(p) * SP.PER_BEARING
 
 
 @kernel
@@ -180,7 +180,7 @@ def alone(p, b):
 @kernel
 def lines(p):
     """Place in the set's own state of its lines, `line_size` numbers each (fidelity response)."""
-    return alone(p, count(p))
+    return alone(p, bearing_count(p))
 
 
 @kernel
@@ -192,7 +192,7 @@ def line_size(p):
 @kernel
 def z_mics(p):
     """Place in ``z`` of the microphones, as of a single bearing; behind them the bearings' own levels."""
-    return int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_FORCES + SP.Z_FORCE * count(p)
+    return int(p[int(p[P.SET]) + SP.AT_Z]) + SP.Z_FORCES + SP.Z_FORCE * bearing_count(p)
 
 
 @kernel
@@ -204,7 +204,7 @@ def scratch(p, b):
 @kernel
 def matrix(p):
     """Place in the set's own work space of the matrix of the shaft's equations, or of the start's."""
-    return SP.W_HEAD + SP.VECTORS * padded_size(p) + count(p) * SP.SCRATCH
+    return SP.W_HEAD + SP.VECTORS * padded_size(p) + bearing_count(p) * SP.SCRATCH
 
 
 @kernel
@@ -265,7 +265,7 @@ def add_columns(m, at, lanes, count, scale, x, first, out, to):
 
 
 @kernel
-def moved(p, b, x, at, out, to):
+def driven_motion(p, b, x, at, out, to):
     """Put ``T x[at:]``, the motion of bearing ``b``'s driven rows with the coordinates, to ``out[to:]``."""
     if not has_shaft(p):
         for i in range(0, SP.LANES, FOUR):
@@ -289,13 +289,13 @@ def moved(p, b, x, at, out, to):
 
 
 @kernel
-def lean(p, b, out, to):
+def add_seat_tilt(p, b, out, to):
     """Tilt the outer ring of bearing ``b``, of driven rows' places ``out[to:]``, with the seat that holds it.
 
     A ring on a pedestal of its own is tilted by that.
     """
     if has_shaft(p):
-        at = row(p, b) + SP.ROW_LEAN
+        at = row(p, b) + SP.ROW_SEAT_TILT
         out[to + Q.OUTER + Q.BY] += p[at]
         out[to + Q.OUTER + Q.BZ] += p[at + 1]
 
@@ -303,13 +303,13 @@ def lean(p, b, out, to):
 @kernel
 def place_rows(p, b, own, x, at, out, to):
     """Put the places of bearing ``b``'s driven rows by the coordinates ``x[at:]`` to ``out[to:]``."""
-    moved(p, b, x, at, out, to)
-    lean(p, b, out, to)
+    driven_motion(p, b, x, at, out, to)
+    add_seat_tilt(p, b, out, to)
     out[to + Q.X] += own[per_bearing(p, b) + SP.OFFSET]
 
 
 @kernel
-def pull(p, b, forces, at, out, to):
+def project_forces(p, b, forces, at, out, to):
     """Add ``T^T forces[at:]``, of bearing ``b``'s driven rows, to the coordinates' forces ``out[to:]``."""
     if not has_shaft(p):
         for i in range(0, SP.LANES, FOUR):

@@ -7,7 +7,7 @@ from fmu_bearing.engine.readout.outputs import LITTLE_LOST, observe_motion
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.port import observe_port
 from fmu_bearing.engine.spindle.shaft import has_housing
-from fmu_bearing.engine.spindle.sound import levels_of_set
+from fmu_bearing.engine.spindle.sound_sum import levels_of_set
 
 
 @kernel
@@ -36,7 +36,7 @@ def observe_bearings(p, s, z):
     z[at + SP.Z_TORQUE] = 0.0
     z[at + SP.Z_MEAN_TORQUE] = 0.0
     z[at + SP.Z_WAVE_TIME] = 1.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         zb = members.outputs(p, z, b)
         sign = p[members.row(p, b) + SP.ROW_SIGN]
         pb = members.parameters(p, b)
@@ -99,7 +99,7 @@ def observe_set(p, s, z):
     z[at + SP.Z_GROWTH] = s[S.GROWTH]
     work = own[SP.WORK]
     lost = own[SP.HEAT] + own[SP.HEAT + 1]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         work += sb[S.WORK]
         lost += sb[S.HEAT] + sb[S.HEAT + 1] + sb[S.HEAT + 2]

@@ -49,7 +49,7 @@ def begin_motion(p, u, own, t):
 
 
 @kernel
-def led_acceleration(own, s, t, out, to):
+def prescribed_acceleration(own, s, t, out, to):
     """Put the shaft's acceleration ``t`` (s) after the state to ``out[to:]``."""
     since = s[S.TIME] - own[SP.PORT_BEGIN] + t
     for i in range(SP.PLANE):
@@ -57,7 +57,7 @@ def led_acceleration(own, s, t, out, to):
 
 
 @kernel
-def lead_stage(p, s, w, stage, t):
+def prescribe_stage(p, s, w, stage, t):
     """Put the shaft and the inner rings to the port's motion at a stage, ``t`` (s) into the step."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
@@ -65,25 +65,25 @@ def lead_stage(p, s, w, stage, t):
     here = members.vector(p, stage)
     place = members.vector(p, SP.PLACE)
     rate = members.vector(p, SP.RATE)
-    led_acceleration(own, s, t, ws, here)
+    prescribed_acceleration(own, s, t, ws, here)
     for i in range(SP.PLANE):
         start = own[SP.PORT_ACCELERATION + i]
         jerk = own[SP.PORT_JERK + i]
         begin = own[SP.PORT_RATE + i]
         ws[rate + i] = begin + since * (start + 0.5 * since * jerk)
         ws[place + i] = own[SP.PORT_PLACE + i] + since * (begin + since * (0.5 * start + since * jerk / 6.0))
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         at = members.scratch(p, b)
         bearing_at = members.per_bearing(p, b)
         acc = W.ACC + stage * F.SIZE + F.BODY
-        members.moved(p, b, ws, here, ws, at)
+        members.driven_motion(p, b, ws, here, ws, at)
         for i in range(SP.PLANE):
             wb[acc + i] = ws[at + i]
-        members.moved(p, b, ws, rate, ws, at)
+        members.driven_motion(p, b, ws, rate, ws, at)
         for i in range(SP.PLANE):
             wb[W.STAGE + Y.V0 + i] = ws[at + i]
-        members.moved(p, b, ws, place, ws, at)
+        members.driven_motion(p, b, ws, place, ws, at)
         for i in range(SP.PLANE):
             wb[W.STAGE + Y.Q0 + i] = ws[at + i]
         grown = own[bearing_at + SP.OFFSET_RATE]
@@ -92,7 +92,7 @@ def lead_stage(p, s, w, stage, t):
 
 
 @kernel
-def hold_rows(x, at, given, count, width):
+def fix_rows(x, at, given, count, width):
     """Take the first ``given`` unknowns out of ``count`` equations at ``x[at:]``, rows of ``width``."""
     for i in range(given):
         for k in range(count):
@@ -102,7 +102,7 @@ def hold_rows(x, at, given, count, width):
 
 
 @kernel
-def feel(p, b, pb, y, acc, ws, at, to):
+def add_bearing_force(p, b, pb, y, acc, ws, at, to):
     """Add the force of bearing ``b`` on the rotor to ``ws[to:]``; returns the rotor's power (W).
 
     ``ws[at:]``: `free_forces` of its rings (N, N m), overwritten; ``y``, ``acc``: its state (`layout.y`) and
@@ -117,7 +117,7 @@ def feel(p, b, pb, y, acc, ws, at, to):
         ws[at + i] = 0.0
     if weighs(p):
         ws[at + Q.Z] += GRAVITY * pb[P.INNER_MASS]
-    members.pull(p, b, ws, at, ws, to)
+    members.project_forces(p, b, ws, at, ws, to)
     return power
 
 
@@ -129,11 +129,11 @@ def clear(x, at, count):
 
 
 @kernel
-def keep_push(p, ws, stage):
+def store_rotor_force(p, ws, stage):
     """Store the force on the rotor, at ``SP.FORCE``, as the stage's."""
     force = members.vector(p, SP.FORCE)
     for i in range(SP.PLANE):
-        ws[SP.PUSH + stage * SP.PLANE + i] = ws[force + i]
+        ws[SP.ROTOR_FORCE + stage * SP.PLANE + i] = ws[force + i]
 
 
 @kernel

@@ -17,11 +17,11 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W, Y
 from fmu_bearing.engine.layout.sizes import FOUR
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.coupling import feet_matrix
-from fmu_bearing.engine.spindle.port import clear, has_port, hold_rows
+from fmu_bearing.engine.spindle.coupling import pedestal_matrix
+from fmu_bearing.engine.spindle.port import clear, fix_rows, has_port
 from fmu_bearing.engine.spindle.shaft import has_housing, shaft_forces, weighs
 from fmu_bearing.engine.statics.axial import quasistatic
-from fmu_bearing.engine.statics.place import sunk
+from fmu_bearing.engine.statics.place import pedestal_deflection
 from fmu_bearing.engine.statics.quasistatic import held, outer_moment
 from fmu_bearing.engine.status import NO_START, OK
 
@@ -76,7 +76,7 @@ def free_rows(p, b):
 def unknowns(p):
     """Return how many unknowns the start has."""
     total = shared_unknowns(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         total += free_rows(p, b)
     return total
 
@@ -108,17 +108,17 @@ def outer_row(i):
 def put_rings(p, b, ws, own, z):
     """Put the places of the rings of bearing ``b`` for the unknowns ``ws[z:]`` into its scratch."""
     at = members.scratch(p, b)
-    members.place_rows(p, b, own, ws, z, ws, at + SP.START_PULL)
+    members.place_rows(p, b, own, ws, z, ws, at + SP.START_LOAD)
     for i in range(SP.HOUSING):
         ws[at + SP.START_OUTER + i] = 0.0
     for i in range(driven_rows(p, b)):
         if i >= Q.OUTER:
-            ws[at + SP.START_OUTER + i - Q.OUTER] = ws[at + SP.START_PULL + i]
+            ws[at + SP.START_OUTER + i - Q.OUTER] = ws[at + SP.START_LOAD + i]
     mine = z + first_unknown(p, b)
     for i in range(free_rows(p, b)):
         ws[at + SP.START_OUTER + outer_row(i)] = ws[mine + i]
     for i in range(SP.PLANE):
-        place = ws[at + SP.START_PULL + i]
+        place = ws[at + SP.START_LOAD + i]
         ws[at + SP.START_RING + i] = place - ws[at + SP.START_OUTER + outer_row(i)]
     for i in range(2):
         ws[at + SP.START_TILT + i] = ws[at + SP.START_OUTER + Q.BY + i]
@@ -200,8 +200,8 @@ def show_ring_forces(p, b, speed, force, s, w, out, to):
         c = members.state(p, s, b)[S.C : S.C + C.SIZE]
         at = members.scratch(p, b)
         tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
-        found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-        my, mz = outer_moment(pb, c, speed, tilt, found, wb[W.STATICS : W.STATICS + ST.SIZE])
+        eq = wb[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
+        my, mz = outer_moment(pb, c, speed, tilt, eq, wb[W.STATICS : W.STATICS + ST.SIZE])
         out[to + Q.OUTER + Q.BY] = my
         out[to + Q.OUTER + Q.BZ] = mz
 
@@ -221,9 +221,9 @@ def settle_bearing(p, s, w, b, speed, share, z, g):
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
     force = ws[at + SP.START_FORCE : at + SP.START_FORCE + SP.PLANE]
-    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
-    status = held(members.parameters(p, b), c, speed, ring, tilt, share, force, found, wb)
-    pull = at + SP.START_PULL
+    eq = wb[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
+    status = held(members.parameters(p, b), c, speed, ring, tilt, share, force, eq, wb)
+    pull = at + SP.START_LOAD
     outer = at + SP.START_OUTER
     show_ring_forces(p, b, speed, force, s, w, ws, pull)
     for i in range(SP.PLANE):
@@ -241,7 +241,7 @@ def settle_bearing(p, s, w, b, speed, share, z, g):
         ws[mine + i] = ws[pull + Q.OUTER + outer_row(i)]
     for k in range(driven_rows(p, b), SP.LANES):
         ws[pull + k] = 0.0
-    members.pull(p, b, ws, pull, ws, g)
+    members.project_forces(p, b, ws, pull, ws, g)
     return status
 
 
@@ -262,7 +262,7 @@ def forces_at(p, s, w, speed, share, z, g):
         ws[g + Q.Y] = s[S.C + C.LOAD_Y]
         ws[g + Q.Z] = s[S.C + C.LOAD_Z]
     status = OK
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         here = settle_bearing(p, s, w, b, speed, share, z, g)
         if here != OK:
             status = here
@@ -298,15 +298,15 @@ def equations(p, s, w, damping):
             ws[at + i * width + k] += upright_stiffness(p, i, k)
     if has_housing(p):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
-        feet_matrix(p, own, SP.FEET, 1.0, ws, at + h * width + h, width, spare)
-    for b in range(members.count(p)):
+        pedestal_matrix(p, own, SP.PEDESTAL_STIFFNESS, 1.0, ws, at + h * width + h, width, spare)
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         c = members.state(p, s, b)[S.C : S.C + C.SIZE]
         for i in range(SP.PLANE):
             ring_motion(p, b, i, ws, spare + i * count)
         for i in range(SP.PLANE):
             for k in range(SP.PLANE):
-                stiffness = wb[W.FOUND + EQ.STIFFNESS + EQ.FREEDOMS * i + k]
+                stiffness = wb[W.EQUILIBRIUM + EQ.STIFFNESS + EQ.FREEDOMS * i + k]
                 for m in range(count):
                     share = stiffness * ws[spare + i * count + m]
                     if share != 0.0:
@@ -316,8 +316,8 @@ def equations(p, s, w, damping):
         for i in range(free_rows(p, b)):
             for k in range(free_rows(p, b)):
                 ws[at + (mine + i) * width + mine + k] += pedestal_stiffness(c, outer_row(i), outer_row(k))
-        stands = on_pedestal(p, b) and driven_rows(p, b) == SP.DRIVEN
-        for entry in range(SP.HOUSING * SP.HOUSING if stands else 0):
+        own_pedestal = on_pedestal(p, b) and driven_rows(p, b) == SP.DRIVEN
+        for entry in range(SP.HOUSING * SP.HOUSING if own_pedestal else 0):
             i = entry // SP.HOUSING
             k = entry % SP.HOUSING
             stiffness = pedestal_stiffness(c, i, k)
@@ -355,7 +355,7 @@ def newton_step(p, s, w, g, step, damping):
     count = unknowns(p)
     equations(p, s, w, damping)
     at = members.matrix(p)
-    hold_rows(ws, at, given_rows(p), count, count + 1)
+    fix_rows(ws, at, given_rows(p), count, count + 1)
     for i in range(count):
         ws[at + i * (count + 1) + count] = ws[g + i]
     if not eliminate(ws, at, count):
@@ -364,7 +364,7 @@ def newton_step(p, s, w, g, step, damping):
         ws[step + i] = ws[at + i * (count + 1) + count]
     longest = 0.0
     spare = start_vector(p, SP.MOTIONS)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lever = members.parameters(p, b)[P.PITCH_RADIUS]
         for i in range(SP.PLANE):
             ring_motion(p, b, i, ws, spare)
@@ -381,7 +381,7 @@ def newton_step(p, s, w, g, step, damping):
 
 
 @kernel
-def give_at_nose(p, s, w, j, to):
+def nose_compliance(p, s, w, j, to):
     """Put to ``ws[to:]``, by rows, how far a unit load on row ``j`` of the nose moves it; False if singular.
 
     Shaft, housing and rings give way, the bearings with the stiffness where they were settled last.
@@ -408,18 +408,18 @@ def give_at_nose(p, s, w, j, to):
 def keep_stiffness(p, s, w):
     """Store the stiffness of the shaft at X = 0 where the bearings were settled last; zeros if singular.
 
-    Axial and radial with its other motions held, against a tilt with the shaft free to move aside.
+    Axial and radial with its other motions fixed, against a tilt with the shaft free to move aside.
     """
     if not members.has_shaft(p):
         return
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    give = SP.RESISTANCE
+    give = SP.NOSE_COMPLIANCE
     stiff = give + SP.PLANE * SP.PLANE
     for i in range(3):
         own[SP.SHAFT_STIFFNESS + i] = 0.0
     for j in range(SP.PLANE):
-        if not give_at_nose(p, s, w, j, give):
+        if not nose_compliance(p, s, w, j, give):
             return
     if not invert(ws, give, SP.PLANE, ws, stiff):
         return
@@ -444,10 +444,10 @@ def begin_rest(p, s, w, speed):
             ws[z + i] = members.set_state(p, s)[SP.S_HEAD + i]
         return
     c = s[S.C : S.C + C.SIZE]
-    axial = w[W.STILL_FOUND : W.STILL_END]
+    axial = w[W.STILL_EQUILIBRIUM : W.STILL_END]
     quasistatic(p, c, speed, axial)
     own_weight, lying = weights(p, p)
-    aside, down = sunk(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
+    aside, down = pedestal_deflection(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
     for place in (z, z + SP.PLANE):
         ws[place + Q.X] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
         ws[place + Q.Y] = aside
@@ -488,7 +488,7 @@ def balance(p, s, w, speed, share):
     step = start_vector(p, SP.STEPS)
     status = forces_at(p, s, w, speed, share, z, g)
     total = 100.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         total += abs(ws[members.scratch(p, b) + SP.START_FORCE])
     damping = _FLOOR
     for _ in range(_ITERATIONS):

@@ -21,11 +21,11 @@ def weighs(p):
 
 
 @kernel
-def feet(p, stiffness, at, x, first, scale, out, to):
+def pedestal_force(p, stiffness, at, x, first, scale, out, to):
     """Add to ``out[to:]`` the pedestal's matrix times ``scale`` and the housing's motion ``x[first:]``.
 
-    Six numbers each. ``stiffness[at:]``: ``SP.FOOT`` numbers, stiffness or damping along x y z, about x y z,
-    between y and z, in the pedestal's plane; motion and forces at X = 0.
+    Six numbers each. ``stiffness[at:]``: ``SP.PEDESTAL_TERMS`` numbers, stiffness or damping along x y z,
+    about x y z, between y and z, in the pedestal's plane; motion and forces at X = 0.
     """
     lever = p[int(p[P.SET]) + SP.HOUSING_X]
     y = x[first + Q.Y] + lever * x[first + Q.BZ]
@@ -75,7 +75,7 @@ def unbalance(p, i):
 
 
 @kernel
-def push(p, angle, speed, rate, out, to):
+def unbalance_force(p, angle, speed, rate, out, to):
     """Add the force of the unbalance to ``out[to:]``; ``rate``: of the speed (rad/s2)."""
     if p[int(p[P.SET]) + SP.UNBALANCED] == 0.0:
         return
@@ -90,12 +90,12 @@ def push(p, angle, speed, rate, out, to):
 
 
 @kernel
-def hold_load(p, own):
+def static_load(p, own):
     """Turn loads on the nose and of springs into forces on the coordinates."""
     lanes = members.padded_size(p)
     nose = members.table(p, SP.AT_NOSE)
     springs = members.table(p, SP.AT_SPRINGS)
-    to = SP.S_HEAD + SP.HELD_LOAD * lanes
+    to = SP.S_HEAD + SP.STATIC_LOAD * lanes
     for k in range(lanes):
         own[to + k] = -own[SP.SPRING] * p[springs + k]
         for i in range(SP.PLANE):
@@ -115,10 +115,10 @@ def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
         for i in range(lanes):
             out[to + i] = 0.0
         return 0.0, 0.0, 0.0
-    held = SP.S_HEAD + SP.HELD_LOAD * lanes
+    static = SP.S_HEAD + SP.STATIC_LOAD * lanes
     for i in range(lanes):
-        out[to + i] = own[held + i]
-    push(p, angle, speed, rate, out, to)
+        out[to + i] = own[static + i]
+    unbalance_force(p, angle, speed, rate, out, to)
     power = along(out, to, x, v, n)
     if weighs(p):
         heavy = members.table(p, SP.AT_HEAVY)
@@ -134,9 +134,9 @@ def shaft_forces(p, own, x, q, v, angle, speed, rate, out, to):
     shaken = 0.0
     if has_housing(p):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
-        feet(p, own, SP.FEET, x, q + h, -1.0, out, to + h)
+        pedestal_force(p, own, SP.PEDESTAL_STIFFNESS, x, q + h, -1.0, out, to + h)
         before = along(out, to + h, x, v + h, SP.HOUSING)
-        feet(p, own, SP.FEET_DAMPING, x, v + h, -1.0, out, to + h)
+        pedestal_force(p, own, SP.PEDESTAL_DAMPING, x, v + h, -1.0, out, to + h)
         shaken = before - along(out, to + h, x, v + h, SP.HOUSING)
     return power, bent, shaken
 
@@ -156,6 +156,6 @@ def shaft_energy(p, own, x, q, v, w, at):
         h = int(p[int(p[P.SET]) + SP.SHAFT])
         for i in range(SP.HOUSING):
             w[at + i] = 0.0
-        feet(p, own, SP.FEET, x, q + h, 1.0, w, at)
+        pedestal_force(p, own, SP.PEDESTAL_STIFFNESS, x, q + h, 1.0, w, at)
         total += 0.5 * along(w, at, x, q + h, SP.HOUSING)
     return total

@@ -13,7 +13,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import sum_lanes
 from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, F, P, Q, S, W, Y
-from fmu_bearing.engine.mechanics.bodies import lands
+from fmu_bearing.engine.mechanics.bodies import land_forces
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.rest import put_rings_in_state, rest, show_ring_forces
@@ -21,7 +21,7 @@ from fmu_bearing.engine.spindle.shaft import weighs
 from fmu_bearing.engine.statics.place import place_balls, place_cage, upright_point
 from fmu_bearing.engine.statics.quasistatic import held
 from fmu_bearing.engine.status import OK
-from fmu_bearing.engine.steady.even import BOTH, make_even, settle_evenly
+from fmu_bearing.engine.steady.even import BOTH, equalise_balls, settle_evenly
 from fmu_bearing.engine.steady.point import REST, settle_at_rest
 
 _ROUNDS = 8
@@ -29,7 +29,7 @@ _CLOSE = 1e-6  # of the load
 
 
 @kernel
-def place_held(p, b, speed, y, s, w):
+def place_at_rest(p, b, speed, y, s, w):
     """Quasi-static state ``y`` of the perfect bearing ``b``, its rings where they rested last.
 
     Forces of its balls on the inner ring are left in ``W.LOAD``.
@@ -39,20 +39,20 @@ def place_held(p, b, speed, y, s, w):
     ws = members.set_work(p, w)
     c = members.state(p, s, b)[S.C : S.C + C.SIZE]
     at = members.scratch(p, b)
-    found = wb[W.FOUND : W.FOUND + EQ.SIZE]
+    eq = wb[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
     force = wb[W.LOAD : W.LOAD + EQ.FREEDOMS]
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
-    held(pb, c, speed, ring, tilt, 0.0, force, found, wb)
+    held(pb, c, speed, ring, tilt, 0.0, force, eq, wb)
     for i in range(Y.SIZE):
         y[i] = 0.0
     put_rings_in_state(p, b, y, ws)
     for i in (Q.Y, Q.Z):
         y[Y.Q0 + i] -= y[Y.Q0 + Q.OUTER + i]
         y[Y.Q0 + Q.OUTER + i] = 0.0
-    place_balls(pb, y, found)
+    place_balls(pb, y, eq)
     if pb[P.CAGE] != 0.0:
-        place_cage(pb, y, found)
+        place_cage(pb, y, eq)
 
 
 @kernel
@@ -72,7 +72,7 @@ def axial_excess(p, b, speed, s, w):
     if speed == 0.0 or upright_point(pb, c, speed, shift, outer, y, wb) != OK or wb[W.LOAD + Q.X] == 0.0:
         return 0.0
     before = wb[W.LOAD + Q.X]
-    make_even(pb, c, y, speed)
+    equalise_balls(pb, c, y, speed)
     if not settle_evenly(pb, c, y, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]):
         return 0.0
     right_hand_side(pb, c, y, 0.0, speed, 0.0, wb, wb[W.F : W.F + F.SIZE])
@@ -92,7 +92,7 @@ def show_steady_forces(p, b, y, speed, s, w, out, to):
     if pb[P.CAGE] != 0.0 and pb[P.LAND] != 0.0:
         for i in range(F.SIZE):
             f[i] = 0.0
-        lands(pb, c, y, speed, f, wb)
+        land_forces(pb, c, y, speed, f, wb)
         for i in range(Q.OUTER):
             out[to + i] += f[F.BODY + i]
     if weighs(p):
@@ -108,10 +108,10 @@ def find_excess(p, b, speed, across, s, w):
     wb = members.work(p, w, b)
     ws = members.set_work(p, w)
     c = sb[S.C : S.C + C.SIZE]
-    to = members.scratch(p, b) + SP.START_PULL
+    to = members.scratch(p, b) + SP.START_LOAD
     if across and speed != 0.0:
         first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-        place_held(p, b, speed, first, s, w)
+        place_at_rest(p, b, speed, first, s, w)
         before = members.scratch(p, b) + SP.START_BEFORE
         show_ring_forces(p, b, speed, wb[W.LOAD : W.LOAD + EQ.FREEDOMS], s, w, ws, before)
         if settle_at_rest(pb, c, first, speed, BOTH, wb, sb[S.JAC : S.CONDENSED]) == REST:
@@ -148,9 +148,9 @@ def add_excess(p, b, speed, across, s, w):
     for i in range(Q.RINGS):
         is_force = i < Q.TURN or Q.OUTER <= i < Q.OUTER + Q.TURN
         lever = 1.0 if is_force else members.parameters(p, b)[P.PITCH_RADIUS]
-        if abs(ws[at + SP.START_PULL + i] - ws[at + SP.START_MORE + i]) > _CLOSE * load * lever:
+        if abs(ws[at + SP.START_LOAD + i] - ws[at + SP.START_MORE + i]) > _CLOSE * load * lever:
             moved = True
-        ws[at + SP.START_MORE + i] = ws[at + SP.START_PULL + i]
+        ws[at + SP.START_MORE + i] = ws[at + SP.START_LOAD + i]
     return moved
 
 
@@ -166,14 +166,14 @@ def rest_steadily(p, s, w, speed, across):
         if status != OK:
             break
         far = False
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             if add_excess(p, b, speed, across, s, w):
                 far = True
         # also where nothing moves any more: the search has left the bearings elsewhere
         status = rest(p, s, w, speed, 0.0)
         if not far:
             break
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         keep_rest(p, b, s, w)
     return status
 
@@ -183,7 +183,7 @@ def show_excess(p, s, w, known):
     """Put to ``START_MORE`` by how much steady forces exceed quasi-static ones, if ``known``, or zeros."""
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         at = members.scratch(p, b) + SP.START_MORE
         for i in range(SP.LANES):
             ws[at + i] = 0.0
@@ -200,7 +200,7 @@ def keep_rest(p, b, s, w):
     bearing_at = members.per_bearing(p, b)
     at = members.scratch(p, b)
     own[bearing_at + SP.EXCESS] = ws[at + SP.START_MORE + Q.X]
-    for i in range(SP.START_PULL - SP.START_RING):
+    for i in range(SP.START_LOAD - SP.START_RING):
         own[bearing_at + SP.RESTED + i] = ws[at + SP.START_RING + i]
 
 
@@ -212,7 +212,7 @@ def show_rest(p, b, s, w):
     bearing_at = members.per_bearing(p, b)
     at = members.scratch(p, b)
     ws[at + SP.START_MORE + Q.X] = own[bearing_at + SP.EXCESS]
-    for i in range(SP.START_PULL - SP.START_RING):
+    for i in range(SP.START_LOAD - SP.START_RING):
         ws[at + SP.START_RING + i] = own[bearing_at + SP.RESTED + i]
 
 
@@ -221,7 +221,7 @@ def rest_as_known(p, s, w, speed):
     """As `rest_steadily` along the axis, with the excess of the steady forces as it is known; status code."""
     show_excess(p, s, w, True)
     status = rest(p, s, w, speed, 0.0)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         keep_rest(p, b, s, w)
     return status
 

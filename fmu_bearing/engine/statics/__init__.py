@@ -3,7 +3,7 @@
 =================  ==========================================================================
 ``ball_balance``   one ball: contacts, rolling, gyroscopic friction, place
 ``stiffness``      contacts in series, stiffness matrix of the bearing
-``quasistatic``    forces and stiffness of a bearing whose rings are held, after Jones and Harris
+``quasistatic``    forces and stiffness at a prescribed displacement of the rings, after Jones and Harris
 ``axial``          equilibrium under axial load alone: one unknown
 ``place``          from quasi-static balls to the state: balls, cage, a bearing that is shifted
 ``rigid_preload``  the inner ring's place under a preload, how it moves to another

@@ -1,6 +1,6 @@
 """One ball between two displaced rings: contacts, rolling, gyroscopic friction, and its place.
 
-The ball may move along x and radially; its angle round the bearing is held. Vectors are given in the ball's
+The ball may move along x and radially; its angle round the bearing is fixed. Vectors are given in the ball's
 axes (x, r, theta), the outer ring's centre at the origin.
 """
 
@@ -11,7 +11,7 @@ from fmu_bearing.engine.choices import INNER_CONTROL, OUTER_CONTROL, SHARED_CONT
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q
 from fmu_bearing.engine.mechanics.contact import approach_under, contact_axes, hertz, in_plane
-from fmu_bearing.engine.mechanics.pose import axis_cosine, off_axis
+from fmu_bearing.engine.mechanics.pose import axis_cosine, axis_distance
 
 _ITERATIONS = 60
 _BACKTRACKS = 8
@@ -40,7 +40,7 @@ class Pose(NamedTuple):
     deeper_outer: float
 
 
-class Seat(NamedTuple):
+class RaceContact(NamedTuple):
     """Load (N) and geometry of the contact with one race.
 
     ``stiffness``: normal (N/m); ``across``: that of the load's turning, across the track (N/m); ``rho``: of
@@ -64,9 +64,9 @@ class Seat(NamedTuple):
 class Ball(NamedTuple):
     """Forces on a ball at one place and all that follows from the place.
 
-    Net force (N) and its in-plane stiffness (N/m); loads (N) and the unit vectors ``e`` of `Seat`; sines and
-    cosines of the contact angles; orbit speed and spin (rad/s); friction (N) that carries the gyroscopic
-    moment.
+    Net force (N) and its in-plane stiffness (N/m); loads (N) and the unit vectors ``e`` of `RaceContact`;
+    sines and cosines of the contact angles; orbit speed and spin (rad/s); friction (N) that carries the
+    gyroscopic moment.
     """
 
     fx: float
@@ -112,34 +112,36 @@ def pose_at(c, s, ring, offset, deeper_inner, deeper_outer):
 
 
 @kernel
-def seat(p, c, race, deeper, qx, qr, qt, nx, nr, nt):
-    """`Seat` of a ball in one race, exact for a torus and a sphere.
+def race_contact(p, c, race, deeper, qx, qr, qt, nx, nr, nt):
+    """`RaceContact` of a ball in one race, exact for a torus and a sphere.
 
     ``q``: ball's centre from the ring's (m), ``n``: ring's axis, ``deeper``: see `Pose` (m).
     """
-    held = C.RACES + race * C.RACE_SIZE
+    raceway = C.RACES + race * C.RACE_SIZE
     axial = qx * nx + qr * nr + qt * nt
-    rho, hx, hr, ht = off_axis(axial, qx, qr, qt, nx, nr, nt)
-    sx, sr = axial - c[held + C.GROOVE_X], rho - c[held + C.GROOVE_RADIUS]
+    rho, hx, hr, ht = axis_distance(axial, qx, qr, qt, nx, nr, nt)
+    sx, sr = axial - c[raceway + C.GROOVE_X], rho - c[raceway + C.GROOVE_RADIUS]
     distance, per, _, cosine, e, m = contact_axes(sx, sr, (nx, nr, nt), (hx, hr, ht))
     stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
-    load, slope, _ = hertz(stiffness, distance - c[held + C.FREE] + deeper)
-    return Seat(load, slope, load * per, rho, e[0], e[1], e[2], m[0], m[1], m[2], cosine)
+    load, slope, _ = hertz(stiffness, distance - c[raceway + C.FREE] + deeper)
+    return RaceContact(load, slope, load * per, rho, e[0], e[1], e[2], m[0], m[1], m[2], cosine)
 
 
 @kernel
-def inner_seat(p, c, pose, x, radius):
-    """`Seat` in the inner race of a ball at ``x`` and ``radius`` from the outer ring's centre (m)."""
-    return seat(
+def inner_contact(p, c, pose, x, radius):
+    """`RaceContact` in the inner race of a ball at ``x`` and ``radius`` from the outer ring's centre (m)."""
+    return race_contact(
         p, c, 0, pose.deeper_inner, x - pose.x, radius - pose.r, -pose.t,
         pose.inner_nx, pose.inner_nr, pose.inner_nt,
     )  # fmt: skip
 
 
 @kernel
-def outer_seat(p, c, pose, x, radius):
-    """`Seat` of the same ball in the outer race."""
-    return seat(p, c, 1, pose.deeper_outer, x, radius, 0.0, pose.outer_nx, pose.outer_nr, pose.outer_nt)
+def outer_contact(p, c, pose, x, radius):
+    """`RaceContact` of the same ball in the outer race."""
+    return race_contact(
+        p, c, 1, pose.deeper_outer, x, radius, 0.0, pose.outer_nx, pose.outer_nr, pose.outer_nt
+    )
 
 
 @kernel
@@ -196,8 +198,8 @@ def friction(p, c, orbit, spin, load_inner, load_outer):
 def ball_state(p, c, speed, pose, x, r):
     """`Ball` at (x, r) (m) between the rings at ``pose``; ``speed`` of the inner one (rad/s)."""
     radius = p[P.PITCH_RADIUS] + r
-    inner = inner_seat(p, c, pose, x, radius)
-    outer = outer_seat(p, c, pose, x, radius)
+    inner = inner_contact(p, c, pose, x, radius)
+    outer = outer_contact(p, c, pose, x, radius)
     qi = inner.load
     qo = outer.load
     plane_i = -1.0 / math.sqrt(inner.ex * inner.ex + inner.er * inner.er)
@@ -222,13 +224,13 @@ def ball_state(p, c, speed, pose, x, r):
 @kernel
 def thrown_out(p, c, pose, orbit):
     """Place (x, r) where a ball that only the outer race holds is balanced by the centrifugal force."""
-    held = C.RACES + C.RACE_SIZE
-    groove_x = c[held + C.GROOVE_X]
-    groove_radius = c[held + C.GROOVE_RADIUS]
+    raceway = C.RACES + C.RACE_SIZE
+    groove_x = c[raceway + C.GROOVE_X]
+    groove_radius = c[raceway + C.GROOVE_RADIUS]
     pitch = p[P.PITCH_RADIUS]
     force = p[P.BALL_MASS] * pitch * orbit * orbit
     approach = approach_under(p[P.RACES + P.RACE_SIZE + P.RACE_STIFFNESS], force)
-    radius = groove_radius + c[held + C.FREE] - pose.deeper_outer + approach
+    radius = groove_radius + c[raceway + C.FREE] - pose.deeper_outer + approach
     # a tilted ring's groove circle lies beside the circle of the upright one
     return groove_x - groove_radius * pose.outer_nr, radius - pitch + groove_x * pose.outer_nr
 

@@ -12,7 +12,7 @@ _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, se
 
 
 @kernel
-def sunk(c, load_y, load_z):
+def pedestal_deflection(c, load_y, load_z):
     """Return where a pedestal lets loads (N) push the outer ring: y, z (m)."""
     share = c[C.PEDESTAL_YZ] / c[C.PEDESTAL_Z]
     aside = (load_y - share * load_z) / (c[C.PEDESTAL_Y] - share * c[C.PEDESTAL_YZ])
@@ -26,13 +26,13 @@ def too_far(p, y, z):
 
 
 @kernel
-def around(p, found, row, j):
+def slope_round_bearing(p, eq, row, j):
     """Change of a ball quantity with the angle round the bearing (1/rad) between the neighbours of ``j``."""
     balls = int(p[P.BALLS])
-    ahead = found[row + (j + 1) % balls]
-    behind = found[row + (j + balls - 1) % balls]
-    ahead2 = found[row + (j + 2) % balls]
-    behind2 = found[row + (j + balls - 2) % balls]
+    ahead = eq[row + (j + 1) % balls]
+    behind = eq[row + (j + balls - 1) % balls]
+    ahead2 = eq[row + (j + 2) % balls]
+    behind2 = eq[row + (j + balls - 2) % balls]
     # fourth order: the first harmonic, that of a radial load or tilt, comes out within 0.3 % for 12 balls
     return (8.0 * (ahead - behind) - (ahead2 - behind2)) * balls / (24.0 * PI)
 
@@ -74,7 +74,7 @@ def shift_bearing(p, y, along_y, along_z):
 
 
 @kernel
-def place_balls(p, y, found):
+def place_balls(p, y, eq):
     """Balls about the displaced outer ring, each in its own equilibrium; spare lanes copy the first.
 
     The first ball is at 12 o'clock. Under radial load or tilt a ball moves along and outwards as it orbits.
@@ -82,21 +82,21 @@ def place_balls(p, y, found):
     balls = p[P.BALLS]
     for j in range(int(p[P.LANES])):
         place = j if j < balls else 0
-        orbit = found[EQ.OM + place]
-        y[Y.X + j] = found[EQ.X + place] + y[Y.Q0 + Q.OUTER]
-        y[Y.R + j] = found[EQ.R + place]
+        orbit = eq[EQ.OM + place]
+        y[Y.X + j] = eq[EQ.X + place] + y[Y.Q0 + Q.OUTER]
+        y[Y.R + j] = eq[EQ.R + place]
         y[Y.TH + j] = 2.0 * PI * place / balls
-        y[Y.VX + j] = orbit * around(p, found, EQ.X, place)
-        y[Y.VR + j] = orbit * around(p, found, EQ.R, place)
+        y[Y.VX + j] = orbit * slope_round_bearing(p, eq, EQ.X, place)
+        y[Y.VR + j] = orbit * slope_round_bearing(p, eq, EQ.R, place)
         y[Y.OM + j] = orbit
-        y[Y.WX + j] = found[EQ.WX + place]
-        y[Y.WR + j] = found[EQ.WR + place]
+        y[Y.WX + j] = eq[EQ.WX + place]
+        y[Y.WR + j] = eq[EQ.WR + place]
         y[Y.WT + j] = 0.0
     shift_balls(p, y, y[Y.Q0 + Q.OUTER + Q.Y], y[Y.Q0 + Q.OUTER + Q.Z])
 
 
 @kernel
-def place_cage(p, y, found):
+def place_cage(p, y, eq):
     """Cage about the inner ring, in the plane of the balls and with their mean orbit speed."""
     balls = p[P.BALLS]
     k = Y.Q0 + Q.CAGE
@@ -105,11 +105,11 @@ def place_cage(p, y, found):
     y[k + Q.Z] = y[Y.Q0 + Q.Z]
     for j in range(int(balls)):
         angle = 2.0 * PI * j / balls
-        x = found[EQ.X + j] / balls
+        x = eq[EQ.X + j] / balls
         y[k] += x
         y[k + Q.BY] += 2.0 * x * math.cos(angle) / p[P.PITCH_RADIUS]
         y[k + Q.BZ] += 2.0 * x * math.sin(angle) / p[P.PITCH_RADIUS]
-        y[Y.V0 + Q.CAGE + Q.TURN] += found[EQ.OM + j] / balls
+        y[Y.V0 + Q.CAGE + Q.TURN] += eq[EQ.OM + j] / balls
 
 
 @kernel
@@ -125,15 +125,15 @@ def upright_point(p, c, speed, shift, outer, y, w):
         ring[i] = shift if i == Q.X else 0.0
     for i in range(2):
         tilt[i] = 0.0
-    found = w[W.FOUND : W.FOUND + EQ.SIZE]
-    status = held(p, c, speed, ring, tilt, 0.0, w[W.LOAD : W.LOAD + EQ.FREEDOMS], found, w)
+    eq = w[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
+    status = held(p, c, speed, ring, tilt, 0.0, w[W.LOAD : W.LOAD + EQ.FREEDOMS], eq, w)
     if status != OK:
         return status
     for i in range(Y.SIZE):
         y[i] = 0.0
     y[Y.Q0 + Q.OUTER] = outer
     y[Y.Q0] = outer + shift
-    place_balls(p, y, found)
+    place_balls(p, y, eq)
     if p[P.CAGE] != 0.0:
-        place_cage(p, y, found)
+        place_cage(p, y, eq)
     return OK

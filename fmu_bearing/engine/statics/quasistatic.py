@@ -34,7 +34,7 @@ from fmu_bearing.engine.status import NO_START, OK
 
 
 @kernel
-def deeper(p, c, race, j, angle):
+def imperfection_approach(p, c, race, j, angle):
     """How much oversize of ball ``j`` and waviness of a race at ``angle`` (rad) deepen the approach (m).
 
     Both rings' own angles are zero.
@@ -69,7 +69,7 @@ def place_first(p, c, shift, offset, share, v):
         v[ST.COS + j] = cj
         v[ST.SIN + j] = sj
         for race in range(2):
-            v[ST.DEEPER + race * STRIDE + j] = share * deeper(p, c, race, j, angle)
+            v[ST.DEEPER + race * STRIDE + j] = share * imperfection_approach(p, c, race, j, angle)
         v[ST.X + j] = x + radius * lean
         v[ST.R + j] = radius - x * lean - p[P.PITCH_RADIUS]
 
@@ -148,7 +148,7 @@ def outer_moment(p, c, speed, offset, found, v):
 
 
 @kernel
-def report(p, c, speed, offset, v, out):
+def write_equilibrium(p, c, speed, offset, v, out):
     """Write each ball's place, motion, loads and contact angles into ``out``."""
     ring = out[EQ.SHIFT : EQ.SHIFT + EQ.FREEDOMS]
     for j in range(int(p[P.BALLS])):
@@ -186,5 +186,5 @@ def held(p, c, speed, ring, tilt, share, force, out, w):
         out[EQ.SHIFT + i] = ring[i]
         total += abs(force[i]) / (1.0 if i < Q.INNER_BY else p[P.PITCH_RADIUS])
     out[EQ.RESIDUAL] = worst
-    report(p, c, speed, tilt, v, out)
+    write_equilibrium(p, c, speed, tilt, v, out)
     return OK if worst <= TOUCHING + 1e-6 * total else NO_START

@@ -9,16 +9,16 @@ constant speed over one communication step. Offsets of a set's bearings are such
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import ST, C, S, U, W, Y
-from fmu_bearing.engine.mechanics.conditions import conditions, unmount
+from fmu_bearing.engine.mechanics.conditions import conditions, take_fit_growth_out
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.status import OK
 
 
 @kernel
-def place_under(p, c, speed, found):
+def place_under(p, c, speed, eq):
     """Axial place (m) of the inner ring under the preload in ``c``, pedestal included; second: status."""
-    status = quasistatic(p, c, speed, found)
-    place = found[ST.AXIAL_SHIFT]
+    status = quasistatic(p, c, speed, eq)
+    place = eq[ST.AXIAL_SHIFT]
     if c[C.PEDESTAL_AXIAL] != 0.0:  # a seat in the housing gives no way
         place += c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
     return place, status
@@ -31,17 +31,17 @@ def cold_place(p, u, load, w):
     ``u``: inputs of this bearing, for what does not depend on either.
     """
     still = w[W.STILL_INPUTS : W.STILL_CONDITIONS]
-    c = w[W.STILL_CONDITIONS : W.STILL_FOUND]
-    found = w[W.STILL_FOUND : W.STILL_END]
+    c = w[W.STILL_CONDITIONS : W.STILL_EQUILIBRIUM]
+    eq = w[W.STILL_EQUILIBRIUM : W.STILL_END]
     for i in range(U.SIZE):
         still[i] = u[i]
     still[U.SPEED] = 0.0
     for i in range(U.SHAFT_T, U.SIZE):
         still[i] = REFERENCE_TEMPERATURE
     conditions(p, still, 0.0, c)
-    unmount(p, c)
+    take_fit_growth_out(p, c)
     c[C.PRELOAD] = load
-    return place_under(p, c, 0.0, found)
+    return place_under(p, c, 0.0, eq)
 
 
 @kernel

@@ -6,7 +6,7 @@ The ball is massless and free in its axial plane; centrifugal and friction force
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, ST, P
 from fmu_bearing.engine.mechanics.contact import hertz, in_plane
-from fmu_bearing.engine.statics.ball_balance import inner_seat, outer_seat
+from fmu_bearing.engine.statics.ball_balance import inner_contact, outer_contact
 
 
 @kernel
@@ -82,14 +82,14 @@ def ball_share(p, c, pose, x, r, a):
     qx = x - pose.x
     qr = radius - pose.r
     qt = -pose.t
-    inner = inner_seat(p, c, pose, x, radius)
+    inner = inner_contact(p, c, pose, x, radius)
     if inner.load <= 0.0:
         return
     fx = -inner.load * inner.ex
     fr = -inner.load * inner.er
     ft = -inner.load * inner.et
     xx, xr, xt, rr, rt, tt = contact_tensor(inner)
-    oxx, oxr, _, orr, _, _ = contact_tensor(outer_seat(p, c, pose, x, radius))
+    oxx, oxr, _, orr, _, _ = contact_tensor(outer_contact(p, c, pose, x, radius))
     sxx = xx + oxx + 1e-3
     sxr = xr + oxr
     srr = rr + orr + 1e-3

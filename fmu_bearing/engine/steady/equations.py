@@ -49,16 +49,16 @@ def body_weight(p, i):
 
 
 @kernel
-def is_fixed(p, i, held):
+def is_fixed(p, i, fixed):
     """Whether nothing moves the bodies' coordinate ``i``.
 
-    ``held``: see `even.is_held`. The angle of the cage is where the pattern counts from.
+    ``fixed``: see `even.is_constrained`. The angle of the cage is where the pattern counts from.
     """
     if i >= Q.CAGE:
         return p[P.CAGE] == 0.0
     if i >= Q.OUTER:
-        return held >= OUTER
-    return held >= BOTH or (i == Q.INNER + Q.X and p[P.RIGID] != 0.0)
+        return fixed >= OUTER
+    return fixed >= BOTH or (i == Q.INNER + Q.X and p[P.RIGID] != 0.0)
 
 
 @kernel
@@ -74,7 +74,7 @@ def without_weight(p, w, f):
 
 
 @kernel
-def residual(p, c, y, f, held, ahead, whirls, w):
+def residual(p, c, y, f, fixed, ahead, whirls, w):
     """Put what is out of balance at the state ``y`` with its right-hand side ``f`` to ``PT.RESIDUAL``.
 
     Returns its length (N).
@@ -97,7 +97,7 @@ def residual(p, c, y, f, held, ahead, whirls, w):
     for i in range(Q.SIZE):
         _, turns = partner(i)
         value = f[F.BODY + i] + turns * turns * whirl * whirl * w[unknown + last + i]
-        value *= 0.0 if is_fixed(p, i, held) else body_weight(p, i)
+        value *= 0.0 if is_fixed(p, i, fixed) else body_weight(p, i)
         w[at + last + i] = value
         total += value * value
     w[at + last + PT.ORBIT] = 0.0
@@ -109,10 +109,10 @@ def residual(p, c, y, f, held, ahead, whirls, w):
 
 
 @kernel
-def out_of_balance(p, c, speed, y, held, ahead, whirls, w, f):
+def out_of_balance(p, c, speed, y, fixed, ahead, whirls, w, f):
     """As :func:`residual`, with the right-hand side evaluated into ``f``."""
     right_hand_side(p, c, y, 0.0, speed, 0.0, w, f)
-    return residual(p, c, y, f, held, ahead, whirls, w)
+    return residual(p, c, y, f, fixed, ahead, whirls, w)
 
 
 @kernel
@@ -180,7 +180,7 @@ def ball_rows(p, c, y, ahead, w, jac):
 
 
 @kernel
-def body_rows(p, held, ahead, w, jac):
+def body_rows(p, fixed, ahead, w, jac):
     """Rows of the bodies' equations, and the two behind them."""
     balls = int(p[P.BALLS])
     last = tail(p)
@@ -192,7 +192,7 @@ def body_rows(p, held, ahead, w, jac):
     turn = Q.CAGE + Q.TURN
     for i in range(Q.SIZE):
         row = first + (last + i) * (size + 1)
-        if is_fixed(p, i, held):
+        if is_fixed(p, i, fixed):
             w[row + last + i] = 1.0
             continue
         by_orbit = jac[J.E + i * J.BODIES + Q.SIZE + turn] if p[P.CAGE] != 0.0 else 0.0
@@ -246,12 +246,12 @@ def last_rows(p, whirls, w):
 
 
 @kernel
-def derivatives(p, c, y, held, ahead, whirls, w, jac):
+def derivatives(p, c, y, fixed, ahead, whirls, w, jac):
     """Fill ``PT.MATRIX`` with the derivatives of the balance by the unknowns, from the full Jacobian."""
     size = tail(p) + PT.TAIL
     at = matrix_at(p, PT.MATRIX)
     for i in range(size * (size + 1)):
         w[at + i] = 0.0
     ball_rows(p, c, y, ahead, w, jac)
-    body_rows(p, held, ahead, w, jac)
+    body_rows(p, fixed, ahead, w, jac)
     last_rows(p, whirls, w)

@@ -17,7 +17,7 @@ from fmu_bearing.engine.newton.body_slopes import inertia
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.steady.pattern import matrix_at
 
-#: Rings that are held.
+#: Rings that are fixed.
 NONE, OUTER, BOTH = range(3)
 
 _ROUNDS = 60
@@ -71,15 +71,15 @@ def body_of(k):
 
 
 @kernel
-def is_held(p, k, held):
-    """Whether nothing moves unknown ``k``: rigid preload, a ring that is held, no cage.
+def is_constrained(p, k, fixed):
+    """Whether nothing moves unknown ``k``: rigid preload, a fixed ring, no cage.
 
-    ``held``: 0 no ring, 1 the outer ring, 2 both.
+    ``fixed``: 0 no ring, 1 the outer ring, 2 both.
     """
     if k == _INNER:
-        return held >= BOTH or p[P.RIGID] != 0.0
+        return fixed >= BOTH or p[P.RIGID] != 0.0
     if k == _OUTER or k == _TURN:
-        return held >= OUTER
+        return fixed >= OUTER
     return k > _TURN and p[P.CAGE] == 0.0
 
 
@@ -104,7 +104,7 @@ def weight(p, c, k):
 
 
 @kernel
-def out_of_balance(p, c, f, held, w):
+def out_of_balance(p, c, f, fixed, w):
     """Put forces (N per ball) out of balance, by equation, to ``PT.RESIDUAL``; their length."""
     at = W.PATTERN + PT.RESIDUAL
     total = 0.0
@@ -115,7 +115,7 @@ def out_of_balance(p, c, f, held, w):
             row = ball_equation(k) * STRIDE
             for j in range(balls):
                 value += f[row + j] / p[P.BALLS]
-        elif not is_held(p, k, held):
+        elif not is_constrained(p, k, fixed):
             value = f[F.BODY + body_of(k)]
         value *= weight(p, c, k)
         w[at + k] = value
@@ -162,7 +162,7 @@ def longest(p, c, k, spin):
 
 
 @kernel
-def newton_step(p, c, y, held, w, jac):
+def newton_step(p, c, y, fixed, w, jac):
     """Put Newton's step, in shares of the longest, to ``PT.STEP``; its largest share, negative if none."""
     at = matrix_at(p, PT.MATRIX)
     spin = math.sqrt(y[Y.WX] * y[Y.WX] + y[Y.WR] * y[Y.WR] + y[Y.WT] * y[Y.WT]) + 1e-3
@@ -171,7 +171,7 @@ def newton_step(p, c, y, held, w, jac):
         largest = 0.0
         for k in range(PT.EVEN):
             value = 0.0
-            if is_held(p, i, held) or is_held(p, k, held):
+            if is_constrained(p, i, fixed) or is_constrained(p, k, fixed):
                 value = 1.0 if i == k else 0.0
             else:
                 value = weight(p, c, i) * column(p, k, i, jac) * longest(p, c, k, spin)
@@ -210,7 +210,7 @@ def move(p, y, share, w):
 
 
 @kernel
-def make_even(p, c, y, speed):
+def equalise_balls(p, c, y, speed):
     """Make all balls of the state ``y`` equal, evenly spaced about a centred cage that they press."""
     balls = int(p[P.BALLS])
     outer = Y.Q0 + Q.OUTER
@@ -249,24 +249,25 @@ def between_races(w):
 
 
 @kernel
-def settle_evenly(p, c, y, speed, held, w, jac):
+def settle_evenly(p, c, y, speed, fixed, w, jac):
     """Bring the state ``y`` of equal balls to rest at shaft ``speed`` (rad/s); whether that succeeds.
 
-    ``y`` comes from :func:`make_even`, ``c`` has no imperfections; ``held``: see :func:`is_held`; ``jac``:
-    scratch for a Jacobian. On failure ``y`` is where Newton's method was left.
+    ``y`` comes from :func:`equalise_balls`, ``c`` has no imperfections; ``fixed``: see
+    :func:`is_constrained`; ``jac``: scratch for a Jacobian. On failure ``y`` is where Newton's method was
+    left.
     """
     f = w[W.F0 : W.F0 + F.SIZE]
     for _ in range(_ROUNDS):
         jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
-        before = out_of_balance(p, c, f, held, w)
-        most = newton_step(p, c, y, held, w, jac)
+        before = out_of_balance(p, c, f, fixed, w)
+        most = newton_step(p, c, y, fixed, w, jac)
         if most < 0.0:
             return False
         share = 1.0 / max(most, 1.0)
         move(p, y, share, w)
         for _ in range(_HALVINGS):
             right_hand_side(p, c, y, 0.0, speed, 0.0, w, f)
-            after = out_of_balance(p, c, f, held, w)
+            after = out_of_balance(p, c, f, fixed, w)
             if most < _SETTLED and after < _BALANCED:
                 return between_races(w)
             if after < before:

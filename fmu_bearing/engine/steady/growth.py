@@ -31,7 +31,7 @@ _CLOSE = 1e-4  # of shaft speed: what the last round may change
 
 
 @kernel
-def rate_coefficients(p, c, held, ahead, w, jac):
+def rate_coefficients(p, c, fixed, ahead, w, jac):
     """Fill ``PT.RATES`` with B: what the balance changes by per rate of the unknowns, running along."""
     balls = int(p[P.BALLS])
     last = tail(p)
@@ -59,7 +59,7 @@ def rate_coefficients(p, c, held, ahead, w, jac):
             for k in range(Q.SIZE):
                 w[row + last + k] = factor * jac[J.C + (i * J.BODIES + Q.SIZE + k) * STRIDE + j]
     for i in range(Q.SIZE):
-        if is_fixed(p, i, held):
+        if is_fixed(p, i, fixed):
             continue
         row = at + (last + i) * width
         factor = body_weight(p, i)
@@ -72,19 +72,19 @@ def rate_coefficients(p, c, held, ahead, w, jac):
 
 
 @kernel
-def inertia_of(p, c, i, held):
+def inertia_of(p, c, i, fixed):
     """Return the element of N on the diagonal of unknown ``i``; spins, rates themselves, have none."""
     balls = int(p[P.BALLS])
     last = tail(p)
     if i < PT.PLACED * balls:
         return -ball_weight(p, c, i // balls)
-    if i < last or is_fixed(p, i - last, held):
+    if i < last or is_fixed(p, i - last, fixed):
         return 0.0
     return -body_weight(p, i - last)
 
 
 @kernel
-def combine(p, c, growth, turning, held, w):
+def combine(p, c, growth, turning, fixed, w):
     """Put A + lambda B + lambda^2 N to ``PT.MATRIX`` and ``PT.IMAGINARY``, from A and B there."""
     size = tail(p) + Q.SIZE
     width = tail(p) + PT.TAIL + 1
@@ -95,7 +95,7 @@ def combine(p, c, growth, turning, held, w):
         w[real + i] += growth * w[rates + i]
         w[imaginary + i] = turning * w[rates + i]
     for i in range(size):
-        inertia = inertia_of(p, c, i, held)
+        inertia = inertia_of(p, c, i, fixed)
         w[real + i * width + i] += (growth * growth - turning * turning) * inertia
         w[imaginary + i * width + i] += 2.0 * growth * turning * inertia
 
@@ -165,7 +165,7 @@ def eigen_row(w, row):
 
 
 @kernel
-def right_side(p, c, rate, held, w):
+def right_side(p, c, rate, fixed, w):
     """Put -(B + lambda N) q - N q' to the right side; ``rate``: lambda.
 
     The eigenvector q and its rates q' are in ``PT.EIGEN``.
@@ -175,7 +175,7 @@ def right_side(p, c, rate, held, w):
     rates = matrix_at(p, PT.RATES)
     vector, moving, right = eigen_row(w, PT.VECTOR), eigen_row(w, PT.RATE), eigen_row(w, PT.RIGHT)
     for i in range(size):
-        total = real_times(inertia_of(p, c, i, held), rate * vector[i] + moving[i])
+        total = real_times(inertia_of(p, c, i, fixed), rate * vector[i] + moving[i])
         for k in range(size):
             total += real_times(w[rates + i * width + k], vector[k])
         right[i] = -total
@@ -203,7 +203,7 @@ def begin_growth(p, speed, w):
 
 
 @kernel
-def growth_beside(p, c, speed, held, rest, w, jac):
+def growth_beside(p, c, speed, fixed, rest, w, jac):
     """Look beside ``PT.GROWTH`` and ``PT.TURNING`` for the cage's slowest decaying forward whirl.
 
     About the pattern ``rest``. Whether the search has ended; after `SHIFTS` of them it ends in any case.
@@ -221,16 +221,16 @@ def growth_beside(p, c, speed, held, rest, w, jac):
     take(p, rest, 0.0, w)
     show(p, ahead, w, rest)
     jacobian(p, c, rest, 0.0, speed, 0.0, w, jac)
-    rate_coefficients(p, c, held, ahead, w, jac)
+    rate_coefficients(p, c, fixed, ahead, w, jac)
     y = last + Q.CAGE + Q.Y
     z = last + Q.CAGE + Q.Z
     rate = pair(w, W.PATTERN + PT.GROWTH)
-    derivatives(p, c, rest, held, ahead, False, w, jac)
-    combine(p, c, rate.real, rate.imag, held, w)
+    derivatives(p, c, rest, fixed, ahead, False, w, jac)
+    combine(p, c, rate.real, rate.imag, fixed, w)
     if not factor_complex(re, im, size, width, order):
         return True
     for _ in range(_ROUNDS):
-        right_side(p, c, rate, held, w)
+        right_side(p, c, rate, fixed, w)
         solve_factored(re, im, size, width, order, answer)
         # how far the cage goes round ahead: this stays 1
         far = 0.5 * (answer[y] + complex(0.0, ahead) * answer[z])

@@ -85,10 +85,10 @@ def move(p, share, w):
 
 
 @kernel
-def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
+def settle_once(p, c, speed, fixed, ahead, whirls, reach, y, w, jac):
     """One round of Newton's method for the pattern in ``PT.UNKNOWNS``: `SETTLED`, `FAILED` or `GOES_ON`.
 
-    ``held``: see `equations.is_fixed`; ``ahead``: 1 where balls run to larger phases, -1 to smaller ones;
+    ``fixed``: see `equations.is_fixed`; ``ahead``: 1 where balls run to larger phases, -1 to smaller ones;
     ``whirls``: the pattern turns with the cage; ``reach``: how far balls may go along their orbit in a round,
     1 where pockets are as stiff as they are. ``y``: the state of the pattern. ``jac``: scratch.
     """
@@ -97,8 +97,8 @@ def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
     at = matrix_at(p, PT.MATRIX)
     show(p, ahead, w, y)
     jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
-    before = residual(p, c, y, f, held, ahead, whirls, w)
-    derivatives(p, c, y, held, ahead, whirls, w, jac)
+    before = residual(p, c, y, f, fixed, ahead, whirls, w)
+    derivatives(p, c, y, fixed, ahead, whirls, w, jac)
     for i in range(size):
         w[at + i * (size + 1) + size] = -w[W.PATTERN + PT.RESIDUAL + i]
     longest_steps(p, reach, w)
@@ -108,7 +108,7 @@ def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
     share = 1.0 / max(most, 1.0)
     move(p, share, w)
     show(p, ahead, w, y)
-    after = out_of_balance(p, c, speed, y, held, ahead, whirls, w, f)
+    after = out_of_balance(p, c, speed, y, fixed, ahead, whirls, w, f)
     if most < _SETTLED and after < _BALANCED:
         return SETTLED
     for _ in range(_HALVINGS):
@@ -117,15 +117,15 @@ def settle_once(p, c, speed, held, ahead, whirls, reach, y, w, jac):
         share *= 0.5
         move(p, -share, w)
         show(p, ahead, w, y)
-        after = out_of_balance(p, c, speed, y, held, ahead, whirls, w, f)
+        after = out_of_balance(p, c, speed, y, fixed, ahead, whirls, w, f)
     return GOES_ON if math.isfinite(after) else FAILED
 
 
 @kernel
-def push_aside(p, c, speed, offset, ahead, y, w, jac):
-    """Move the cage by ``offset`` (m) along z in a whirl about the even state, and the balls as they answer.
+def displace_cage(p, c, speed, offset, ahead, y, w, jac):
+    """Move the cage by ``offset`` (m) along z in a whirl about the even state, and the balls as they respond.
 
-    The balls' answer is linear; rings stay. False where there is none.
+    The balls' response is linear; rings stay. False where there is none.
     """
     size = tail(p) + PT.TAIL
     last = tail(p)

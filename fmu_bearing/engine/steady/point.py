@@ -17,9 +17,9 @@ from fmu_bearing.engine.layout import PT, ST, C, P, Q, W, Y
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.place import upright_point
 from fmu_bearing.engine.status import OK
-from fmu_bearing.engine.steady.even import BOTH, OUTER, make_even, settle_evenly
+from fmu_bearing.engine.steady.even import BOTH, OUTER, equalise_balls, settle_evenly
 from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, growth_beside
-from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, push_aside, settle_once
+from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, displace_cage, settle_once
 from fmu_bearing.engine.steady.pattern import tail, take
 
 #: What was found of the steady state: see `settle`.
@@ -49,9 +49,9 @@ _ACROSS = 1e-12  # m, rad: rings less apart are in line
 
 
 @kernel
-def is_loaded(p, c, y, held):
-    """Whether anything acts across the axis, or rings that are held are off the axis."""
-    if held > OUTER:
+def is_loaded(p, c, y, fixed):
+    """Whether anything acts across the axis, or fixed rings are off the axis."""
+    if fixed > OUTER:
         for i in range(Q.Y, Q.OUTER):
             other = Q.OUTER + (i if i < Q.INNER_BY else i + 1)
             if abs(y[Y.Q0 + i] - y[Y.Q0 + other]) > _ACROSS:
@@ -106,7 +106,7 @@ def enter(w, stage, way):
 
 
 @kernel
-def rest_softly(p, c, y, speed, held, even, rest, w, jac):
+def rest_softly(p, c, y, speed, fixed, even, rest, w, jac):
     """One round with pockets of a share of their stiffness: see ``_WAYS``; as `settle_once`."""
     ahead = math.copysign(1.0, speed)
     n = int(w[W.PATTERN + PT.WAY])
@@ -122,7 +122,7 @@ def rest_softly(p, c, y, speed, held, even, rest, w, jac):
     stiffness = c[C.POCKET]
     c[C.POCKET] = share * stiffness
     reach = _REACH if share == softest else 1.0
-    came = settle_once(p, c, speed, held, ahead, False, reach, rest, w, jac)
+    came = settle_once(p, c, speed, fixed, ahead, False, reach, rest, w, jac)
     c[C.POCKET] = stiffness
     if came != SETTLED or share >= 1.0:
         return came
@@ -133,7 +133,7 @@ def rest_softly(p, c, y, speed, held, even, rest, w, jac):
 
 @kernel
 def begin_whirl(p, c, speed, even, whirl, w, jac):
-    """Put the cage aside and the balls where they then answer; False where there is no answer."""
+    """Put the cage aside and the balls where that puts them; False where there is no solution."""
     turning = math.copysign(w[W.PATTERN + PT.FOUND_TURNING], speed)
     aside = _ASIDE
     if w[W.PATTERN + PT.WAY] != 0.0:
@@ -142,11 +142,11 @@ def begin_whirl(p, c, speed, even, whirl, w, jac):
     # the whirl overtakes the balls
     ahead = -math.copysign(1.0, speed)
     take(p, even, turning, w)
-    return push_aside(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac)
+    return displace_cage(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac)
 
 
 @kernel
-def whirl_once(p, c, speed, held, even, whirl, w, jac):
+def whirl_once(p, c, speed, fixed, even, whirl, w, jac):
     """One round towards an orbit of the cage, without loads; as `settle_once`."""
     load_y, load_z = c[C.LOAD_Y], c[C.LOAD_Z]
     neutral_y, neutral_z = c[C.NEUTRAL_Y], c[C.NEUTRAL_Z]
@@ -156,8 +156,8 @@ def whirl_once(p, c, speed, held, even, whirl, w, jac):
     c[C.NEUTRAL_Z] = 0.0
     aligned = p[P.MISALIGNMENT_Y] == 0.0 and p[P.MISALIGNMENT_Z] == 0.0
     round_seat = c[C.PEDESTAL_Y] == c[C.PEDESTAL_Z] and c[C.PEDESTAL_YZ] == 0.0
-    # a ring that cannot turn with the whirl counts as held
-    holds = held if aligned and round_seat else max(held, OUTER)
+    # a ring that cannot turn with the whirl counts as fixed
+    holds = fixed if aligned and round_seat else max(fixed, OUTER)
     came = FAILED
     if w[W.PATTERN + PT.ROUND] > 0.0 or begin_whirl(p, c, speed, even, whirl, w, jac):
         ahead = -math.copysign(1.0, speed)
@@ -170,16 +170,16 @@ def whirl_once(p, c, speed, held, even, whirl, w, jac):
 
 
 @kernel
-def along_axis(p, c, y, speed, held, state, w):
-    """Quasi-static ``state`` with nothing across the axis, of the loads or held rings of the state ``y``.
+def along_axis(p, c, y, speed, fixed, state, w):
+    """Quasi-static ``state`` with nothing across the axis, of the loads or fixed rings of the state ``y``.
 
     That state itself where there is none.
     """
     outer = y[Y.Q0 + Q.OUTER]
     shift = y[Y.Q0] - outer
     status = OK
-    if held < BOTH and p[P.RIGID] == 0.0:
-        axial = w[W.STILL_FOUND : W.STILL_END]
+    if fixed < BOTH and p[P.RIGID] == 0.0:
+        axial = w[W.STILL_EQUILIBRIUM : W.STILL_END]
         status = quasistatic(p, c, speed, axial)
         shift = axial[ST.AXIAL_SHIFT]
         outer = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
@@ -210,15 +210,15 @@ def begin_search(y, w):
 
 
 @kernel
-def settle_even_balls(p, c, y, speed, held, w, jac):
+def settle_even_balls(p, c, y, speed, fixed, w, jac):
     """First stage of a search: as `search`, with the pattern at rest to go on with where loads ask for it."""
     even, rest = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE)
-    loaded = is_loaded(p, c, y, held)
+    loaded = is_loaded(p, c, y, fixed)
     if loaded:
         # means over balls that loads across the axis make uneven are too far from even ones
-        along_axis(p, c, y, speed, held, even, w)
-    make_even(p, c, even, speed)
-    if not settle_evenly(p, c, even, speed, held, w, jac):
+        along_axis(p, c, y, speed, fixed, even, w)
+    equalise_balls(p, c, even, speed)
+    if not settle_evenly(p, c, even, speed, fixed, w, jac):
         return NOT_FOUND
     # patterns do not know springs between balls
     if loaded and p[P.SPRINGS] != 0.0:
@@ -233,15 +233,15 @@ def settle_even_balls(p, c, y, speed, held, w, jac):
 
 
 @kernel
-def rest_once(p, c, y, speed, held, w, jac):
+def rest_once(p, c, y, speed, fixed, w, jac):
     """One round towards the pattern at rest; what is found."""
     even, rest = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE)
     directly = w[W.PATTERN + PT.STAGE] == _DIRECTLY
     if directly:
         ahead = math.copysign(1.0, speed)
-        came = settle_once(p, c, speed, held, ahead, False, 1.0, rest, w, jac)
+        came = settle_once(p, c, speed, fixed, ahead, False, 1.0, rest, w, jac)
     else:
-        came = rest_softly(p, c, y, speed, held, even, rest, w, jac)
+        came = rest_softly(p, c, y, speed, fixed, even, rest, w, jac)
     if came == SETTLED:
         return REST
     w[W.PATTERN + PT.ROUND] += 1.0
@@ -257,7 +257,7 @@ def rest_once(p, c, y, speed, held, w, jac):
 
 
 @kernel
-def follow_whirl(p, c, speed, held, w, jac):
+def follow_whirl(p, c, speed, fixed, w, jac):
     """Stages of a search behind the pattern at rest: growth of the whirl, then the whirl; what is found."""
     even, rest, whirl = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE), state_at(w, PT.WHIRL_STATE)
     if w[W.PATTERN + PT.STAGE] == _GROWING:
@@ -266,14 +266,14 @@ def follow_whirl(p, c, speed, held, w, jac):
             w[W.PATTERN + PT.FOUND_TURNING] = _TURNING * abs(speed)
         else:
             w[W.PATTERN + PT.ROUND] += 1.0
-            ended = growth_beside(p, c, speed, held, rest, w, jac)
+            ended = growth_beside(p, c, speed, fixed, rest, w, jac)
             if not ended and w[W.PATTERN + PT.ROUND] < SHIFTS:
                 return SEARCHING
         if not (w[W.PATTERN + PT.FOUND_GROWTH] > 0.0):
             return REST
         enter(w, _WHIRLING, 0.0)
         return SEARCHING
-    came = whirl_once(p, c, speed, held, even, whirl, w, jac)
+    came = whirl_once(p, c, speed, fixed, even, whirl, w, jac)
     w[W.PATTERN + PT.ROUND] += 1.0
     # beyond ``P.LAND_STOP_FRACTION`` the dry stop carries the cage
     if came == SETTLED and eccentricity(p, whirl) > _LEAST:
@@ -287,7 +287,7 @@ def follow_whirl(p, c, speed, held, w, jac):
 
 
 @kernel
-def search(p, c, y, speed, held, whirls, w, jac):
+def search(p, c, y, speed, fixed, whirls, w, jac):
     """Make one piece of a search that `begin_search` has begun: `SEARCHING`, or what was found.
 
     Parameters as of `settle`, the same for all pieces; ``whirls``: whether to look for whirls.
@@ -295,46 +295,46 @@ def search(p, c, y, speed, held, whirls, w, jac):
     if speed == 0.0:
         return NOT_FOUND
     if w[W.PATTERN + PT.STAGE] >= _GROWING:
-        return follow_whirl(p, c, speed, held, w, jac)
+        return follow_whirl(p, c, speed, fixed, w, jac)
     if w[W.PATTERN + PT.STAGE] == _EVEN:
-        found = settle_even_balls(p, c, y, speed, held, w, jac)
+        outcome = settle_even_balls(p, c, y, speed, fixed, w, jac)
     else:
-        found = rest_once(p, c, y, speed, held, w, jac)
-    if found != REST or not whirls or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
-        return found
+        outcome = rest_once(p, c, y, speed, fixed, w, jac)
+    if outcome != REST or not whirls or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
+        return outcome
     enter(w, _GROWING, 0.0)
     begin_growth(p, speed, w)
     return SEARCHING
 
 
 @kernel
-def settle_at_rest(p, c, y, speed, held, w, jac):
+def settle_at_rest(p, c, y, speed, fixed, w, jac):
     """As `settle`, but look for no whirl: `NOT_FOUND`, `EVEN_BALLS` or `REST`."""
     begin_search(y, w)
-    found = SEARCHING
-    while found == SEARCHING:
-        found = search(p, c, y, speed, held, False, w, jac)
-    return found
+    outcome = SEARCHING
+    while outcome == SEARCHING:
+        outcome = search(p, c, y, speed, fixed, False, w, jac)
+    return outcome
 
 
 @kernel
-def settle(p, c, y, speed, held, w, jac):
+def settle(p, c, y, speed, fixed, w, jac):
     """Find the steady state near the quasi-static state ``y`` at shaft ``speed`` (rad/s); ``y`` stays.
 
-    Parameters: ``c`` without imperfections; ``held``: see `even.is_held`; ``jac``: scratch for a Jacobian.
-    Returns what was found, and leaves it in ``PT.EVEN_STATE``, ``PT.REST_STATE`` and ``PT.WHIRL_STATE``:
-    `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them; `REST`: the cage rests, or
-    no whirl was found; `WHIRL`: it whirls.
+    Parameters: ``c`` without imperfections; ``fixed``: see `even.is_constrained`; ``jac``: scratch for a
+    Jacobian. Returns what was found, and leaves it in ``PT.EVEN_STATE``, ``PT.REST_STATE`` and
+    ``PT.WHIRL_STATE``: `NOT_FOUND`; `EVEN_BALLS`: these, but not where loads across the axis put them;
+    `REST`: the cage rests, or no whirl was found; `WHIRL`: it whirls.
     """
     begin_search(y, w)
-    found = SEARCHING
-    while found == SEARCHING:
-        found = search(p, c, y, speed, held, True, w, jac)
-    return found
+    outcome = SEARCHING
+    while outcome == SEARCHING:
+        outcome = search(p, c, y, speed, fixed, True, w, jac)
+    return outcome
 
 
 @kernel
-def settle_perfect(p, c, y, speed, held, w, jac):
+def settle_perfect(p, c, y, speed, fixed, w, jac):
     """As :func:`settle`, with imperfections in ``c`` that count as none meanwhile."""
     scale = c[C.OVERSIZE_SCALE]
     eccentric = c[C.ECCENTRICITY]
@@ -342,17 +342,19 @@ def settle_perfect(p, c, y, speed, held, w, jac):
     c[C.OVERSIZE_SCALE] = 0.0
     c[C.ECCENTRICITY] = 0.0
     c[C.CAGE_ECCENTRICITY] = 0.0
-    found = settle(p, c, y, speed, held, w, jac)
+    outcome = settle(p, c, y, speed, fixed, w, jac)
     c[C.OVERSIZE_SCALE] = scale
     c[C.ECCENTRICITY] = eccentric
     c[C.CAGE_ECCENTRICITY] = of_cage
-    return found
+    return outcome
 
 
 @kernel
-def losing_state(found, w):
-    """State that has the losses of the operating point, of what :func:`settle` has ``found``."""
-    at = W.PATTERN + (PT.WHIRL_STATE if found == WHIRL else PT.REST_STATE if found == REST else PT.EVEN_STATE)
+def losing_state(outcome, w):
+    """State that has the losses of the operating point, by the ``outcome`` of :func:`settle`."""
+    at = W.PATTERN + (
+        PT.WHIRL_STATE if outcome == WHIRL else PT.REST_STATE if outcome == REST else PT.EVEN_STATE
+    )
     return w[at : at + Y.SIZE]
 
 
@@ -375,16 +377,16 @@ def shift_to_even(p, y, even):
 
 
 @kernel
-def move_to_steady(p, y, found, w):
-    """Move the quasi-static state ``y`` to the steady one that :func:`settle` has ``found`` from it."""
-    if found == NOT_FOUND:
+def move_to_steady(p, y, outcome, w):
+    """Move the quasi-static state ``y`` to the steady one by the ``outcome`` of :func:`settle` from it."""
+    if outcome == NOT_FOUND:
         return
     even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
-    if found == EVEN_BALLS:
+    if outcome == EVEN_BALLS:
         shift_to_even(p, y, even)
         return
     rest = w[W.PATTERN + PT.REST_STATE : W.PATTERN + PT.WHIRL_STATE]
-    if found == REST:
+    if outcome == REST:
         for i in range(Y.SIZE):
             y[i] = rest[i]
         return

@@ -158,10 +158,10 @@ def library(platform: Platform, prefer: str = "auto", tell: Tell = silent, units
     try:
         compiler = compiler_for(platform, prefer)
     except BuildError:
-        found = (
+        libraries = (
             disk_cache.read(path, tell) for path in sorted(made.glob(f"{_shim_key()}-*{platform.suffix}"))
         )
-        for data in found:
+        for data in libraries:
             if data is not None and prefer in ("auto", "portable"):
                 return data
         raise

@@ -112,22 +112,22 @@ class Diagram(Result):
         in_scene : bool
             Those only that the scene contains and that come within 20 dB of the largest.
         """
-        found = self._all_crossings
+        crossings = self._all_crossings
         if in_scene:
-            largest = max((crossing.velocity for crossing in found), default=0.0)
-            return [one for one in found if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
-        return list(found)
+            largest = max((crossing.velocity for crossing in crossings), default=0.0)
+            return [one for one in crossings if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
+        return list(crossings)
 
     @cached_property
     def _all_crossings(self) -> list[Crossing]:
-        found = [
+        crossings = [
             crossing
             for branch in self.branches
             for line in self.lines
             if can_move(line, branch)
             for crossing in _meet(branch, line, self.rpm)
         ]
-        return sorted(found, key=lambda crossing: crossing.rpm)
+        return sorted(crossings, key=lambda crossing: crossing.rpm)
 
     def nearest(self) -> Crossing | None:
         """Return the crossing of the scene nearest to its operating speed, by ratio; None: there is none."""
@@ -156,20 +156,20 @@ class Diagram(Result):
 
     def cautions(self) -> list[str]:
         """Return weak damping over the speeds, and speeds that could not be computed, in sentences."""
-        found = []
+        sentences = []
         for branch in self.branches:
             least = int(np.argmin(branch.damping))
             if branch.damping[least] < MARGIN:
                 word = "grows by itself" if branch.damping[least] < 0.0 else "is hardly damped"
-                found.append(
+                sentences.append(
                     f"instability margin: '{branch.label}' {word} at {branch.rpm[least]:,.0f} r/min "
                     f"({branch.frequency[least]:.0f} Hz, damping ratio {branch.damping[least]:.4f})"
                 )
-        found += self._unseen()
-        found += [
+        sentences += self._unseen()
+        sentences += [
             f"{point.rpm:,.0f} r/min: {UNSTEADY}" for point in self.points if not point.linearised.steady
         ]
-        return found + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
+        return sentences + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
 
     def _unseen(self) -> list[str]:
         """Return the fastest whirl that no branch shows, because balls have most of its energy."""
@@ -224,10 +224,10 @@ def _meet(branch: Branch, line: Line, rpm: NDArray[np.float64]) -> list[Crossing
     excitation = PchipInterpolator(rpm[by_speed], line.frequency[by_speed])
     apart = PchipInterpolator(speeds, branch.frequency[order] - excitation(speeds))
     damping = PchipInterpolator(speeds, branch.damping[order])
-    found = []
+    crossings = []
     for root in np.unique(apart.roots(extrapolate=False)):
         frequency, zeta = float(excitation(root)), float(damping(root))
         magnified = 0.5 / max(zeta, MARGIN)  # below it the size of the motion limits itself
         velocity = line.amplitude * 2.0 * math.pi * frequency * magnified
-        found.append(Crossing(float(root), frequency, zeta, branch, line, velocity))
-    return found
+        crossings.append(Crossing(float(root), frequency, zeta, branch, line, velocity))
+    return crossings

@@ -98,7 +98,11 @@ def counted(campbell: Diagram) -> list[Crossing]:
     """
     if campbell.scene.imperfections is not None:
         return campbell.crossings(in_scene=True)
-    return [one for one in campbell.crossings() if _is_low(one.line, campbell.scene.bearing.ball_count)]
+    return [
+        crossing
+        for crossing in campbell.crossings()
+        if _is_low(crossing.line, campbell.scene.bearing.ball_count)
+    ]
 
 
 def _is_low(line: Line, balls: int) -> bool:
@@ -109,18 +113,18 @@ def _is_low(line: Line, balls: int) -> bool:
 
 def drawn_lines(crossings: list[Crossing]) -> "dict[str, tuple[Line, float]]":
     """Return the lines of crossings by name, each with its largest velocity (m/s), the largest first."""
-    found: dict[str, tuple[Line, float]] = {}
+    drawn: dict[str, tuple[Line, float]] = {}
     for crossing in crossings:
         name = crossing.line.name
-        before = found.get(name, (crossing.line, 0.0))
-        found[name] = (before[0], max(before[1], crossing.velocity))
-    return dict(sorted(found.items(), key=lambda item: -item[1][1]))
+        before = drawn.get(name, (crossing.line, 0.0))
+        drawn[name] = (before[0], max(before[1], crossing.velocity))
+    return dict(sorted(drawn.items(), key=lambda item: -item[1][1]))
 
 
 def top(campbell: Diagram, crossings: list[Crossing]) -> float:
     """Hz: upper end of the diagram, above what is excited; all branches where nothing is."""
-    heights = [one.frequency for one in crossings] or [
-        float(one.frequency.max()) for one in campbell.branches
+    heights = [crossing.frequency for crossing in crossings] or [
+        float(branch.frequency.max()) for branch in campbell.branches
     ]
     return min(_ROOM * max(heights, default=campbell.highest), campbell.highest)
 

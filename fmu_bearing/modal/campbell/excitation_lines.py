@@ -91,9 +91,9 @@ def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: 
 
     ``scene``: of a single bearing; ``eccentric``: `unbalance` of all that turns, m.
     """
-    found = [*_shaft_and_sizes(scene, at, orders, eccentric), *_races(scene, at, orders, highest)]
-    found += _ball_form(scene, at, orders, highest)
-    return [line for line in found if float(line.frequency.min()) <= highest]
+    excitations = [*_shaft_and_sizes(scene, at, orders, eccentric), *_races(scene, at, orders, highest)]
+    excitations += _ball_form(scene, at, orders, highest)
+    return [line for line in excitations if float(line.frequency.min()) <= highest]
 
 
 def _shaft_and_sizes(scene: Scene, at: Rates, orders: set[int], eccentric: float) -> Iterator[Line]:

@@ -110,13 +110,13 @@ def campbell(
         )
     systems = [point.linearised for point in points]
     at = rates(
-        np.array([one.speed for one in systems]), np.array([one.orbit for one in systems]),
-        np.array([one.spin for one in systems]), scene.bearing.ball_count,
+        np.array([system.speed for system in systems]), np.array([system.orbit for system in systems]),
+        np.array([system.spin for system in systems]), scene.bearing.ball_count,
     )  # fmt: skip
     branches = _branches(points, highest)
     orders = {branch.order for branch in branches}
-    found = lines(scene.bearings()[0].scene, at, orders, highest, unbalance(scene))
-    return Campbell(scene, tuple(points), tuple(branches), tuple(found), at, highest, tuple(skipped))
+    excitations = lines(scene.bearings()[0].scene, at, orders, highest, unbalance(scene))
+    return Campbell(scene, tuple(points), tuple(branches), tuple(excitations), at, highest, tuple(skipped))
 
 
 def _speeds(scene: Scene, speeds: Sequence[float] | None) -> list[float]:
@@ -151,8 +151,8 @@ def _branches(points: Sequence[Modes], highest: float) -> list[Branch]:
         taken = set(pairs.values())
         open_ones = going + [[(point, mode)] for i, mode in enumerate(modes) if i not in taken]
     chains = [chain for chain in done + open_ones if len(chain) >= _FEWEST]
-    found = [_branch(chain) for chain in chains]
-    kept = [branch for branch in found if branch.frequency.min() <= highest]
+    branches = [_branch(chain) for chain in chains]
+    kept = [branch for branch in branches if branch.frequency.min() <= highest]
     return sorted(kept, key=lambda branch: float(branch.frequency[branch.frequency.size // 2]))
 
 

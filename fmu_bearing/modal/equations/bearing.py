@@ -69,7 +69,7 @@ class BearingLinearised:
 
 def phases_of(bearings: Sequence[BearingArrays]) -> int:
     """Return how many phases of a ball pitch serve for bearings: one where all balls carry equal loads."""
-    return 1 if all(_even(one) for one in bearings) else _PHASES
+    return 1 if all(_even(bearing) for bearing in bearings) else _PHASES
 
 
 def in_fixed_axes(bearing: BearingArrays, count: int, steady: bool) -> BearingLinearised:
@@ -109,9 +109,9 @@ def _at_phase(bearing: BearingArrays, at: Coordinates, phase: float, orbit: floa
     back = np.linalg.inv(patterns)
     turning = block_diag(*[back @ rates * orbit] * at.BALL_STATES)
     into = block_diag(*[patterns] * at.BALL_STATES, at.turned(phase))
-    found = np.linalg.solve(into, plain @ into)
-    found[: at.rings, : at.rings] -= turning
-    return np.asarray(found)
+    matrix = np.linalg.solve(into, plain @ into)
+    matrix[: at.rings, : at.rings] -= turning
+    return np.asarray(matrix)
 
 
 def _turned(bearing: BearingArrays, at: Coordinates, phase: float) -> BearingArrays:
@@ -123,11 +123,11 @@ def _turned(bearing: BearingArrays, at: Coordinates, phase: float) -> BearingArr
     """
     if phase == 0.0:
         return bearing
-    found = replace(bearing, s=bearing.s.copy())
-    n, lanes = at.balls, int(found.p[P.LANES])
+    further = replace(bearing, s=bearing.s.copy())
+    n, lanes = at.balls, int(further.p[P.LANES])
     where = 2.0 * math.pi * np.arange(n) / n
     across = at.patterns(where + phase)[0] @ np.linalg.inv(at.patterns(where)[0])
-    y = found.s[S.Y : S.Y + Y.SIZE]
+    y = further.s[S.Y : S.Y + Y.SIZE]
     rows = y[: Y.Q0].reshape(Y.ROWS, -1)
     angle = Y.TH // STRIDE
     rows[angle, :n] -= where  # what is left repeats round the bearing
@@ -137,13 +137,19 @@ def _turned(bearing: BearingArrays, at: Coordinates, phase: float) -> BearingArr
     turn, rings = at.turned(phase), slice(0, Q.RINGS)
     for part in (y[Y.Q0 :][rings], y[Y.V0 :][rings]):
         part[:] = turn[rings, rings] @ part
-    bends = flexure(found, at)
+    bends = flexure(further, at)
     behind = slice(2 * Q.RINGS, 2 * Q.RINGS + bends.size)
     bends[:] = turn[behind, behind] @ bends
-    held = found.s[S.C : S.C + C.SIZE]
+    conditions = further.s[S.C : S.C + C.SIZE]
     axes = turn[Q.Y : Q.Z + 1, Q.Y : Q.Z + 1]
     for y_place, z_place, between in _TENSORS:
-        tensor = np.array([[held[y_place], held[between]], [held[between], held[z_place]]])
+        tensor = np.array(
+            [[conditions[y_place], conditions[between]], [conditions[between], conditions[z_place]]]
+        )
         tensor = axes @ tensor @ axes.T
-        held[y_place], held[z_place], held[between] = tensor[0, 0], tensor[1, 1], tensor[0, 1]
-    return found
+        conditions[y_place], conditions[z_place], conditions[between] = (
+            tensor[0, 0],
+            tensor[1, 1],
+            tensor[0, 1],
+        )
+    return further

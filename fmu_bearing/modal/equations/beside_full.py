@@ -106,13 +106,13 @@ def _farthest(quick: NDArray[np.float64], full: NDArray[np.float64], scene: Scen
         ours, theirs = (np.diff(one[first : len(full)], order, axis=0).std(axis=0) for one in (quick, full))
         least = max(_SEEN * float(theirs.max()), _LEAST / _SAMPLE**order)
         for k in np.flatnonzero(theirs >= least):
-            found = float(ours[k] / theirs[k])
-            if abs(math.log(max(found, 1e-12))) > abs(math.log(max(ratio, 1e-12))):
+            quotient = float(ours[k] / theirs[k])
+            if abs(math.log(max(quotient, 1e-12))) > abs(math.log(max(ratio, 1e-12))):
                 ring = "inner" if k % RINGS.size < RINGS.size // 2 else "outer"
                 bearing = (
                     f" of {scene.assembly.name(int(k) // RINGS.size + 1)}" if scene.assembly.joined else ""
                 )
-                ratio, what = found, f"{kind} of the {ring} ring{bearing} along {'xyz'[k % 3]}"
+                ratio, what = quotient, f"{kind} of the {ring} ring{bearing} along {'xyz'[k % 3]}"
     return ratio, what
 
 

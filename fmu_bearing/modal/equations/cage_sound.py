@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.interface.outputs import outputs_of
-from fmu_bearing.prepare.sound import silenced, sound_blocks
+from fmu_bearing.prepare.sound_block import silenced, sound_blocks
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 
@@ -44,11 +44,11 @@ def loss_without_cage(scene: Scene, inputs: Mapping[int, float] | None = None) -
     )
     blocks = sound_blocks(full)
     quiet = [silenced(block, "cage") for block in blocks]
-    if all(np.array_equal(one, other) for one, other in zip(blocks, quiet, strict=True)):
+    if all(np.array_equal(block, other) for block, other in zip(blocks, quiet, strict=True)):
         return 0.0
     whole, rest = (_levels(full, sounds, inputs or {}) for sounds in (blocks, quiet))
-    heard = whole > _INAUDIBLE
-    return float(np.max((whole - rest)[heard], initial=0.0))
+    audible = whole > _INAUDIBLE
+    return float(np.max((whole - rest)[audible], initial=0.0))
 
 
 def _levels(
@@ -57,4 +57,4 @@ def _levels(
     """Return the mean A-weighted level (dB) at each microphone."""
     run = Arrays.of(scene, *sounds).at(inputs).init()
     run.run(_LONG, _STEP)
-    return run.z[[one.index for one in outputs_of(scene) if one.name.endswith(".leq_a")]]
+    return run.z[[variable.index for variable in outputs_of(scene) if variable.name.endswith(".leq_a")]]

@@ -106,11 +106,11 @@ class Coordinates:
     @property
     def is_place(self) -> NDArray[np.bool_]:
         """Which numbers are places, not rates."""
-        found = np.zeros(self.size, dtype=bool)
-        found[: len(_PLACES) * self.balls] = True
-        found[self.rings : self.ring_rates] = True
-        found[self.flexure : self.flexure_rates] = True
-        return found
+        places = np.zeros(self.size, dtype=bool)
+        places[: len(_PLACES) * self.balls] = True
+        places[self.rings : self.ring_rates] = True
+        places[self.flexure : self.flexure_rates] = True
+        return places
 
     @property
     def pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -72,12 +72,12 @@ class Linearised:
     @property
     def orbits(self) -> NDArray[np.float64]:
         """rad/s: speed of the balls' orbit in each bearing; loads make them differ by some 0.1 %."""
-        return np.array([one.orbit for one in self.bearings])
+        return np.array([bearing.orbit for bearing in self.bearings])
 
     @property
     def spins(self) -> NDArray[np.float64]:
         """rad/s: speed of a ball about its own axis against axes that orbit with it, in each bearing."""
-        return np.array([one.spin for one in self.bearings])
+        return np.array([bearing.spin for bearing in self.bearings])
 
     @property
     def orbit(self) -> float:
@@ -112,20 +112,20 @@ class Linearised:
     @cached_property
     def pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Numbers of the places in x, and of the rate of each."""
-        found = []
-        for one, own, first in zip(self.bearings, self.own, self.first, strict=False):
-            where = np.full(one.coordinates.size, -1)
+        numbers = []
+        for bearing, own, first in zip(self.bearings, self.own, self.first, strict=False):
+            where = np.full(bearing.coordinates.size, -1)
             where[own] = first + np.arange(own.size)
-            pairs = where[np.array(one.coordinates.pairs)]
-            found.append(pairs[:, pairs[0] >= 0])
-        places, rates = np.hstack([*found, np.arange(self.shaft.count) + [[self.places], [self.rates]]])
+            pairs = where[np.array(bearing.coordinates.pairs)]
+            numbers.append(pairs[:, pairs[0] >= 0])
+        places, rates = np.hstack([*numbers, np.arange(self.shaft.count) + [[self.places], [self.rates]]])
         return places, rates
 
     def of_bearing(self, number: int, vector: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Return the part of a vector x that is a bearing's own, from 0, in its order; driven rows are 0."""
-        found = np.zeros(self.bearings[number].coordinates.size, dtype=complex)
-        found[self.own[number]] = vector[self.first[number] : self.first[number + 1]]
-        return found
+        part = np.zeros(self.bearings[number].coordinates.size, dtype=complex)
+        part[self.own[number]] = vector[self.first[number] : self.first[number + 1]]
+        return part
 
 
 def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: bool = True) -> Linearised:
@@ -178,7 +178,7 @@ def linearised(scene: Scene, inputs: dict[int, float] | None = None, friction: b
 def under_force(scene: Scene, inputs: dict[int, float] | None = None) -> Linearised:
     """Linearise as `linearised`; with rigid preload under the force which its place means.
 
-    A ring that is held would have no row.
+    A ring that is fixed would have no row.
     """
     system = linearised(scene, inputs)
     one = system.bearings[0]
@@ -231,8 +231,8 @@ def _on_pedestal(
     """Return how far loads move the housing (m), or the ring on a pedestal of its own that goes furthest."""
     own = run.s[int(run.p[int(run.p[P.SET]) + SP.AT_S]) + SP.S_HEAD :]
     places = [own[shaft.shaft_count :][:3]] if shaft.housed else [
-        one.s[S.Y + Y.Q0 + Q.OUTER :][:3]
-        for one, row in zip(bearings, rows, strict=True)
+        bearing.s[S.Y + Y.Q0 + Q.OUTER :][:3]
+        for bearing, row in zip(bearings, rows, strict=True)
         if row[SP.ROW_SEAT] == SP.PEDESTAL
     ]  # fmt: skip
     return max((float(np.linalg.norm(place)) for place in places), default=0.0)
@@ -240,10 +240,10 @@ def _on_pedestal(
 
 def _own(at: Coordinates, driven: int) -> NDArray[np.int64]:
     """Return which numbers of a bearing are its own in the set: not the driven rows of its rings."""
-    found = np.ones(at.size, dtype=bool)
+    own = np.ones(at.size, dtype=bool)
     for first in (at.rings, at.ring_rates):
-        found[first : first + driven] = False
-    return np.flatnonzero(found)
+        own[first : first + driven] = False
+    return np.flatnonzero(own)
 
 
 def _assembled(
@@ -256,19 +256,19 @@ def _assembled(
     n, behind = shaft.count, sum(numbers.size for numbers in own)
     size = behind + 2 * n
     places, rates = slice(behind, behind + n), slice(behind + n, size)
-    found, force = np.zeros((size, size)), np.zeros((n, size))
+    matrix, force = np.zeros((size, size)), np.zeros((n, size))
     force[:, places], force[:, rates] = -shaft.stiffness, -shaft.damping
     begin = 0
-    for one, numbers, motion, mass in zip(bearings, own, shaft.motions, shaft.inertia, strict=True):
-        at, end = one.coordinates, begin + numbers.size
+    for bearing, numbers, motion, mass in zip(bearings, own, shaft.motions, shaft.inertia, strict=True):
+        at, end = bearing.coordinates, begin + numbers.size
         into = np.zeros((at.size, size))
         into[numbers, np.arange(begin, end)] = 1.0
         into[at.rings : at.rings + mass.size, places] = motion
         into[at.ring_rates : at.ring_rates + mass.size, rates] = motion
-        moved = one.phases[phase] @ into
-        found[begin:end] = moved[numbers]
+        moved = bearing.phases[phase] @ into
+        matrix[begin:end] = moved[numbers]
         force += motion.T @ (mass[:, None] * moved[at.ring_rates : at.ring_rates + mass.size])
         begin = end
-    found[places, rates] = np.eye(n)
-    found[rates] = shaft.inverse @ force
-    return found
+    matrix[places, rates] = np.eye(n)
+    matrix[rates] = shaft.inverse @ force
+    return matrix

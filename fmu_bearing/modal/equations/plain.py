@@ -72,7 +72,7 @@ class Plain:
 
     def derivatives(self) -> NDArray[np.float64]:
         """Return the derivatives of x' by x, shape (n, n), by central differences."""
-        found = np.empty((self.at.size, self.at.size))
+        jacobian = np.empty((self.at.size, self.at.size))
         for k, step in enumerate(self._steps):
             array, place = (
                 (self.y, self._at_y[k]) if k < self._bodies else (self._w, self._at_w[k - self._bodies])
@@ -81,6 +81,6 @@ class Plain:
             array[place] = kept + step
             ahead = self.rates()
             array[place] = kept - step
-            found[:, k] = (ahead - self.rates()) / (2.0 * step)
+            jacobian[:, k] = (ahead - self.rates()) / (2.0 * step)
             array[place] = kept
-        return found
+        return jacobian

@@ -27,7 +27,7 @@ def quick_run(scene: Scene, inputs: dict[int, float] | None = None) -> Arrays:
     return Arrays.of(quiet.with_rigid_rings()).at(inputs or {}).init()
 
 
-def found_growth(run: Arrays) -> tuple[float, float]:
+def engine_growth(run: Arrays) -> tuple[float, float]:
     """Return frequency (Hz) and growth (1/s) of the motion that the engine has found to grow most; 0: none.
 
     That of ``solver.growth``, see `engine.fidelities.rings.growth`.
@@ -70,24 +70,24 @@ def _assembled(
     """
     n = motions[0].shape[1]
     sizes = [2 * int(lv[L.OPERATOR : L.OPERATOR + 2].sum()) for lv in blocks]
-    found = np.zeros((2 * n + sum(sizes), 2 * n + sum(sizes)))
+    matrix = np.zeros((2 * n + sum(sizes), 2 * n + sum(sizes)))
     places, rates = slice(0, n), slice(n, 2 * n)
-    found[places, rates] = np.eye(n)
-    found[rates, places], found[rates, rates] = -stiffness, -damping
+    matrix[places, rates] = np.eye(n)
+    matrix[rates, places], matrix[rates, rates] = -stiffness, -damping
     begin = 2 * n
     for lv, motion, mass, size in zip(blocks, motions, inertia, sizes, strict=True):
         own = slice(begin, begin + size)
         by_place, by_rate, modes, into, out = _bearing(lv)
         force = motion.T * mass
-        found[rates, places] += force @ by_place @ motion
-        found[rates, rates] += force @ by_rate @ motion
-        found[rates, own] += force @ out
-        found[own, places] += into[0] @ motion
-        found[own, rates] += into[1] @ motion
-        found[own, own] = modes
+        matrix[rates, places] += force @ by_place @ motion
+        matrix[rates, rates] += force @ by_rate @ motion
+        matrix[rates, own] += force @ out
+        matrix[own, places] += into[0] @ motion
+        matrix[own, rates] += into[1] @ motion
+        matrix[own, own] = modes
         begin += size
-    found[rates] = inverse @ found[rates]
-    return found
+    matrix[rates] = inverse @ matrix[rates]
+    return matrix
 
 
 def _bearing(lv: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
@@ -122,4 +122,4 @@ def _bearing(lv: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
                 part = np.conj(turned) * pushed
                 out[k, re], out[k, im] = part.real, -part.imag
         begin += 2 * count
-    return table(L.JX) + table(L.BESIDE_PLACE), table(L.JV) + table(L.BESIDE_RATE), modes, into, out
+    return table(L.JX) + table(L.FEEDTHROUGH_PLACE), table(L.JV) + table(L.FEEDTHROUGH_RATE), modes, into, out

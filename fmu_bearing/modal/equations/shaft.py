@@ -55,10 +55,10 @@ class ShaftMatrices:
     @property
     def total(self) -> NDArray[np.float64]:
         """Mass with the driven rings."""
-        found = self.mass.copy()
+        whole = self.mass.copy()
         for motion, mass in zip(self.motions, self.inertia, strict=True):
-            found += motion.T @ (mass[:, None] * motion)
-        return found
+            whole += motion.T @ (mass[:, None] * motion)
+        return whole
 
 
 def rows_of(p: NDArray[np.float64]) -> list[NDArray[np.float64]]:
@@ -82,8 +82,8 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
         own = run.s[int(head[SP.AT_S]) :]
         here = in_housing(1, float(head[SP.HOUSING_X]))
         six = slice(shaft, shaft + SP.HOUSING)
-        stiffness[six, six] += here.T @ _foot(own[SP.FEET :]) @ here
-        damping[six, six] += here.T @ _foot(own[SP.FEET_DAMPING :]) @ here
+        stiffness[six, six] += here.T @ _pedestal(own[SP.PEDESTAL_STIFFNESS :]) @ here
+        damping[six, six] += here.T @ _pedestal(own[SP.PEDESTAL_DAMPING :]) @ here
     motions, inertia = [], []
     for row in rows:
         first, count = int(row[SP.ROW_AT_T]), int(row[SP.ROW_DRIVEN])
@@ -96,11 +96,11 @@ def matrices(run: Arrays, speed: float) -> ShaftMatrices:
     )  # fmt: skip
 
 
-def _foot(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the matrix of a housing's pedestal in its own plane, shape (6, 6): of ``SP.FOOT`` numbers."""
-    found = np.diag(numbers[: SP.HOUSING])
-    found[Q.Y, Q.Z] = found[Q.Z, Q.Y] = numbers[SP.BETWEEN]
-    return found
+def _pedestal(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the matrix of a pedestal in its own plane, shape (6, 6), from ``SP.PEDESTAL_TERMS`` numbers."""
+    stiffness = np.diag(numbers[: SP.HOUSING])
+    stiffness[Q.Y, Q.Z] = stiffness[Q.Z, Q.Y] = numbers[SP.BETWEEN]
+    return stiffness
 
 
 def _matrix(p: NDArray[np.float64], place: int, rows: int, columns: int) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.elastic.shaft import placed
+from fmu_bearing.elastic.shaft import rigid_transform
 from fmu_bearing.elastic.shaft.model import FREEDOMS
 from fmu_bearing.engine.layout import SP, Q
 from fmu_bearing.modal.equations.linearised import Linearised
@@ -64,8 +64,8 @@ class Bodies:
 
     def _of_bearings(self, vector: NDArray[np.complex128]) -> Iterator[Part]:
         """Yield the parts of the bearings, of a set without the inner rings, which are its shaft's."""
-        for k, one in enumerate(self._system.bearings):
-            found = parts(one.coordinates, self._system.of_bearing(k, vector), self._turning)
+        for k, bearing in enumerate(self._system.bearings):
+            found = parts(bearing.coordinates, self._system.of_bearing(k, vector), self._turning)
             if not self._system.shaft.count:
                 yield from found
                 continue
@@ -94,14 +94,14 @@ def _rigid_bodies(shaft: ShaftMatrices) -> list[_Body]:
     own = slice(0, shaft.shaft_count)
     total = shaft.total
     planes = [shaft.nose[:, own]]
-    wanted = [placed(1.0, 0.0)]
+    wanted = [rigid_transform(1.0, 0.0)]
     for motion, sign, position in zip(shaft.motions, shaft.signs, shaft.positions, strict=True):
-        planes.append(placed(sign, 0.0) @ motion[:FREEDOMS, own])
-        wanted.append(placed(1.0, float(position)))
+        planes.append(rigid_transform(sign, 0.0) @ motion[:FREEDOMS, own])
+        wanted.append(rigid_transform(1.0, float(position)))
     rigid = np.linalg.lstsq(np.vstack(planes), np.vstack(wanted), rcond=1e-12)[0]
     mass = total[own, own]
     words = (("axial", 0, (0,)), ("radial", 1, (1, 2)), ("tilt", 1, (3, 4)))
-    found = [
+    bodies = [
         _Body("shaft", own, mass, _about_centre(rigid, mass, 1, 2, 3, 4), words, shaft.shaft_count > FREEDOMS)
     ]
     if shaft.housed:
@@ -112,19 +112,19 @@ def _rigid_bodies(shaft: ShaftMatrices) -> list[_Body]:
         )  # fmt: skip
         mass = total[six, six]
         motions = _about_centre(np.eye(SP.HOUSING), mass, Q.Y, Q.Z, Q.BY, Q.BZ)
-        found.append(_Body("housing", six, mass, motions, names, False))
-    return found
+        bodies.append(_Body("housing", six, mass, motions, names, False))
+    return bodies
 
 
 def _about_centre(
     motions: NDArray[np.float64], mass: NDArray[np.float64], y: int, z: int, by: int, bz: int
 ) -> NDArray[np.float64]:
     """Return motions with tilts about the centre of mass, so that energies add up."""
-    found = motions.copy()
-    heavy = float(found[:, y] @ mass @ found[:, y])
-    found[:, bz] -= found[:, y] * float(found[:, y] @ mass @ found[:, bz]) / heavy
-    found[:, by] -= found[:, z] * float(found[:, z] @ mass @ found[:, by]) / heavy
-    return found
+    moved = motions.copy()
+    heavy = float(moved[:, y] @ mass @ moved[:, y])
+    moved[:, bz] -= moved[:, y] * float(moved[:, y] @ mass @ moved[:, bz]) / heavy
+    moved[:, by] -= moved[:, z] * float(moved[:, z] @ mass @ moved[:, by]) / heavy
+    return moved
 
 
 def _energy(mass: NDArray[np.float64], rates: NDArray[Any]) -> float:

@@ -48,13 +48,13 @@ def parts(at: Coordinates, shape: NDArray[np.complex128], turning: float) -> lis
     turning : float
         Sign of the shaft's speed: forward is its direction.
     """
-    found = [*_of_rings(at, shape), *_of_flexure(at, shape), *_of_balls(at, shape)]
+    moving = [*_of_rings(at, shape), *_of_flexure(at, shape), *_of_balls(at, shape)]
     if turning < 0.0:
-        found = [
+        moving = [
             part._replace(forward=part.backward, backward=part.forward) if part.order else part
-            for part in found
+            for part in moving
         ]
-    return found
+    return moving
 
 
 def _of_rings(at: Coordinates, shape: NDArray[np.complex128]) -> Iterator[Part]:
@@ -93,10 +93,10 @@ def _of_balls(at: Coordinates, shape: NDArray[np.complex128]) -> Iterator[Part]:
             yield _numbered(name, at.balls // 2, 0.5 * squares[-1], 0.5 * squares[-1])
 
 
-def wave(found: list[Part]) -> Wave:
+def wave(parts: list[Part]) -> Wave:
     """Return the order that carries most energy, and its direction where one whirl dominates."""
     by_order: dict[int, list[float]] = {}
-    for part in found:
+    for part in parts:
         sums = by_order.setdefault(part.order, [0.0, 0.0])
         sums[0] += part.forward
         sums[1] += part.backward
@@ -114,10 +114,10 @@ def whirl(ahead: float, behind: float) -> str:
     return BACKWARD if behind > _DOMINATES * ahead else NEITHER
 
 
-def participation(found: list[Part]) -> dict[str, float]:
+def participation(parts: list[Part]) -> dict[str, float]:
     """Return the shares of the kinetic energy by component, the largest first."""
-    total = sum(part.forward + part.backward for part in found) or 1.0
-    shares = {part.name: float((part.forward + part.backward) / total) for part in found}
+    total = sum(part.forward + part.backward for part in parts) or 1.0
+    shares = {part.name: float((part.forward + part.backward) / total) for part in parts}
     return dict(sorted(shares.items(), key=lambda item: -item[1]))
 
 

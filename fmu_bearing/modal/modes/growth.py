@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fmu_bearing.arrays import EngineError
-from fmu_bearing.modal.equations.quick import found_growth, operator_matrix, quick_run
+from fmu_bearing.modal.equations.quick import engine_growth, operator_matrix, quick_run
 from fmu_bearing.modal.modes.mode import GROWS, LOWEST
 from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
 from fmu_bearing.modal.modes.points import given
@@ -16,7 +16,7 @@ _HELD = 0.003  # damping ratio, chosen: with less, a cage hardly holds what grow
 
 
 def self_excitation(
-    scene: Scene, found: Modes, inputs: Mapping[str, float] | None = None
+    scene: Scene, modes: Modes, inputs: Mapping[str, float] | None = None
 ) -> tuple[float, float] | None:
     """Return frequency (Hz) and growth (1/s) of the motion that grows fastest by itself; None: none grows.
 
@@ -35,7 +35,7 @@ def self_excitation(
     inputs : mapping, optional
         Inputs by name, SI units, in place of the scene's.
     """
-    alone = self_excited(found)
+    alone = self_excited(modes)
     if alone is None and scene.assembly.joined:
         return None
     without = None if alone is None else (alone.frequency, alone.growth)
@@ -43,13 +43,13 @@ def self_excitation(
         run = quick_run(scene, given(scene, inputs))
     except EngineError:  # no equilibrium
         return without
-    frequency, growth = found_growth(run)
+    frequency, growth = engine_growth(run)
     if growth > GROWS:
         return frequency, growth
     if without is None:
         return None
     rates = np.linalg.eigvals(operator_matrix(run))
-    orbit = abs(found.linearised.orbit)
+    orbit = abs(modes.linearised.orbit)
     # balls that drift along their orbits with the cage move no ring
     rates = rates[(rates.imag > 2.0 * np.pi * LOWEST) & (np.abs(rates.imag - orbit) > _BESIDE * orbit)]
     hardly = bool(rates.size and np.any(rates.real > -_HELD * rates.imag))

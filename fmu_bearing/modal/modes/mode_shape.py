@@ -72,13 +72,13 @@ def shape(system: BearingLinearised, vector: NDArray[np.complex128], value: comp
     balls = np.array([vector[at.ball_state(kind)] for kind in range(_BALL_PLACES)])
     balls[2] *= pitch
     bends = _bends(at, p, vector)
-    grooves = [np.outer([one.cosine, one.sine], [one.x, one.r, one.theta]).ravel() for one in bends]
+    grooves = [np.outer([bend.cosine, bend.sine], [bend.x, bend.r, bend.theta]).ravel() for bend in bends]
     everything = np.concatenate([inside, outside, balls.ravel(), *grooves])
     # the largest part is at its end when the motion begins
     largest = everything[int(np.argmax(abs(everything)))]
     scale = 1.0 / largest if abs(largest) > 0.0 else 1.0
     turns = abs(value.imag) or 1.0
-    scaled = tuple(one._replace(cosine=scale * one.cosine, sine=scale * one.sine) for one in bends)
+    scaled = tuple(bend._replace(cosine=scale * bend.cosine, sine=scale * bend.sine) for bend in bends)
     return Shape(
         scale * inside,
         scale * outside,
@@ -91,9 +91,9 @@ def shape(system: BearingLinearised, vector: NDArray[np.complex128], value: comp
 
 def _bends(at: Coordinates, p: NDArray[np.float64], vector: NDArray[np.complex128]) -> list[Bend]:
     places, table = vector[at.flexure : at.flexure_rates], int(p[P.AT_MODES])
-    found = []
+    bends = []
     for k, (order, ring) in enumerate(zip(at.orders, at.bodies, strict=True)):
         row = p[table + k * P.MODE_SIZE : table + (k + 1) * P.MODE_SIZE]
         units = (float(row[place]) for place in (P.MODE_X, P.MODE_R, P.MODE_T))
-        found.append(Bend(ring, order, complex(places[2 * k]), complex(places[2 * k + 1]), *units))
-    return found
+        bends.append(Bend(ring, order, complex(places[2 * k]), complex(places[2 * k + 1]), *units))
+    return bends

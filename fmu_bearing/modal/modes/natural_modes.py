@@ -148,27 +148,27 @@ class Modes(Result):
 
     def cautions(self) -> list[str]:
         """Return what limits these modes, in sentences."""
-        found = [weak_words(mode) for mode in self.weak()] if self.friction else []
-        found += remarks(self.linearised)
+        sentences = [weak_words(mode) for mode in self.weak()] if self.friction else []
+        sentences += remarks(self.linearised)
         of_rings = [mode for mode in self.modes if mode.ring_share > MOVES]
         spread = max((mode.spread for mode in of_rings), default=0.0)
         if spread > SPREAD:
             worst = max(of_rings, key=lambda mode: mode.spread)
-            found.append(
+            sentences.append(
                 f"loads differ from ball to ball: '{worst.label}' moves by {100 * spread:.1f} % of its "
                 "frequency while one ball pitch passes, so lines appear beside it; frequencies are means"
             )
         if self.friction and abs(self.rpm) < 60.0 * STICKING:
-            found.append(
+            sentences.append(
                 "the shaft does not turn, so contacts stick; once they slide, the modes without friction hold"
             )
         if self.scene.bearing.cage is not None:
-            found.append("the cage and its films are left out: it touches balls and lands with clearance")
-        return found
+            sentences.append("the cage and its films are left out: it touches balls and lands with clearance")
+        return sentences
 
     def table(self, highest: float = 50e3, apart: bool = False) -> list[dict[str, Any]]:
         """Return `records` by name, with frequency (Hz), damping ratio, kinetic energy, remark."""
-        return [one.summary() for one in self.records(highest, apart)]
+        return [record.summary() for record in self.records(highest, apart)]
 
     def records(self, highest: float = 50e3, apart: bool = False) -> list[Mode]:
         """Return the modes that a table has.
@@ -201,10 +201,10 @@ class Modes(Result):
     @property
     def _bent(self) -> set[int]:
         """Orders in which rings bend."""
-        return {order for one in self.linearised.bearings for order in one.coordinates.orders}
+        return {order for bearing in self.linearised.bearings for order in bearing.coordinates.orders}
 
 
-def self_excited(found: Modes) -> Mode | None:
+def self_excited(modes: Modes) -> Mode | None:
     """Return the mode in which rings move that grows fastest by itself, by `GROWS` or more; None: none does.
 
     Its largest part may be the balls' orbits: at 7008AC, 20,000 r/min, 150 N balls have 85 % of its energy.
@@ -212,7 +212,7 @@ def self_excited(found: Modes) -> Mode | None:
     """
     growing = [
         one
-        for one in (*found.modes, *found.apart)
+        for one in (*modes.modes, *modes.apart)
         if one.growth > GROWS and one.ring_share > MOVES and one.frequency > LOWEST
     ]
     return max(growing, key=lambda one: one.growth, default=None)

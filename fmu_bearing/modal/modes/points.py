@@ -60,9 +60,9 @@ def given(scene: Scene, values: Mapping[str, float] | None) -> dict[int, float]:
         For an unknown name, what is not a number, and a value outside its range.
     """
     table = {variable.name: variable for variable in inputs_of(scene)}
-    found = {}
+    inputs = {}
     for name, value in (values or {}).items():
         variable = table[known(name, list(table), "input")]
-        found[variable.index] = number(name, value)
-        check(variable, found[variable.index])
-    return found
+        inputs[variable.index] = number(name, value)
+        check(variable, inputs[variable.index])
+    return inputs

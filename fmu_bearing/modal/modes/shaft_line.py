@@ -27,9 +27,9 @@ def line(
     shaft = shaft_model(scene, set_of(scene))
     q = mode.vector[system.places : system.places + system.shaft.shaft_count]
     at = (0.0, *system.shaft.positions) if places is None else places
-    found = np.array([shaft.at(float(place))[1:3] @ q for place in at]).T
-    largest = found.ravel()[int(np.argmax(abs(found)))]
-    return np.asarray(found / largest if abs(largest) > 0.0 else found)
+    points = np.array([shaft.at(float(place))[1:3] @ q for place in at]).T
+    largest = points.ravel()[int(np.argmax(abs(points)))]
+    return np.asarray(points / largest if abs(largest) > 0.0 else points)
 
 
 def picture(scene: Scene, system: Linearised, modes: Sequence[Mode], rpm: float) -> "Figure":

@@ -26,14 +26,14 @@ def solved(scene: Scene, system: Linearised, friction: bool = True) -> Modes:
     values, vectors = _eigen(system.matrix, scale)
     spreads = _spreads(system, values, vectors, scale)
     bodies = Bodies(system)
-    found: list[Mode] = []
+    modes: list[Mode] = []
     apart: list[Mode] = []
     for value, vector, spread in zip(values, vectors.T, spreads, strict=True):
         mode = _mode(system, bodies, scale, value, vector, spread)
-        (found if _is_ringing(system, mode) else apart).append(mode)
-    for some in (found, apart):
+        (modes if _is_ringing(system, mode) else apart).append(mode)
+    for some in (modes, apart):
         some.sort(key=lambda mode: mode.frequency)
-    return Modes(scene, system.speed / RPM, tuple(found), tuple(apart), system, friction)
+    return Modes(scene, system.speed / RPM, tuple(modes), tuple(apart), system, friction)
 
 
 def may_grow(matrix: NDArray[np.float64]) -> bool:
@@ -72,8 +72,8 @@ def _spreads(
     low = high = values.imag
     for matrix in system.phases:
         others, shapes = _eigen(matrix, scale)
-        found = others.imag[modal_assurance(vectors, shapes, system.masses).argmax(axis=1)]
-        low, high = np.minimum(low, found), np.maximum(high, found)
+        frequencies = others.imag[modal_assurance(vectors, shapes, system.masses).argmax(axis=1)]
+        low, high = np.minimum(low, frequencies), np.maximum(high, frequencies)
     return np.asarray((high - low) / np.maximum(values.imag, _SLOW))
 
 
@@ -119,10 +119,10 @@ def _is_ringing(system: Linearised, mode: Mode) -> bool:
         return False
     # Unequal loads mix the patterns, so a neutral motion of the balls is looked for at other orders, too: at
     # low ones where rings take most of the little that moves.
-    for one in system.bearings:
-        most = _ORDERS if mode.ring_share > _DAMPED else one.coordinates.balls // 2
-        nearest = float(np.min(abs(mode.value - 1j * np.arange(-most, most + 1) * one.orbit)))
-        if nearest < max(_SLOW, _NEUTRAL * abs(one.orbit)):
+    for bearing in system.bearings:
+        most = _ORDERS if mode.ring_share > _DAMPED else bearing.coordinates.balls // 2
+        nearest = float(np.min(abs(mode.value - 1j * np.arange(-most, most + 1) * bearing.orbit)))
+        if nearest < max(_SLOW, _NEUTRAL * abs(bearing.orbit)):
             return False
     return True
 

@@ -187,12 +187,12 @@ class ChannelHistory(Turning):
         if by not in _SPLIT:
             raise ValueError(f'by = "{by}": sources are split by "component", "kind" or "bearing"')
         places = self.places(positions)
-        found: dict[str, NDArray[np.float64]] = {}
+        pressures: dict[str, NDArray[np.float64]] = {}
         for circle, parts in self._pressures_by_circle(places, radiation_model, _SPLIT[by]):
             for name, part in parts.items():
-                total = found.setdefault(name, np.zeros((len(places), self.size)))
+                total = pressures.setdefault(name, np.zeros((len(places), self.size)))
                 total[list(circle.members)] += part
-        return found
+        return pressures
 
     def levels(
         self,
@@ -247,11 +247,11 @@ class ChannelHistory(Turning):
         places = self.places(positions)
         blocks = Blocks(self.channels, resolution)
         energies = (radiation_model or self.radiation_model).startswith("paper")
-        found = np.zeros((len(places), len(blocks.frequency)))
+        squares = np.zeros((len(places), len(blocks.frequency)))
         for circle in self._circles(places, radiation_model):
             parts = blocks.mean_squares(circle, (lambda path: path.channel) if energies else (lambda path: 0))
-            found[list(circle.members)] = sum(parts.values())
-        return blocks.frequency, found
+            squares[list(circle.members)] = sum(parts.values())
+        return blocks.frequency, squares
 
     def _quick_levels(
         self, places: list[Position], radiation_model: str | None, weighting: str, resolution: float
@@ -278,18 +278,18 @@ class ChannelHistory(Turning):
         self, places: list[Position], radiation_model: str | None, label, whole: bool = False
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:
         """Yield each circle with its pressures by label; ``whole``: with the samples before the first one."""
-        found = self._circles(places, radiation_model)
+        circles = self._circles(places, radiation_model)
         self._prepare(places)
         assert self._spectra is not None
         begin = 0 if whole else self.first
-        for circle in found:
+        for circle in circles:
             parts = self._spectra.pressures(circle, label)
             yield circle, {name: part[:, begin : self.first + self.size] for name, part in parts.items()}
 
     def _prepare(self, places: list[Position]) -> None:
         """Spectra of the channels, with room for the longest flight; a warning where it exceeds the start."""
         assert self.scene is not None
-        ends = [one.position for one in self.scene.bearings()]
+        ends = [bearing.position for bearing in self.scene.bearings()]
         longest = max(math.dist(place, (end, 0.0, 0.0)) for place in places for end in ends)
         longest /= air_of(self.scene).sound_speed
         if longest > self.start:

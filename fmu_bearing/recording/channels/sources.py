@@ -31,7 +31,7 @@ def centre_of(scene: Scene | None) -> float:
     """
     if scene is None:
         return 0.0
-    places = [one.position for one in scene.bearings()]
+    places = [bearing.position for bearing in scene.bearings()]
     return 0.5 * (places[0] + places[-1])
 
 
@@ -69,11 +69,13 @@ def sources_of(scene: Scene, model: str, places: Sequence[Position], harmonics: 
     plane = None if scene.sound is None or scene.sound.reflecting_plane_mm is None else (
         si(scene.sound).reflecting_plane
     )  # fmt: skip
-    found: list[Source] = []
+    sources: list[Source] = []
     for number, body in bodies_of(scene):
         own, moved, behind = radiating(scene, number), list(places), plane
         if scene.assembly.joined:
             moved = [(1e-3 * scene.assembly.own_mm(number, x), y, z) for x, y, z in places]
             behind = None if plane is None else 1e-3 * scene.assembly.own_mm(number, plane)
-        found.append((Radiation(model, body, air_of(scene), harmonics, ring_modes(own), plane=behind), moved))
-    return found
+        sources.append(
+            (Radiation(model, body, air_of(scene), harmonics, ring_modes(own), plane=behind), moved)
+        )
+    return sources

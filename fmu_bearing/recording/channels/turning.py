@@ -36,7 +36,7 @@ def turned(
     rates = rates_of(outputs, scene)
     if rates is not None:
         return tuple(frequencies(mean, orbit, spin, balls) for orbit, spin in rates.mean(axis=0).tolist())
-    ratios = [outputs.get(one.prefix + _RATIO) for one in scene.bearings()]
+    ratios = [outputs.get(bearing.prefix + _RATIO) for bearing in scene.bearings()]
     kept = [values for values in ratios if values is not None]
     if len(kept) < len(ratios):
         return None
@@ -65,13 +65,13 @@ def whirls(scene: Scene, outputs: Mapping[str, NDArray[np.float64]]) -> tuple[fl
     In a whirl the cage's centre goes round on a circle, whose radius varies less than that of motion by
     chance.
     """
-    found = []
-    for one in scene.bearings():
-        radius, speed = (outputs.get(one.prefix + name, np.zeros(1)) for name in WHIRL)
+    frequencies = []
+    for bearing in scene.bearings():
+        radius, speed = (outputs.get(bearing.prefix + name, np.zeros(1)) for name in WHIRL)
         middle = float(np.mean(radius))
         steady = middle > _OFF_CENTRE and float(np.std(radius)) < _ROUND * middle
-        found.append(abs(float(np.mean(speed))) / (2.0 * math.pi) if steady else math.nan)
-    return tuple(found)
+        frequencies.append(abs(float(np.mean(speed))) / (2.0 * math.pi) if steady else math.nan)
+    return tuple(frequencies)
 
 
 class Turning(ABC):

@@ -73,42 +73,42 @@ class NoiseAt(Result):
 
     def sentences(self) -> list[str]:
         """Return which component and which line make the noise, and what excites that line."""
-        found = []
+        said = []
         parts = {name: float(row[self.loudest]) for name, row in self.levels.items() if name != "total"}
         if parts:
             first, *rest = sorted(parts, key=lambda name: -parts[name])
             ahead = f", {parts[first] - parts[rest[0]]:.1f} dB above the next" if rest else ""
-            found.append(f"at {self.names[self.loudest]} {first.replace('_', ' ')} radiates most{ahead}")
+            said.append(f"at {self.names[self.loudest]} {first.replace('_', ' ')} radiates most{ahead}")
         end = self.excitation_end
         if end is not None and self.frequency > end:
-            return [*found, f"no surface of the scene excites it: they end at {1e-3 * end:.3g} kHz"]
+            return [*said, f"no surface of the scene excites it: they end at {1e-3 * end:.3g} kHz"]
         if self.line is None and self.nearest is None:
-            return found  # neither bearing nor speed is known, or the speed changes
+            return said  # neither bearing nor speed is known, or the speed changes
         if self.line is None:
-            found.append("no line stands out in the band")
+            said.append("no line stands out in the band")
             place = self.frequency
         else:
-            found.append(f"the strongest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
+            said.append(f"the strongest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
             place = self.line.frequency
         if self.line is not None and self.line.name:
             source = _source(self.line.name)
             if self.line.words == self.line.name:
-                found.append(f"it is {self.line.name}: {source}")
+                said.append(f"it is {self.line.name}: {source}")
             else:
-                found.append(
+                said.append(
                     f"the simplest of {self.line.fits} sums of kinematic frequencies that fit is "
                     f"{self.line.name}: {source}"
                 )
         elif self.nearest is not None:
             away = place - self.nearest.frequency
-            found.append(
+            said.append(
                 f"no kinematic frequency fits; the nearest is {self.nearest.name}, {abs(away):.1f} Hz "
                 f"{'below' if away > 0.0 else 'above'}: {_source(self.nearest.name)}"
             )
-        return found
+        return said
 
 
-def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) -> NoiseAt:
+def noise_at(recording: ChannelHistory, analysis: SoundAnalysis, frequency: float) -> NoiseAt:
     """Return which component and which line make the noise at a frequency.
 
     Parameters
@@ -123,22 +123,22 @@ def noise_at(recording: ChannelHistory, found: SoundAnalysis, frequency: float) 
     ValueError
         For a frequency beside the third octaves.
     """
-    low, high = found.bands[0] / EDGE, found.bands[-1] * EDGE
+    low, high = analysis.bands[0] / EDGE, analysis.bands[-1] * EDGE
     if not low <= frequency <= high:
         raise ValueError(f"at {frequency:g} Hz: there are third octaves from {low:.3g} to {high:.5g} Hz only")
-    place = int(np.argmin(np.abs(np.log(found.bands / frequency))))
-    centre = float(found.bands[place])
-    levels = {"total": found.third_octaves[:, place]}
-    levels |= {name: values[:, place] for name, values in found.third_octave_parts.items()}
+    place = int(np.argmin(np.abs(np.log(analysis.bands / frequency))))
+    centre = float(analysis.bands[place])
+    levels = {"total": analysis.third_octaves[:, place]}
+    levels |= {name: values[:, place] for name, values in analysis.third_octave_parts.items()}
     line, nearest = None, None
     if recording.scene is not None and not recording.changes_speed:
-        spectrum = found.spectra["total"][int(np.argmax(levels["total"]))]
-        lines = strongest(recording, found.frequency, spectrum, len(found.frequency))
+        spectrum = analysis.spectra["total"][int(np.argmax(levels["total"]))]
+        lines = strongest(recording, analysis.frequency, spectrum, len(analysis.frequency))
         line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)
         about = frequency if line is None else line.frequency
-        nearest = nearest_line(about, known_lines(recording, float(found.frequency[-1])))
+        nearest = nearest_line(about, known_lines(recording, float(analysis.frequency[-1])))
     return NoiseAt(
-        frequency, nominal_frequency(centre), found.names, levels, line, nearest, recording.excitation_end
+        frequency, nominal_frequency(centre), analysis.names, levels, line, nearest, recording.excitation_end
     )
 
 

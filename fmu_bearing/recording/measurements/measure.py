@@ -151,8 +151,10 @@ def component_spectra(
         signals = {"total": sum(parts.values(), np.zeros((1, recording.size)))} | parts
     else:
         signals = {"total": recording.pressure(place)}
-    found = {name: level_spectrum(signal[0], recording.rate, resolution) for name, signal in signals.items()}
-    return found["total"][0], {name: levels for name, (_, levels) in found.items()}
+    spectra = {
+        name: level_spectrum(signal[0], recording.rate, resolution) for name, signal in signals.items()
+    }
+    return spectra["total"][0], {name: levels for name, (_, levels) in spectra.items()}
 
 
 def fine(recording: ChannelHistory) -> float:
@@ -170,13 +172,13 @@ def known_lines(recording: ChannelHistory, highest: float) -> list[KinematicLine
     same = (np.ptp(values, axis=0) <= _SAME * values.max(axis=0)).all()
     if same and np.ptp(rounds) <= _WHIRLS * rounds.max():
         return kinematic_lines(recording.kinematics(), highest, whirl=float(np.mean(whirls)))
-    found: dict[str, KinematicLine] = {}
+    lines: dict[str, KinematicLine] = {}
     for number, (one, whirl) in enumerate(zip(every, whirls, strict=True), start=1):
         for line in kinematic_lines(one, highest, whirl=whirl):
             shared = line.name.endswith("f_r") and " f_" not in line.name.removesuffix("f_r")
             name = line.name if shared else f"{line.name} of bearing {number}"
-            found[name] = replace(line, name=name)
-    return sorted(found.values(), key=lambda line: line.frequency)
+            lines[name] = replace(line, name=name)
+    return sorted(lines.values(), key=lambda line: line.frequency)
 
 
 def strongest(
@@ -190,8 +192,8 @@ def strongest(
     end = math.inf if recording.excitation_end is None else recording.excitation_end
     known = known_lines(recording, min(float(frequency[-1]), end))
     slip = _MEASURED if recording.turning_known else _SLIDING
-    found = strongest_lines(frequency, levels, count, known, slip)
-    return [Line(line.frequency, line.level, BEYOND) if line.frequency > end else line for line in found]
+    peaks = strongest_lines(frequency, levels, count, known, slip)
+    return [Line(line.frequency, line.level, BEYOND) if line.frequency > end else line for line in peaks]
 
 
 def circle(

@@ -175,7 +175,7 @@ def third_octave_picture(
 
 
 def order_picture(
-    found: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "",
+    levels: OrderMap, kinematics: KinematicFrequencies | None = None, title: str = "",
     excitation_end: float | None = None,
 ) -> "Figure":  # fmt: skip
     """Draw an order map: colour is the level (dB), upright lines are the kinematic orders.
@@ -183,11 +183,11 @@ def order_picture(
     ``excitation_end``: where the excitation ends (Hz), at the speed of ``kinematics``.
     """
     figure, ax = single((9.0, 5.5))
-    rpm = found.speed * 30.0 / math.pi
-    _colour_map(figure, ax, found.orders, rpm, found.levels)
+    rpm = levels.speed * 30.0 / math.pi
+    _colour_map(figure, ax, levels.orders, rpm, levels.levels)
     if kinematics is not None:
         orders = KinematicFrequencies(*(f / kinematics.f_r for f in kinematics))
-        _mark(ax, orders, float(found.orders[-1]), "white")
+        _mark(ax, orders, float(levels.orders[-1]), "white")
         if excitation_end is not None:
             _end_line(ax, np.full(2, excitation_end / kinematics.f_r), rpm[[0, -1]])
     label(ax, "order (multiples of the shaft's turns)", "shaft speed, r/min", title, grid=False)
@@ -195,7 +195,7 @@ def order_picture(
 
 
 def waterfall_picture(
-    found: Waterfall, title: str = "", excitation_order: float | None = None
+    levels: Waterfall, title: str = "", excitation_order: float | None = None
 ) -> "Figure":  # fmt: skip
     """Draw spectra over time: colour is the level (dB).
 
@@ -203,9 +203,9 @@ def waterfall_picture(
     (``recording.excitation_end / recording.kinematics().f_r``).
     """
     figure, ax = single((9.0, 5.5))
-    _colour_map(figure, ax, found.frequency, found.time, found.levels)
+    _colour_map(figure, ax, levels.frequency, levels.time, levels.levels)
     if excitation_order is not None:
-        _end_line(ax, excitation_order * np.abs(found.speed) / (2.0 * math.pi), found.time)
+        _end_line(ax, excitation_order * np.abs(levels.speed) / (2.0 * math.pi), levels.time)
     label(ax, "frequency, Hz", "time, s", title, grid=False)
     return figure
 
@@ -218,31 +218,31 @@ def circle_picture(circles: Mapping[str, Round], title: str = "") -> "Figure":
     return figure
 
 
-def planes_picture(found: Mapping[str, Round], title: str = "") -> "Figure":
+def planes_picture(planes: Mapping[str, Round], title: str = "") -> "Figure":
     """Draw levels in three planes in their unit, on one scale.
 
     0 deg is 12 o'clock in YZ and +X in the others.
     """
     figure = empty((13.0, 4.8))
-    ends = _scale(found)
-    for k, (name, each) in enumerate(found.items()):
-        ax = figure.add_subplot(1, len(found), k + 1, projection="polar")
+    ends = _scale(planes)
+    for k, (name, each) in enumerate(planes.items()):
+        ax = figure.add_subplot(1, len(planes), k + 1, projection="polar")
         _polar(ax, {name: each}, "N" if name == "YZ" else "E", f"plane {name}, {each.unit}", ends=ends)
     figure.suptitle(title)
     return figure
 
 
-def sweep_picture(found: Sweep, title: str = "") -> "Figure":
+def sweep_picture(sweep: Sweep, title: str = "") -> "Figure":
     """Draw largest level, DL and DV over the radial distance, one curve per axial distance."""
     figure = empty((13.0, 4.2))
     axes = figure.subplots(1, 3)
-    unit = found.circles[0][0].unit
+    unit = sweep.circles[0][0].unit
     for ax, (name, words) in zip(
         axes, (("highest", f"largest level, {unit}"), ("dl", "DL"), ("dv", "DV, dB")), strict=True
     ):
-        for k, x in enumerate(found.axials):
-            values = [getattr(row[k].directivity, name) for row in found.circles]
-            ax.plot(1e3 * found.radii, values, marker="o", **series(k), label=f"l = {1e3 * x:g} mm")
+        for k, x in enumerate(sweep.axials):
+            values = [getattr(row[k].directivity, name) for row in sweep.circles]
+            ax.plot(1e3 * sweep.radii, values, marker="o", **series(k), label=f"l = {1e3 * x:g} mm")
         label(ax, "r, mm", words, "")
     axes[0].legend(frameon=False)
     figure.suptitle(title)

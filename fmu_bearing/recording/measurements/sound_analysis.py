@@ -155,14 +155,16 @@ def _spectra(
     signals: dict[str, NDArray[np.float64]], rate: float, resolution: float
 ) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
     """Frequencies (Hz) and levels (dB) of every signal, shape (mics, bins) by name."""
-    found = {name: [level_spectrum(row, rate, resolution) for row in rows] for name, rows in signals.items()}
-    frequency = found["total"][0][0]
-    return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in found.items()}
+    spectra = {
+        name: [level_spectrum(row, rate, resolution) for row in rows] for name, rows in signals.items()
+    }
+    frequency = spectra["total"][0][0]
+    return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in spectra.items()}
 
 
 def write_all(
     recording: ChannelHistory,
-    found: SoundAnalysis,
+    analysis: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None = None,
     wav: bool = True,
@@ -197,79 +199,79 @@ def write_all(
     from fmu_bearing.recording.measurements import pictures
 
     folder.mkdir(parents=True, exist_ok=True)
-    write_csv(folder / "levels.csv", *found.rows())
-    first = {name: levels[0] for name, levels in found.spectra.items()}
-    write_csv(folder / "spectrum.csv", *tables.spectrum_table(found.frequency, first))
-    thirds = dict(zip(found.names, found.third_octaves, strict=True))
+    write_csv(folder / "levels.csv", *analysis.rows())
+    first = {name: levels[0] for name, levels in analysis.spectra.items()}
+    write_csv(folder / "spectrum.csv", *tables.spectrum_table(analysis.frequency, first))
+    thirds = dict(zip(analysis.names, analysis.third_octaves, strict=True))
     alone = {
         f"{name} {part}": levels[k]
-        for k, name in enumerate(found.names)
-        for part, levels in found.third_octave_parts.items()
+        for k, name in enumerate(analysis.names)
+        for part, levels in analysis.third_octave_parts.items()
     }
-    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(found.bands, thirds | alone))
+    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(analysis.bands, thirds | alone))
     files = ["levels.csv", "spectrum.csv", "third-octaves.csv"]
     drawn = available("matplotlib", "a picture", "pictures", tell)
     if drawn:
-        pictures.save(spectra_picture(recording, found), folder / "spectrum.png")
-        drawn_of, title = _loudest(found, thirds)
-        bars = pictures.third_octave_picture(found.bands, drawn_of, title, recording.excitation_end)
+        pictures.save(spectra_picture(recording, analysis), folder / "spectrum.png")
+        drawn_of, title = _loudest(analysis, thirds)
+        bars = pictures.third_octave_picture(analysis.bands, drawn_of, title, recording.excitation_end)
         pictures.save(bars, folder / "third-octaves.png")
         files += ["spectrum.png", "third-octaves.png"]
-    if found.lines:
-        head = f"Strongest lines at {found.names[0]}\n\n"
-        (folder / "lines.md").write_text(head + markdown(*tables.lines_table(found.lines)), "utf-8")
+    if analysis.lines:
+        head = f"Strongest lines at {analysis.names[0]}\n\n"
+        (folder / "lines.md").write_text(head + markdown(*tables.lines_table(analysis.lines)), "utf-8")
         files.append("lines.md")
     if recording.changes_speed:
-        files += _orders(recording, found, folder, radiation_model, drawn, tell)
+        files += _orders(recording, analysis, folder, radiation_model, drawn, tell)
     if wav:
-        files += _sounds(recording, found, folder, radiation_model, wav_format)
+        files += _sounds(recording, analysis, folder, radiation_model, wav_format)
     if directivity and recording.history.size:
-        files += _directivity(recording, found, folder, radiation_model, drawn, tell)
+        files += _directivity(recording, analysis, folder, radiation_model, drawn, tell)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
     if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
-        write_netcdf(folder / "spectra.nc", found.to_xarray())
+        write_netcdf(folder / "spectra.nc", analysis.to_xarray())
         files.append("spectra.nc")
     return [folder / file for file in files]
 
 
 def _loudest(
-    found: SoundAnalysis, thirds: dict[str, NDArray[np.float64]]
+    analysis: SoundAnalysis, thirds: dict[str, NDArray[np.float64]]
 ) -> tuple[dict[str, NDArray[np.float64]], str]:
     """Return the microphones whose bars have room in a picture, and what it says of the others."""
     if len(thirds) <= _BARS:
         return thirds, ""
-    loud = sorted(np.argsort(-found.levels[:, 1])[:_BARS].tolist())
-    names = [found.names[k] for k in loud]
+    loud = sorted(np.argsort(-analysis.levels[:, 1])[:_BARS].tolist())
+    names = [analysis.names[k] for k in loud]
     return {name: thirds[name] for name in names}, f"the {_BARS} loudest of {len(thirds)} microphones"
 
 
-def spectra_picture(recording: ChannelHistory, found: SoundAnalysis) -> "Figure":
+def spectra_picture(recording: ChannelHistory, analysis: SoundAnalysis) -> "Figure":
     """Draw the spectra at the first microphone, with the bearing's frequencies; Matplotlib is needed."""
     from fmu_bearing.recording.measurements import pictures
 
-    audible = found.frequency <= 20_000.0
+    audible = analysis.frequency <= 20_000.0
     still = recording.scene is not None and not recording.changes_speed
     kinematics = recording.kinematics() if still else None
-    shown = {name: levels[0][audible] for name, levels in found.spectra.items()}
-    frequency, end = found.frequency[audible], recording.excitation_end
-    return pictures.spectrum_picture(frequency, shown, kinematics, found.names[0], end, found.lines)
+    shown = {name: levels[0][audible] for name, levels in analysis.spectra.items()}
+    frequency, end = analysis.frequency[audible], recording.excitation_end
+    return pictures.spectrum_picture(frequency, shown, kinematics, analysis.names[0], end, analysis.lines)
 
 
 def _sounds(
     recording: ChannelHistory,
-    found: SoundAnalysis,
+    analysis: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None,
     wav_format: str,
 ) -> list[str]:
     """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
     known = dict(recording.microphones)
-    both = zip(found.names, found.positions, strict=True)
+    both = zip(analysis.names, analysis.positions, strict=True)
     asked = [name if name in known else place for name, place in both]
     pressures = recording.pressure(asked, radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
-    files = [f"{stem}.wav" for stem in _stems(found.names)]
+    files = [f"{stem}.wav" for stem in _stems(analysis.names)]
     for file, pressure in zip(files, pressures, strict=True):
         write_wav(folder / file, pressure, recording.rate, scale, wav_format)
     return files
@@ -277,7 +279,7 @@ def _sounds(
 
 def _orders(
     recording: ChannelHistory,
-    found: SoundAnalysis,
+    analysis: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None,
     drawn: bool,
@@ -286,8 +288,8 @@ def _orders(
     """Write the order map at the first microphone; ``drawn``: a picture too."""
     from fmu_bearing.recording.measurements import pictures
 
-    name = found.names[0]
-    place = name if name in dict(recording.microphones) else found.positions[0]
+    name = analysis.names[0]
+    place = name if name in dict(recording.microphones) else analysis.positions[0]
     turns = abs(float(recording.angle[-1] - recording.angle[0])) / (2.0 * math.pi)
     whole = min(_TURNS, max(1, int(turns / _BLOCKS)))
     try:
@@ -307,18 +309,18 @@ def _orders(
 def _stems(names: Sequence[str]) -> list[str]:
     """Names of microphones as names of files, each its own, also where large and small letters are one."""
     taken: set[str] = set()
-    found = []
+    files = []
     for name in names:
         plain = re.sub(r"[^\w.]|^\.", "-", name)
         stems = itertools.chain([plain], (f"{plain}-{number}" for number in itertools.count(2)))
-        found.append(next(stem for stem in stems if stem.casefold() not in taken))
-        taken.add(found[-1].casefold())
-    return found
+        files.append(next(stem for stem in stems if stem.casefold() not in taken))
+        taken.add(files[-1].casefold())
+    return files
 
 
 def _directivity(
     recording: ChannelHistory,
-    found: SoundAnalysis,
+    analysis: SoundAnalysis,
     folder: pathlib.Path,
     radiation_model: str | None,
     drawn: bool,
@@ -331,7 +333,7 @@ def _directivity(
     from fmu_bearing.recording.measurements import pictures
 
     middle = (centre_of(recording.scene), 0.0, 0.0)
-    for radius in (min(math.dist(place, middle) for place in found.positions), 1.0):
+    for radius in (min(math.dist(place, middle) for place in analysis.positions), 1.0):
         try:
             planes = measure.planes(
                 recording, radius, count=36, weighting="A", radiation_model=radiation_model

@@ -124,11 +124,11 @@ class Comparison(Result):
             "levels": self.levels_table,
             "loads, angles, torque": self.figures_table,
         }
-        found = {title: make() for title, make in wanted.items()}
+        tables = {title: make() for title, make in wanted.items()}
         if microphone is not None or any(name in self.b.third_octaves for name in self.a.third_octaves):
             name = self._common_microphone(microphone)
-            found[f"third octaves at {name}"] = self.third_octaves_table(name)
-        return {title: table for title, table in found.items() if table[1]}
+            tables[f"third octaves at {name}"] = self.third_octaves_table(name)
+        return {title: table for title, table in tables.items() if table[1]}
 
     def plot(
         self, microphone: str | None = None, highest: float = _HIGHEST, title: str | None = None
@@ -218,11 +218,11 @@ class Comparison(Result):
 
     def summary(self) -> dict[str, Any]:
         """Return names, differing keys, levels, third octaves and figures of both, for machines."""
-        found: dict[str, Any] = {
+        document: dict[str, Any] = {
             "keys": {key: {"a": a, "b": b, "unit": _unit(key)} for key, (a, b) in self.keys.items()}
         }
         for side, here in (("a", self.a), ("b", self.b)):
-            found[side] = {
+            document[side] = {
                 "name": here.name,
                 "levels": {name: {"leq_dB": z, "laeq_dB": w} for name, (z, w) in here.levels.items()},
                 "third_octaves_dB": {
@@ -234,7 +234,7 @@ class Comparison(Result):
                 "fidelity": here.fidelity,
                 "radiation_model": here.radiation_model,
             }
-        return found
+        return document
 
     def __repr__(self) -> str:
         return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
@@ -381,10 +381,10 @@ def _pair(
 
 def _texts(a: float | None, b: float | None) -> list[str]:
     """Texts of two levels (dB) and their difference; a dash where one is missing."""
-    found = [_BLANK if value is None or math.isnan(value) else f"{value:.1f}" for value in (a, b)]
+    texts = [_BLANK if value is None or math.isnan(value) else f"{value:.1f}" for value in (a, b)]
     if a is None or b is None or math.isnan(b - a):
-        return [*found, _BLANK]
-    return [*found, f"{b - a:+.1f}"]
+        return [*texts, _BLANK]
+    return [*texts, f"{b - a:+.1f}"]
 
 
 def _unit(key: str) -> str:

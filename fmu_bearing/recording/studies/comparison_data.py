@@ -51,7 +51,7 @@ class ComparisonData:
     excitation_end : float, optional
         Hz: up to where surfaces excite it; None: not known.
     doubt : str
-        Why figures are in doubt (`modal.campbell.weak`, `cautions.in_doubt`); empty: they are not, or
+        Why figures are in doubt (`modal.campbell.doubts`, `cautions.in_doubt`); empty: they are not, or
         nothing is known of it, as of a run whose inputs are not known.
     fidelity, radiation_model : str
         What it was computed with; empty: not known.
@@ -89,16 +89,16 @@ def of_recording(recording: Recording, name: str = "", radiation_model: str | No
         return ComparisonData(
             own, recording.scene, {}, {}, None, figures, doubt=doubt_of(recording), fidelity=fidelity
         )
-    found = analyse_sound(recording, None, radiation_model)
-    levels = {name: (float(z), float(a)) for name, (z, a) in zip(found.names, found.levels, strict=True)}
-    bands = [float(f) for f in found.bands]
+    sound = analyse_sound(recording, None, radiation_model)
+    levels = {name: (float(z), float(a)) for name, (z, a) in zip(sound.names, sound.levels, strict=True)}
+    bands = [float(f) for f in sound.bands]
     thirds = {
         name: dict(zip(bands, map(float, row), strict=True))
-        for name, row in zip(found.names, found.third_octaves, strict=True)
+        for name, row in zip(sound.names, sound.third_octaves, strict=True)
     }
-    units = ("dB",) * len(found.names)
+    units = ("dB",) * len(sound.names)
     spectrum = Spectrum(
-        found.names, found.frequency, found.spectra["total"], units, MICROPHONE, recording.excitation_end
+        sound.names, sound.frequency, sound.spectra["total"], units, MICROPHONE, recording.excitation_end
     )
     return ComparisonData(
         own, recording.scene, levels, thirds, spectrum, figures, recording.excitation_end,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fmu_bearing.acoustics.filters.weighting import level
-from fmu_bearing.modal.campbell.weak import weakness
+from fmu_bearing.modal.campbell.doubts import reason_for_doubt
 from fmu_bearing.recording.studies.comparison_data import ComparisonData
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
 from fmu_bearing.results.base import Quantity, Result
@@ -114,7 +114,7 @@ def _obstacle(a: ComparisonData, b: ComparisonData, seeds: int) -> str:
             return f"radiation model {side.radiation_model} needs channels of its own for each draw"
         why = "its rings bend"
         if Setting(_FIDELITY).carries(side.scene):
-            why = weakness(side.scene, radiation_model=side.radiation_model)
+            why = reason_for_doubt(side.scene, radiation_model=side.radiation_model)
         if why:
             return f"draws of {letter} need fidelity full: {why}; `fmu-bearing sound` gives the range of each"
     for what, one, other in (

@@ -64,12 +64,12 @@ class LevelEstimator:
         blocks = Blocks(made.channels, RESOLUTION)
         self.frequency = blocks.frequency
         self._circles = self._circles or made.paths(self.places, self.radiation_model)
-        found = np.zeros((len(self.places), len(blocks.frequency)))
+        squares = np.zeros((len(self.places), len(blocks.frequency)))
         for circle in self._circles:
-            found[list(circle.members)] = blocks.mean_squares(circle)[""]
+            squares[list(circle.members)] = blocks.mean_squares(circle)[""]
         if self.weighting == "A":
-            found *= 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
-        return found
+            squares *= 10.0 ** (a_weighting_db(blocks.frequency) / 10.0)
+        return squares
 
 
 def check_model(radiation_model: str) -> None:

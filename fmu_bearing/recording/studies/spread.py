@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.cautions import in_doubt
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.modal.campbell.weak import doubt, weakness
+from fmu_bearing.modal.campbell.doubts import doubt, reason_for_doubt
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
@@ -210,7 +210,7 @@ def spread(
     places = [place for _, place in chosen]
     estimator = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
-    weak = weakness(scene, radiation_model=radiation_model or recording.radiation_model)
+    weak = reason_for_doubt(scene, radiation_model=radiation_model or recording.radiation_model)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     others = list(_corners(flaws)) if surface is None else _found(surface, scene, bool(weak))
     draws = [flaws, *flaws.redrawn(seeds, scene.seeds_apart), *others]

@@ -71,16 +71,16 @@ class Microphones:
 
         Totals are the recording's own; radiation models of the papers add energies there.
         """
-        recording, found = self.subject.recording, {}
+        recording, levels = self.subject.recording, {}
         for weighting in ("Z", "A"):
             if recording.history.size:
                 total = recording.levels(self.positions, self.subject.radiation_model, weighting)
             else:  # places may be unknown
                 total = level(recording.mean_square(self.pressure, weighting))
-            found[weighting] = {"total": total}
+            levels[weighting] = {"total": total}
             for name in self.components[1:]:
-                found[weighting][name] = level(recording.mean_square(self.parts[name], weighting))
-        return found
+                levels[weighting][name] = level(recording.mean_square(self.parts[name], weighting))
+        return levels
 
     @property
     def resolution(self) -> float:
@@ -99,10 +99,10 @@ class Microphones:
     def third_octaves(self) -> tuple[list[float], dict[str, NDArray[np.float64]]]:
         """Nominal frequencies (Hz), and levels (dB) by component, shape (shown, bands)."""
         settle = min(0.1, _SETTLE * self.subject.recording.size / self.rate)
-        found, centres = {}, np.empty(0)
+        levels, centres = {}, np.empty(0)
         for name in self.components:
-            centres, found[name] = third_octave_levels(self.signal(name)[self.shown], self.rate, settle)
-        return [nominal_frequency(centre) for centre in centres], found
+            centres, levels[name] = third_octave_levels(self.signal(name)[self.shown], self.rate, settle)
+        return [nominal_frequency(centre) for centre in centres], levels
 
     @property
     def third_octave_time(self) -> float:

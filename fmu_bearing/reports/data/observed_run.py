@@ -80,8 +80,8 @@ def observed(
         except Stopped as stop:
             recording, missing = stop.found, stop.missing
     recording.outputs.update(axis.outputs(scene))
-    for one, (watch, _) in zip(scene.bearings(), watches, strict=True):
-        recording.outputs.update({one.prefix + name: values for name, values in watch.outputs().items()})
+    for bearing, (watch, _) in zip(scene.bearings(), watches, strict=True):
+        recording.outputs.update({bearing.prefix + name: values for name, values in watch.outputs().items()})
     found = recording, list(dict.fromkeys(str(each.message) for each in caught))
     if missing:
         raise Stopped(found, missing)

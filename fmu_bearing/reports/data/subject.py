@@ -63,7 +63,7 @@ class Subject:
         """Prefixes of the variables of each bearing by words for it; of a single bearing both are empty."""
         if not self.several:
             return {"": ""}
-        return {f"bearing {one.number}": one.prefix for one in self.scene.bearings()}
+        return {f"bearing {bearing.number}": bearing.prefix for bearing in self.scene.bearings()}
 
     @property
     def at_speed(self) -> Scene:
@@ -89,8 +89,8 @@ class Subject:
         """Which communication points are within the recording, shape (points,)."""
         time, start = self.recording.output_time, self.recording.start
         end = start + self.recording.size / self.recording.rate
-        found: NDArray[np.bool_] = (time >= start - 1e-9) & (time <= end + 1e-9)
-        return found
+        within: NDArray[np.bool_] = (time >= start - 1e-9) & (time <= end + 1e-9)
+        return within
 
     @property
     def time(self) -> NDArray[np.float64]:

@@ -36,20 +36,20 @@ _MOST = 4  # shares named
 _LONG = 30  # rows of an open table
 
 
-def campbell_chart(found: Campbell) -> Chart:
+def campbell_chart(chart: Campbell) -> Chart:
     """Return the diagram; the pointer shows what is under it, and points have their branch and speed."""
-    crossings = counted(found)
-    highest, speeds = top(found, crossings), np.abs(found.rpm)
+    crossings = counted(chart)
+    highest, speeds = top(chart, crossings), np.abs(chart.rpm)
     drawn = look.figure(
         height=_HEIGHT, margin={"l": 66, "r": _RIGHT, "t": _TOP, "b": _BOTTOM}, showlegend=False,
     )  # fmt: skip
-    _draw_lines(drawn, found, crossings)
-    for k, branch in enumerate(found.branches):
+    _draw_lines(drawn, chart, crossings)
+    for k, branch in enumerate(chart.branches):
         _draw_branch(drawn, branch, k)
-    _draw_crossings(drawn, found, crossings)
-    texts = _draw_operation(drawn, found) + _names(found, highest)
+    _draw_crossings(drawn, chart, crossings)
+    texts = _draw_operation(drawn, chart) + _names(chart, highest)
     shapes = []
-    band = level_band(found)
+    band = level_band(chart)
     if band is not None:
         shapes.append({
             "type": "rect", "layer": "below", "xref": "paper", "x0": 0, "x1": 1, "y0": band[0], "y1": band[1],
@@ -62,32 +62,32 @@ def campbell_chart(found: Campbell) -> Chart:
     )  # fmt: skip
     return Chart(
         KEY, "Natural frequencies over speed, and what excites them", drawn,
-        f"Frequencies of {len(found.branches)} modes over the speed, {len(drawn_lines(crossings))} lines of "
-        f"excitation, {len(crossings)} crossings. {found.verdict()}",
-        note=_note(found),
+        f"Frequencies of {len(chart.branches)} modes over the speed, {len(drawn_lines(crossings))} lines of "
+        f"excitation, {len(crossings)} crossings. {chart.verdict()}",
+        note=_note(chart),
     )  # fmt: skip
 
 
-def _note(found: Campbell) -> str:
+def _note(diagram: Campbell) -> str:
     text = (
         "Solid: forward; dashed: backward; dotted: no direction. The thinner a branch, the less it is damped "
         "(limits at 0.2, 1, 3 and 10 %). Dots: speeds at which a line can excite the mode, larger for a "
         "larger Q. The bar is the operating speed, the ring the nearest crossing"
     )
-    if any((branch.damping < MARGIN).any() for branch in found.branches):
+    if any((branch.damping < MARGIN).any() for branch in diagram.branches):
         text += ". Red: a damping ratio below 0.2 %, at the limit of stability"
-    if found.scene.imperfections is None:
+    if diagram.scene.imperfections is None:
         text += ". The scene has no imperfections, so the lines are the lowest that its parts could make"
-    band = level_band(found)
+    band = level_band(diagram)
     if band is not None:
         text += f". Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels"
     return text + ". Drag to zoom, double-click to see all."
 
 
-def _draw_lines(drawn: Any, found: Campbell, crossings: list[Crossing]) -> None:
+def _draw_lines(drawn: Any, diagram: Campbell, crossings: list[Crossing]) -> None:
     lines = drawn_lines(crossings)
     largest = max((velocity for _, velocity in lines.values()), default=0.0)
-    speeds = np.abs(found.rpm)
+    speeds = np.abs(diagram.rpm)
     for name, (line, velocity) in lines.items():
         drawn.add_scatter(
             x=small(speeds), y=small(line.frequency), mode="lines", meta={"part": "line"},
@@ -142,10 +142,10 @@ def crossing_words(one: Crossing) -> str:
     return words if one.velocity > 0.0 else f"{words}<br>not in the scene"
 
 
-def _draw_crossings(drawn: Any, found: Campbell, crossings: list[Crossing]) -> None:
-    places = {id(branch): k for k, branch in enumerate(found.branches)}
+def _draw_crossings(drawn: Any, diagram: Campbell, crossings: list[Crossing]) -> None:
+    places = {id(branch): k for k, branch in enumerate(diagram.branches)}
     ordered = sorted(crossings, key=lambda one: -one.quality)
-    near = found.nearest()
+    near = diagram.nearest()
     if near is not None:
         drawn.add_scatter(
             x=[abs(near.rpm)], y=[near.frequency], mode="markers", meta={"part": "nearest"}, hoverinfo="skip",
@@ -170,27 +170,27 @@ def _draw_crossings(drawn: Any, found: Campbell, crossings: list[Crossing]) -> N
     )  # fmt: skip
 
 
-def _draw_operation(drawn: Any, found: Campbell) -> list[dict[str, Any]]:
+def _draw_operation(drawn: Any, diagram: Campbell) -> list[dict[str, Any]]:
     """Draw the bar at the operating speed; return its text."""
-    own, speeds = abs(found.scene.operation.speed_rpm), np.abs(found.rpm)
+    own, speeds = abs(diagram.scene.operation.speed_rpm), np.abs(diagram.rpm)
     if not speeds.min() <= own <= speeds.max():
         return []
     drawn.add_scatter(
-        x=[own, own], y=[0.0, 1.5 * found.highest], mode="lines", meta={"part": "operation"},
+        x=[own, own], y=[0.0, 1.5 * diagram.highest], mode="lines", meta={"part": "operation"},
         name="operation", line={"color": "#000000", "width": 4}, opacity=0.3, hoverinfo="skip",
     )  # fmt: skip
     words = f"<b>operation, {own:,.0f} r/min</b>"
-    if found.nearest() is not None:
-        words += f": {margin_words(found)}"
+    if diagram.nearest() is not None:
+        words += f": {margin_words(diagram)}"
     return [{
         "text": words, "x": 0.0, "xref": "paper", "xanchor": "left", "y": 1.0, "yref": "paper",
         "yanchor": "bottom", "showarrow": False, "font": {"size": 12},
     }]  # fmt: skip
 
 
-def _names(found: Campbell, highest: float) -> list[dict[str, Any]]:
+def _names(diagram: Campbell, highest: float) -> list[dict[str, Any]]:
     """Names of the branches beside the axes, apart from each other, in the order of their ends."""
-    ends = [end for end in map(end_of, found.branches) if end.frequency <= highest]
+    ends = [end for end in map(end_of, diagram.branches) if end.frequency <= highest]
     return [
         {
             "text": words, "x": 1.0, "xref": "paper", "xanchor": "left", "xshift": 6,
@@ -228,12 +228,12 @@ def _remark(row: dict[str, Any]) -> str:
     return "; ".join(remarks)
 
 
-def crossing_table(found: Campbell, folded: bool | None = None) -> Table | None:
+def crossing_table(diagram: Campbell, folded: bool | None = None) -> Table | None:
     """Return the crossings by their distance from the operating speed; None where there is none.
 
     ``folded``: whether it opens on request only; default: where it is long.
     """
-    own, crossings = abs(found.scene.operation.speed_rpm), counted(found)
+    own, crossings = abs(diagram.scene.operation.speed_rpm), counted(diagram)
     if not crossings:
         return None
     if own > 0.0:

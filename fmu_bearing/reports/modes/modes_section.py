@@ -56,35 +56,35 @@ def _at_rest(scene: Scene) -> list[Block]:
 
 def _over_speed(scene: Scene, rpm: float) -> list[Block]:
     try:
-        found = campbell(scene, [share * rpm for share in _SHARES], highest=HIGHEST)
+        diagram = campbell(scene, [share * rpm for share in _SHARES], highest=HIGHEST)
     except ValueError as problem:
         point = modes(scene)
         reason = Words(f"No Campbell diagram: {problem}.", "absent")
         return [reason, *_said(point.cautions()), mode_table(point, HIGHEST)]
     # the shaft's own speed may be one of those without equilibrium
-    point = nearest_point(found, rpm)
-    blocks: list[Block] = [Words(found.verdict()), *_said(_cautions(found, point))]
-    blocks += [campbell_chart(found), mode_table(point, HIGHEST)]
-    table = crossing_table(found, folded=True)
+    point = nearest_point(diagram, rpm)
+    blocks: list[Block] = [Words(diagram.verdict()), *_said(_cautions(diagram, point))]
+    blocks += [campbell_chart(diagram), mode_table(point, HIGHEST)]
+    table = crossing_table(diagram, folded=True)
     return blocks if table is None else [*blocks, table]
 
 
-def nearest_point(found: Campbell, rpm: float) -> Modes:
+def nearest_point(diagram: Campbell, rpm: float) -> Modes:
     """Return the modes at the computed speed nearest to one (r/min)."""
-    return min(found.points, key=lambda point: abs(abs(point.rpm) - abs(rpm)))
+    return min(diagram.points, key=lambda point: abs(abs(point.rpm) - abs(rpm)))
 
 
-def _cautions(found: Campbell, point: Modes) -> list[str]:
+def _cautions(diagram: Campbell, point: Modes) -> list[str]:
     """Return what limits modes at the operating point, then over speed; the note below names the cage."""
     own = [words for words in point.cautions() if not words.startswith("the cage")]
-    return own + found.cautions()
+    return own + diagram.cautions()
 
 
 def _said(cautions: list[str]) -> list[Words]:
     return [Words(f"{words[0].upper()}{words[1:]}.", "warning") for words in cautions]
 
 
-def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | None = None) -> pathlib.Path:
+def modes_page(chart: Campbell, path: str | os.PathLike[str], point: Modes | None = None) -> pathlib.Path:
     """Write a page about natural motions that needs a browser and no network, and return its path.
 
     Beside the Campbell diagram the chosen mode moves: a click on a branch or a crossing chooses one.
@@ -113,11 +113,11 @@ def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | Non
     'modes.html'
     """
     target = check_file(path, ".html", "a page")
-    scene, own = found.scene, found.scene.operation.speed_rpm
-    point = point or nearest_point(found, own)
-    diagram: list[Block] = [campbell_chart(found), moving_shapes(found)]
-    tables: list[Block] = [mode_table(point, found.highest), *_apart(point, found.highest)]
-    crossings = crossing_table(found)
+    scene, own = chart.scene, chart.scene.operation.speed_rpm
+    point = point or nearest_point(chart, own)
+    diagram: list[Block] = [campbell_chart(chart), moving_shapes(chart)]
+    tables: list[Block] = [mode_table(point, chart.highest), *_apart(point, chart.highest)]
+    crossings = crossing_table(chart)
     sections = [
         Section(
             "diagram", "Campbell diagram",
@@ -128,11 +128,11 @@ def modes_page(found: Campbell, path: str | os.PathLike[str], point: Modes | Non
         if crossings is not None
         else Section("crossings", "Crossings", (), "no line meets a mode at these speeds"),
     ]  # fmt: skip
-    speeds = np.abs(found.rpm)
+    speeds = np.abs(chart.rpm)
     text = render(
         scene.name, f"{scene.bearing.designation}, {speeds.min():,.0f} to {speeds.max():,.0f} r/min",
-        f"scene {scene.name}, {len(found.points)} speeds", sections, _tiles(found, point), [found.verdict()],
-        [f"{words[0].upper()}{words[1:]}." for words in _cautions(found, point)], kind="Modes of a bearing",
+        f"scene {scene.name}, {len(chart.points)} speeds", sections, _tiles(chart, point), [chart.verdict()],
+        [f"{words[0].upper()}{words[1:]}." for words in _cautions(chart, point)], kind="Modes of a bearing",
     )  # fmt: skip
     write_whole(target, text.encode("utf-8"))
     return target
@@ -157,20 +157,20 @@ def _apart(point: Modes, highest: float) -> list[Table]:
     return [Table(words, columns, cells, folded=True)]
 
 
-def _tiles(found: Campbell, point: Modes) -> list[dict[str, object]]:
+def _tiles(diagram: Campbell, point: Modes) -> list[dict[str, object]]:
     """Return the figures at the top: speed, number of modes, least damping, nearest crossing."""
-    own = abs(found.scene.operation.speed_rpm)
+    own = abs(diagram.scene.operation.speed_rpm)
     tiles: list[dict[str, object]] = [
         {"label": "operating speed", "text": f"{own:,.0f}", "unit": "r/min"},
-        {"label": f"modes of rings below {1e-3 * found.highest:g} kHz", "text": str(len(found.branches)),
+        {"label": f"modes of rings below {1e-3 * diagram.highest:g} kHz", "text": str(len(diagram.branches)),
          "unit": ""},
     ]  # fmt: skip
-    rings = [mode for mode in point.modes if mode.frequency <= found.highest and mode.ring_share > 0.5]
+    rings = [mode for mode in point.modes if mode.frequency <= diagram.highest and mode.ring_share > 0.5]
     if rings:
         least = min(rings, key=lambda mode: mode.damping)
         text = f"{100.0 * least.damping:.2g}"
         tiles.append({"label": f"least damping ratio, {least.label}", "text": text, "unit": "%"})
-    near = found.nearest()
+    near = diagram.nearest()
     if near is not None:
         text = f"{100.0 * (abs(near.rpm) / own - 1.0):+.1f}"
         tiles.append({"label": f"to {near.line.name} with {near.branch.label}", "text": text, "unit": "%"})

@@ -16,16 +16,16 @@ from fmu_bearing.reports.page.blocks import Shapes
 _DIGITS = 4
 
 
-def moving_shapes(found: Campbell) -> Shapes:
+def moving_shapes(diagram: Campbell) -> Shapes:
     """Return the shapes of all branches at all their speeds, as the page's script takes them."""
-    points = {id(mode): point for point in found.points for mode in point.modes}
-    own = abs(found.scene.operation.speed_rpm)
-    near = found.nearest()
-    chosen = next((k for k, branch in enumerate(found.branches) if near and branch is near.branch), 0)
+    points = {id(mode): point for point in diagram.points for mode in point.modes}
+    own = abs(diagram.scene.operation.speed_rpm)
+    near = diagram.nearest()
+    chosen = next((k for k, branch in enumerate(diagram.branches) if near and branch is near.branch), 0)
     start = 0
-    if found.branches:
-        start = int(np.argmin(np.abs(np.abs(found.branches[chosen].rpm) - own)))
-    bearing = found.scene.bearing
+    if diagram.branches:
+        start = int(np.argmin(np.abs(np.abs(diagram.branches[chosen].rpm) - own)))
+    bearing = diagram.scene.bearing
     return Shapes(
         "shape", "The chosen mode, enlarged",
         {
@@ -35,7 +35,7 @@ def moving_shapes(found: Campbell) -> Shapes:
                 "inner": [0.5 * bearing.bore_mm, 0.5 * bearing.inner_ring_outer_diameter_mm],
                 "outer": [0.5 * bearing.outer_ring_inner_diameter_mm, 0.5 * bearing.outside_diameter_mm],
             },
-            "branches": [_branch(branch, points) for branch in found.branches],
+            "branches": [_branch(branch, points) for branch in diagram.branches],
             "chosen": [chosen, start],
         },
         "Rings and balls of the bearing, moving as in the chosen mode: seen from +X, and cut along the axis.",
@@ -57,16 +57,16 @@ def _branch(branch: Branch, points: dict[int, Modes]) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _numbers(found: Shape) -> dict[str, Any]:
+def _numbers(shape: Shape) -> dict[str, Any]:
     """Shape as the page's script takes it: complex numbers are pairs, bending by ring."""
     flexure: list[list[list[Any]]] = [[], []]
-    for one in found.bends:
-        units = np.round([one.x, one.r, one.theta], _DIGITS).tolist()
-        flexure[one.ring].append([one.order, *_pairs(np.array([one.cosine, one.sine])), *units])
+    for bend in shape.bends:
+        units = np.round([bend.x, bend.r, bend.theta], _DIGITS).tolist()
+        flexure[bend.ring].append([bend.order, *_pairs(np.array([bend.cosine, bend.sine])), *units])
     return {
-        "inner": _pairs(found.inner), "outer": _pairs(found.outer), "flexure": flexure,
-        "balls": [_pairs(row) for row in found.patterns],
-        "orbit": round(found.orbit, 5), "shaft": round(found.shaft, 5),
+        "inner": _pairs(shape.inner), "outer": _pairs(shape.outer), "flexure": flexure,
+        "balls": [_pairs(row) for row in shape.patterns],
+        "orbit": round(shape.orbit, 5), "shaft": round(shape.shaft, 5),
     }  # fmt: skip
 
 

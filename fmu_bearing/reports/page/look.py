@@ -61,8 +61,8 @@ def microphone(place: int, count: int) -> dict[str, Any]:
 
 
 def _plotly(style: dict[str, Any]) -> dict[str, Any]:
-    found = {"color": style["color"], "dash": _DASHES[style["linestyle"]]}
-    return found | ({"width": style["linewidth"]} if "linewidth" in style else {})
+    line_style = {"color": style["color"], "dash": _DASHES[style["linestyle"]]}
+    return line_style | ({"width": style["linewidth"]} if "linewidth" in style else {})
 
 
 def words(name: str) -> str:

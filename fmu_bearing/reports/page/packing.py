@@ -43,6 +43,6 @@ def figures(charts: Mapping[str, Any]) -> bytes:
         arrays.extend(numbers.view(np.uint8).reshape(-1, kind.itemsize).T.tobytes())
         return {ARRAY: [value["dtype"], place, len(numbers), shape]}
 
-    found = {key: taken(json.loads(figure.to_json())) for key, figure in charts.items()}
-    words = json.dumps(found, separators=(",", ":")).encode("utf-8")
+    packed_figures = {key: taken(json.loads(figure.to_json())) for key, figure in charts.items()}
+    words = json.dumps(packed_figures, separators=(",", ":")).encode("utf-8")
     return struct.pack("<I", len(words)) + words + bytes(arrays)

@@ -86,6 +86,6 @@ def render(
 
 
 def _code(text: str) -> Any:
-    """Return a text with what stands between backticks set as code, for a page."""
+    """Return a text with the words between backticks set as code, for a page."""
     safe = need("jinja2.utils", "a report").markupsafe
     return safe.Markup(re.sub("`([^`]+)`", r"<code>\1</code>", str(safe.escape(text))))

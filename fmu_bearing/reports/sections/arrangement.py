@@ -23,8 +23,8 @@ _WARMER = (0.0, 5.0, 10.0, 15.0, 20.0)  # K
 
 def arrangement(subject: Subject) -> Section:
     """Draw the shaft with its bearings, and list what each carries."""
-    found = subject.point.statics
-    return Section("arrangement", "Arrangement", [_drawing(found.scene), _bearings(found)])
+    statics = subject.point.statics
+    return Section("arrangement", "Arrangement", [_drawing(statics.scene), _bearings(statics)])
 
 
 def _drawing(scene: Scene) -> Chart:
@@ -77,7 +77,7 @@ def pressure_centres(scene: Scene) -> list[float]:
     return [one.position_mm - one.sign * reach for one in set_of(scene).bearing]
 
 
-def _bearings(found: Statics) -> Table:
+def _bearings(statics: Statics) -> Table:
     """Return the loads of each bearing."""
     columns = (
         "bearing", "at, mm", "axial, N", "y, N", "z, N", "largest ball load, N", "unloaded balls",
@@ -90,7 +90,7 @@ def _bearings(found: Statics) -> Table:
             str(row["balls_unloaded"]), f"{row['angle_inner_max_deg']:.2f}",
             f"{max(row['pressure_inner_GPa'], row['pressure_outer_GPa']):.3f}",
         ]
-        for row in found.table()
+        for row in statics.table()
     ]  # fmt: skip
     return Table("What each bearing carries, in the axes of the shaft", columns, rows)
 
@@ -103,17 +103,17 @@ def axial(subject: Subject) -> Section:
     Absent
         Where no load unloads a bearing.
     """
-    found = subject.point.statics
-    if not found.lift_off:
+    statics = subject.point.statics
+    if not statics.lift_off:
         raise Absent("no axial load unloads a bearing of this set")
-    reach = [_BEYOND * one.load for one in found.lift_off.values()]
+    reach = [_BEYOND * one.load for one in statics.lift_off.values()]
     low, high = min(0.0, *reach), max(0.0, *reach)
     loads, shares, places = [], [], []
-    signs = np.array([one.sign for one in found.bearings])
+    signs = np.array([bearing.sign for bearing in statics.bearings])
     alone = dict.fromkeys(range(U.NOSE, U.NOSE + SP.PLANE), 0.0)
     for load in np.linspace(low, high, _STEPS):
         try:
-            run = started(found.scene, alone | {U.NOSE: float(load)})
+            run = started(statics.scene, alone | {U.NOSE: float(load)})
         except EngineError:
             continue
         loads.append(load)
@@ -127,7 +127,7 @@ def axial(subject: Subject) -> Section:
     figure.add_scatter(
         x=loads, y=places, name="nose, um", yaxis="y2", line={"color": "#7F7F7F", "dash": "dash"}
     )
-    for one in found.lift_off.values():
+    for one in statics.lift_off.values():
         figure.add_vline(x=one.load, line={"color": "#8C6D1F", "dash": "dot"})
     figure.update_xaxes(axis("axial load on the shaft, N"))
     figure.update_layout(
@@ -150,10 +150,10 @@ def warmth(subject: Subject) -> Section:
     Absent
         For a set without preload, and where it cannot be warmer.
     """
-    found = subject.point.statics
-    if not found.preloads:
+    statics = subject.point.statics
+    if not statics.preloads:
         raise Absent("a set that carries one way has no preload")
-    rings, shaft = _warm_keys(found.scene)
+    rings, shaft = _warm_keys(statics.scene)
     figure = look.figure(380)
     for name, keys, colour in (
         ("inner rings warmer", rings, "#D55E00"),
@@ -164,7 +164,7 @@ def warmth(subject: Subject) -> Section:
         for rise in _WARMER:
             changes = shaft | {key: value + rise for key, value in keys.items()}
             try:
-                curve.append(preloads(started(found.scene.replace(changes)))["running"][0])
+                curve.append(preloads(started(statics.scene.replace(changes)))["running"][0])
             except (SceneError, EngineError) as problem:
                 raise Absent(f"{name} by {rise:g} K: {problem}") from None
         figure.add_scatter(x=_WARMER, y=curve, name=name, line={"color": colour})
@@ -179,9 +179,9 @@ def _warm_keys(scene: Scene) -> tuple[dict[str, float], dict[str, float]]:
     """Return keys and values (degC) of what warms the inner rings, and the shaft."""
     spindle, warm = set_of(scene), scene.operation.inner_ring_temperature_degC
     rings = {"operation.inner_ring_temperature_degC": warm}
-    for number, one in enumerate(spindle.bearing, start=1):
-        if one.inner_ring_temperature_degC is not None:
+    for number, bearing in enumerate(spindle.bearing, start=1):
+        if bearing.inner_ring_temperature_degC is not None:
             key = f"spindle.bearing[{number}].inner_ring_temperature_degC"
-            rings[key] = one.inner_ring_temperature_degC
+            rings[key] = bearing.inner_ring_temperature_degC
     own = spindle.shaft.temperature_degC
     return rings, {"spindle.shaft.temperature_degC": warm if own is None else own}

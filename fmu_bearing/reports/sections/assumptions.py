@@ -24,7 +24,7 @@ def assumed_table(scene: Scene, origins: Sequence[Origin] = ()) -> Table:
         Of the file it was read from; empty where there is none.
     """
     if origins:
-        marked = [one for one in origins if one.assumed]
+        marked = [origin for origin in origins if origin.assumed]
         rows = [
             [one.key, _shown(one.value), one.unit, meaning(scene, one.key), one.origin, one.remark]
             for one in marked

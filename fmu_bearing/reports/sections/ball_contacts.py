@@ -236,8 +236,8 @@ def _table(subject: Subject, number: int) -> Table:
 def _stiffness(subject: Subject, number: int) -> list[list[str]]:
     """Rows of the stiffness at rest: words, unit, value; none without scene or equilibrium."""
     try:
-        found = subject.point.bearings[number].stiffness
+        stiffness = subject.point.bearings[number].stiffness
     except Absent:
         return []
-    sizes = (("axial", found[0, 0]), ("radial", 0.5 * (found[1, 1] + found[2, 2])))
+    sizes = (("axial", stiffness[0, 0]), ("radial", 0.5 * (stiffness[1, 1] + stiffness[2, 2])))
     return [[f"{way} stiffness at rest", "N/um", f"{1e-6 * size:.4g}"] for way, size in sizes]

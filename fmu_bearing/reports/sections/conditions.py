@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.prepare.still import longest_internal_step
+from fmu_bearing.prepare.step_limits import longest_internal_step
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent, Block, Folded, Section, Table, Words
 from fmu_bearing.reports.sections.assumptions import assumed_table

@@ -33,13 +33,13 @@ def error_motion(subject: Subject) -> Section:
     Absent
         Where the shaft does not turn evenly, or for too few revolutions.
     """
-    found = _read(subject)
-    (one,) = found.speeds
-    if found.against == "ground":
+    motion = _read(subject)
+    (one,) = motion.speeds
+    if motion.against == "ground":
         what = "of the nose of the shaft against the ground"
     else:
         what = "of the inner ring against the outer ring"
-    columns, rows = found.table()
+    columns, rows = motion.table()
     fitted = bool(one.nose.rates)
     chosen = [k for k, name in enumerate(columns) if k >= _OF_RUN and (fitted or "by line" not in name)]
     tilts = subject.several or subject.has(*OUTER_TILTS)
@@ -52,9 +52,9 @@ def error_motion(subject: Subject) -> Section:
     )
     blocks: list[Block] = [table, _polar(one)]
     if fitted:
-        remarks = [line for line in found.remarks() if line != BOUND]
+        remarks = [line for line in motion.remarks() if line != BOUND]
         blocks[1:1] = [Words(f"{line[0].upper()}{line[1:]}.", "note") for line in remarks]
-        blocks += _sources(found)
+        blocks += _sources(motion)
     return Section("error-motion", "Error motion", blocks)
 
 
@@ -71,17 +71,17 @@ def _synchronous(fitted: bool) -> str:
     )
 
 
-def _sources(found: ErrorMotion) -> list[Block]:
+def _sources(motion: ErrorMotion) -> list[Block]:
     """Return the largest lines, and what each bearing and each of its sources makes alone."""
-    columns, rows = found.lines()
+    columns, rows = motion.lines()
     blocks: list[Block] = [
         Table(
             "Largest lines of the error motion, amplitudes", columns[1:], [r[1:] for r in rows], folded=True
         )
     ]
-    parts = [("source", found.per_source())]
-    if found.against == "ground":
-        parts.insert(0, ("bearing", found.per_bearing()))
+    parts = [("source", motion.per_source())]
+    if motion.against == "ground":
+        parts.insert(0, ("bearing", motion.per_bearing()))
     for name, (heads, cells) in parts:
         caption = f"Asynchronous error motion that the lines of each {name} make alone"
         blocks.append(Table(caption, heads[1:], [row[1:] for row in cells], folded=True))

@@ -32,16 +32,16 @@ def bodies_of(subject: Subject, motion: str = "velocity") -> list[str]:
     if subject.fidelity in ("rings", "response"):
         bodies.remove("cage")
     names = [prefix + body for prefix in subject.prefixes.values() for body in bodies]
-    found = [name for name in ("shaft.nose", "housing", *names) if subject.has(f"{name}.{motion}.x")]
-    if not found:
+    moving = [name for name in ("shaft.nose", "housing", *names) if subject.has(f"{name}.{motion}.x")]
+    if not moving:
         subject.output(f"{names[0]}.{motion}.x")  # says what is missing
     if subject.several:  # outer rings in a housing at rest
-        found = [
-            name for name in found if any(np.ptp(subject.output(f"{name}.{motion}.{axis}")) for axis in AXES)
+        moving = [
+            name for name in moving if any(np.ptp(subject.output(f"{name}.{motion}.{axis}")) for axis in AXES)
         ]
-    if not found:
+    if not moving:
         raise Absent("nothing moves")
-    return found
+    return moving
 
 
 def velocities(subject: Subject) -> Section:
@@ -210,16 +210,16 @@ def orbits(subject: Subject) -> Section:
 
 def _orbits(subject: Subject, bodies: list[str], first: int) -> Chart:
     """Draw orbits side by side; ``first``: number of the first one, from 0."""
-    found: dict[str, list[NDArray[np.float64]]] = {}
+    orbits: dict[str, list[NDArray[np.float64]]] = {}
     for body in bodies:
         both = [1e6 * subject.output(f"{body}.displacement.{axis}") for axis in "yz"]
-        found[body] = [values - values.mean() for values in both]
-    count = len(found)
+        orbits[body] = [values - values.mean() for values in both]
+    count = len(orbits)
     figure = look.figure(height=340, showlegend=False)
     turns = min(_ORBIT_TURNS, (subject.time[-1] - subject.time[0]) / subject.turn)
     last = max(2, round(turns * subject.turn / subject.step)) if np.isfinite(turns) else len(subject.time)
     narrow: dict[str, Any] = {"height": 360 * count}
-    for k, (body, (y, z)) in enumerate(found.items()):
+    for k, (body, (y, z)) in enumerate(orbits.items()):
         number = "" if k == 0 else str(k + 1)
         reach = 1.08 * max(float(np.max(np.abs(y))), float(np.max(np.abs(z))), 1e-6)
         bins = np.linspace(0.0, 1.0, count * 100 + 1)
@@ -263,13 +263,13 @@ def _orbits(subject: Subject, bodies: list[str], first: int) -> Chart:
         "Orbits of the centres in the bearing plane, about their mean",
         figure,
         "Paths of the centres of "
-        + _listed(list(found))
+        + _listed(list(orbits))
         + " in the plane across the axis, in micrometres: "
-        + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in found.items()),
+        + "; ".join(f"{look.words(body)} {_extent(y, z)}" for body, (y, z) in orbits.items()),
         note=f"Seen from +X: y grows to the right, z upwards, positive rotation runs anticlockwise. Grey: "
         f"places of the whole recording in squares of 1/{_CELLS} of a picture, the more often, the darker; "
         f"in colour every value of its last {turns:.3g} turns. "
-        + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in found.items())
+        + "; ".join(f"{look.words(body)}: {_extent(y, z)}" for body, (y, z) in orbits.items())
         + ".",
     )
 

@@ -10,17 +10,17 @@ from fmu_bearing.reports.page.blocks import Absent, Block, Section, Table
 def seats(subject: Subject) -> Section:
     """Show two tables per bearing of a scene with fits, at the speed of the run."""
     try:
-        found = fits(subject.at_speed)
+        study = fits(subject.at_speed)
     except EngineError as problem:
         raise Absent(f"no equilibrium at a limit of the fits: {problem}") from None
-    assert found.scene.fit is not None
-    take = found.scene.fit.take
+    assert study.scene.fit is not None
+    take = study.scene.fit.take
     blocks: list[Block] = []
-    for one in found.column(take).bearings:
-        name = f"bearing {one.number}: " if subject.several else ""
-        words = f"{name}{found.words(one.number)}"
-        blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(one), stacked=True))
-        note = " ".join(f"{line[0].upper()}{line[1:]}." for line in found.remarks)
+    for bearing in study.column(take).bearings:
+        name = f"bearing {bearing.number}: " if subject.several else ""
+        words = f"{name}{study.words(bearing.number)}"
+        blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(bearing), stacked=True))
+        note = " ".join(f"{line[0].upper()}{line[1:]}." for line in study.remarks)
         caption = f"Fits over their tolerances, {words}; each column is computed in full"
-        blocks.append(Table(caption, head(found), fit_rows(found, one.number), note=note, folded=True))
+        blocks.append(Table(caption, head(study), fit_rows(study, bearing.number), note=note, folded=True))
     return Section("fits", "Fits of the rings", blocks)

@@ -27,7 +27,7 @@ _TURNS = 10.0  # of the cage, for a mean worth the name
 
 def _tiles(figures: Iterable[Figure]) -> list[Tile]:
     """Return figures as the first screen shows them; those that the recording does not have are left out."""
-    found = []
+    tiles = []
     for key, label, unit, digits, value in figures:
         try:
             number = float(value())
@@ -35,8 +35,8 @@ def _tiles(figures: Iterable[Figure]) -> list[Tile]:
             continue
         if math.isfinite(number):
             text = digits(number) if callable(digits) else format(number, digits)
-            found.append({"key": key, "label": label, "value": number, "unit": unit, "text": text})
-    return found
+            tiles.append({"key": key, "label": label, "value": number, "unit": unit, "text": text})
+    return tiles
 
 
 def tiles(subject: Subject, microphones: Microphones | None, sure: Spread | None = None) -> list[Tile]:
@@ -61,15 +61,15 @@ def tiles(subject: Subject, microphones: Microphones | None, sure: Spread | None
 def cards(subject: Subject, judged: Iterable[Verdict]) -> tuple[list[Card], dict[str, float]]:
     """Return a card for each bearing of a set, with the gravest verdict on it, and all figures by name."""
     judged = list(judged)
-    found: list[Card] = []
+    shown: list[Card] = []
     named: dict[str, float] = {}
     for number, prefix in enumerate(subject.prefixes.values() if subject.several else ()):
         rows = _tiles(_figures(subject, number))
         named |= {prefix + row["key"]: row["value"] for row in rows}
         gravest = overall(one for one in judged if one.bearing == number + 1)
         cells = [(row["label"], row["text"], row["unit"]) for row in rows]
-        found.append(Card(f"Bearing {number + 1}", gravest, cells))
-    return found, named
+        shown.append(Card(f"Bearing {number + 1}", gravest, cells))
+    return shown, named
 
 
 def _power(subject: Subject, prefix: str) -> list[Figure]:
@@ -117,18 +117,18 @@ def _of_shaft(subject: Subject) -> list[Figure]:
         point = subject.point
     except Absent:
         return []
-    found, life = point.statics, math.nan if point.life is None else point.life
-    lowest = min(found.bearings, key=lambda one: one.axial)
+    statics, life = point.statics, math.nan if point.life is None else point.life
+    lowest = min(statics.bearings, key=lambda one: one.axial)
     figures: list[Figure] = [
         ("axial_stiffness", "axial stiffness of the shaft", "N/um", ".1f",
-         lambda: 1e-6 * found.axial_stiffness),
+         lambda: 1e-6 * statics.axial_stiffness),
         ("nose_stiffness", "radial stiffness at the nose", "N/um", ".1f",
-         lambda: 1e-6 * found.nose_stiffness),
+         lambda: 1e-6 * statics.nose_stiffness),
         ("least_axial_N", f"least axial load, bearing {lowest.number}", "N", ".1f", lambda: lowest.axial),
         ("life_h", "L10r of all bearings together", "h", shown_hours, lambda: life),
     ]  # fmt: skip
-    if found.lift_off:
-        way, first = min(found.lift_off.items(), key=lambda pair: abs(pair[1].load))
+    if statics.lift_off:
+        way, first = min(statics.lift_off.items(), key=lambda pair: abs(pair[1].load))
         words = f"axial load {way} that unloads bearing {first.bearing}"
         figures.append(("lift_off_N", words, "N", ".0f", lambda: abs(first.load)))
     return figures
@@ -143,7 +143,7 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
     """Describe the loudest component, the strongest line and other main results."""
     if microphones is None:
         return []
-    k, found = microphones.loudest, []
+    k, said = microphones.loudest, []
     parts = microphones.components[1:]
     if parts:
         ranked = sorted(parts, key=lambda name: -microphones.levels["A"][name][k])
@@ -154,7 +154,7 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
         total = microphones.levels["A"]["total"][k]
         if alone > total + _CANCELS:
             text += f"; in phase opposition they leave {total:.1f} dB(A) together"
-        found.append(text + ".")
+        said.append(text + ".")
     if subject.recording.scene is not None and k in microphones.shown:
         frequency, values = microphones.spectra["total"][microphones.shown.index(k)]
         lines = strongest(subject.recording, frequency, values, 1)
@@ -170,39 +170,39 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
                     "it stays the strongest" if sure.line_is_found else "no finding: it stays the strongest"
                 )
                 text += f"; {words} in {kept} of {drawn} draws"
-            found.append(text + ".")
+            said.append(text + ".")
     if sure is not None:
-        found.append(
+        said.append(
             f"That level lies between {sure.low[0]:.0f} and {sure.high[0]:.0f} dB(A). What decides: "
             f"{sure.decides(0)}. {sure.remark()}"
         )
-    return found
+    return said
 
 
 def warnings_of(subject: Subject) -> list[str]:
     """Return the limits of the figures, the warnings of the run first."""
-    found = list(subject.warnings)
+    warnings = list(subject.warnings)
     for words, prefix in subject.prefixes.items():
         whose = words and f" of {words}"
         for race in RACES:
             name = f"{prefix}contact.{race}.shoulder_margin"
             if subject.has(name) and (margin := float(subject.output(name).min())) < 0.0:
-                found.append(
+                warnings.append(
                     f"The ellipse of the most loaded contact of the {race} race{whose} reaches "
                     f"{-math.degrees(margin):.1f} deg beyond its shoulder: the edge cuts in there, while "
                     "loads and stiffness are computed for an unbroken groove."
                 )
         name = f"{prefix}film.lambda_min"
         if subject.has(name) and (film := float(subject.output(name).min())) < _THIN_FILM:
-            found.append(
+            warnings.append(
                 f"The thinnest film{whose} is {film:.2g} times the composite roughness: asperities touch "
                 "there, while traction is computed for a full film."
             )
     if doubted := doubt_of(subject.recording):
-        found.append(f"{doubted[0].upper()}{doubted[1:]}.")
-    found += _reach(subject)
-    found += _length(subject)
-    return list(dict.fromkeys(found))
+        warnings.append(f"{doubted[0].upper()}{doubted[1:]}.")
+    warnings += _reach(subject)
+    warnings += _length(subject)
+    return list(dict.fromkeys(warnings))
 
 
 def _reach(subject: Subject) -> list[str]:
@@ -212,7 +212,7 @@ def _reach(subject: Subject) -> list[str]:
     scene = subject.recording.scene
     sound_speed = 340.0 if scene.sound is None else scene.sound.sound_speed_m_s
     bodies = [body for _, body in bodies_of(scene)]
-    diameter = max(one.housing.diameter if one.housing else one.outer_ring.outer for one in bodies)
+    diameter = max(body.housing.diameter if body.housing else body.outer_ring.outer for body in bodies)
     highest = sound_speed / (math.pi * diameter)
     return [
         "Radiation model compact assumes bodies that are small against the wavelength. Its levels and "

@@ -24,10 +24,10 @@ class Judged:
     table: Table
 
 
-def overall_of(found: Iterable[Verdict], several: bool = False) -> Overall:
+def overall_of(every: Iterable[Verdict], several: bool = False) -> Overall:
     """Return the overall verdict; ``several``: figures of several bearings are named by bearing."""
-    verdicts_ = list(found)
-    judged = [one for one in verdicts_ if one.judgement != "not judged"]
+    verdicts_ = list(every)
+    judged = [verdict for verdict in verdicts_ if verdict.judgement != "not judged"]
     beyond = {
         which: [one for one in judged if one.judgement == which] for which in ("change", "watch")
     }  # fmt: skip
@@ -52,26 +52,26 @@ def judged(subject: Subject) -> Judged | None:
         point, ran = _of_run(subject.point, subject)
     except Absent:
         return None
-    found, several = verdicts(point), subject.several
+    judgements, several = verdicts(point), subject.several
     state = "perfect bearings in their steady state" if several else "perfect bearing in its steady state"
     caption = f"Verdicts at {subject.speed / RPM:,.0f} r/min: {ran}{state}"
-    columns, rows = _side_by_side(found, list(subject.prefixes)) if several else _one_by_one(found)
-    return Judged(found, Table(caption, columns, rows, note=_note(point, found), stacked=True))
+    columns, rows = _side_by_side(judgements, list(subject.prefixes)) if several else _one_by_one(judgements)
+    return Judged(judgements, Table(caption, columns, rows, note=_note(point, judgements), stacked=True))
 
 
-def _one_by_one(found: Iterable[Verdict]) -> tuple[list[str], list[list[str]]]:
+def _one_by_one(judgements: Iterable[Verdict]) -> tuple[list[str], list[list[str]]]:
     """Return columns and a row per verdict."""
-    rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in found]
+    rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in judgements]
     return ["", "value", "verdict", "limit", "source of the limit"], rows
 
 
-def _side_by_side(found: Sequence[Verdict], bearings: list[str]) -> tuple[list[str], list[list[str]]]:
+def _side_by_side(judgements: Sequence[Verdict], bearings: list[str]) -> tuple[list[str], list[list[str]]]:
     """Return columns and a row per figure, with its verdict on each bearing, or on all together."""
     whole: list[list[Verdict | None]] = [
-        [*(None for _ in bearings), one] for one in found if one.bearing is None
+        [*(None for _ in bearings), one] for one in judgements if one.bearing is None
     ]
     rows = []
-    for same in [*([*each, None] for each in side_by_side(found)), *whole]:
+    for same in [*([*each, None] for each in side_by_side(judgements)), *whole]:
         first = next(one for one in same if one is not None)
         cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
         rows.append([shared_label(first), *cells, first.limit, first.source])
@@ -96,8 +96,8 @@ def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, st
     return replace(point, bearings=tuple(bearings)), words
 
 
-def _note(point: OperatingPoint, found: tuple[Verdict, ...]) -> str:
+def _note(point: OperatingPoint, judgements: tuple[Verdict, ...]) -> str:
     """Say what to do: about the state itself, then about what is judged, the gravest first."""
-    advice = cautions(point, sorted(found, key=lambda one: one.judgement != "change"))
+    advice = cautions(point, sorted(judgements, key=lambda one: one.judgement != "change"))
     words = " ".join(f"{line[0].upper()}{line[1:]}." for line in advice)
     return words or "None of these limits is exceeded."

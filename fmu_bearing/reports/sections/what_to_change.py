@@ -45,22 +45,22 @@ def section(subject: Subject, tell: Tell, levels: bool | None = None) -> Section
     try:
         scene = at_speed(subject.recording)
         wanted = levels if levels is not None else not (scene.bends or subject.several)
-        found = changes(scene, levels=wanted, radiation_model=subject.radiation_model, tell=tell)
+        study = changes(scene, levels=wanted, radiation_model=subject.radiation_model, tell=tell)
     except ValueError as problem:
         raise Absent(str(problem)) from None
     if levels is None and not wanted:
-        found = replace(found, no_level=_BENDS if scene.bends else _SEVERAL)
-    return shown(found)
+        study = replace(study, no_level=_BENDS if scene.bends else _SEVERAL)
+    return shown(study)
 
 
-def shown(found: Changes) -> Section:
+def shown(study: Changes) -> Section:
     """Return the section of changes that were computed."""
-    blocks: list[Block] = [Words(text) for text in (_opening(found), found.resonance()) if text]
-    for figure in found.figures:
-        blocks.append(_chart(found, figure))
-        blocks += [Words(text) for text in _sentences(found, figure)]
-    blocks.append(_table(found))
-    blocks += [Words(text, "note") for text in found.remarks()]
+    blocks: list[Block] = [Words(text) for text in (_opening(study), study.resonance()) if text]
+    for figure in study.figures:
+        blocks.append(_chart(study, figure))
+        blocks += [Words(text) for text in _sentences(study, figure)]
+    blocks.append(_table(study))
+    blocks += [Words(text, "note") for text in study.remarks()]
     return Section("changes", "What to change", [_arrows(block) for block in blocks])
 
 
@@ -73,24 +73,24 @@ def _words(change: Change) -> str:
     return change.choice.words.replace("->", "\u2192")
 
 
-def _opening(found: Changes) -> str:
-    return f"Each choice alone, against {found.unchanged()}. Effects of several choices need not add up."
+def _opening(study: Changes) -> str:
+    return f"Each choice alone, against {study.unchanged()}. Effects of several choices need not add up."
 
 
-def _sentences(found: Changes, figure: str) -> list[str]:
+def _sentences(study: Changes, figure: str) -> list[str]:
     """Return the best change of each topic, with its effect on the other figures."""
     title, _, _, count = _SHOWN[figure]
-    gains = [each for each in found.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0]
+    gains = [each for each in study.ranked(figure) if each.acts(figure) and each.gain(figure) > 0.0]
     # one of each topic
     best = list({each.choice.topic: each for each in reversed(gains)}.values())
     best.sort(key=lambda each: -each.gain(figure))
     if not best:
         return [f"{title}: no choice makes it better."]
-    return [_sentence(each, figure, found) for each in best[:count]]
+    return [_sentence(each, figure, study) for each in best[:count]]
 
 
-def _sentence(change: Change, figure: str, found: Changes) -> str:
-    others = [name for name in (*found.figures, "stiffness") if name != figure and change.acts(name)]
+def _sentence(change: Change, figure: str, study: Changes) -> str:
+    others = [name for name in (*study.figures, "stiffness") if name != figure and change.acts(name)]
     gains = ", ".join(_phrase(change, name) for name in others if change.gain(name) > 0.0)
     losses = ", ".join(_phrase(change, name) for name in others if change.gain(name) < 0.0)
     text = f"{change.choice.words}: {_phrase(change, figure)}"
@@ -136,10 +136,10 @@ def _label(change: Change, figure: str) -> str:
     return f"{words}: {_value(change, figure):+.2f} N mm ({share:+.0f} %)"
 
 
-def _chart(found: Changes, figure: str) -> Chart:
+def _chart(study: Changes, figure: str) -> Chart:
     """Bars of the changes that are findings, the best on top, each with its words above it."""
     title, axis, names, _ = _SHOWN[figure]
-    rows = [each for each in found.ranked(figure) if each.acts(figure)]
+    rows = [each for each in study.ranked(figure) if each.acts(figure)]
     drawn = look.figure(
         height=_AROUND + _ROW * max(1, len(rows)),
         margin={"l": 14, "r": 14, "t": 34, "b": 52},
@@ -165,13 +165,13 @@ def _chart(found: Changes, figure: str) -> Chart:
     return Chart(
         f"changes-{figure}", f"{title}: what changes it", drawn,
         "Bars, the best change first. " + "; ".join(_label(each, figure) for each in rows) + ".",
-        note=_note(found, figure),
+        note=_note(study, figure),
     )  # fmt: skip
 
 
-def _note(found: Changes, figure: str) -> str:
+def _note(study: Changes, figure: str) -> str:
     """Return which changes have no bar, and why."""
-    idle = [each for each in found.ranked(figure) if not each.acts(figure)]
+    idle = [each for each in study.ranked(figure) if not each.acts(figure)]
     unsure = [each for each in idle if figure == "level" and each.depends_on_seed]
     parts = {
         "No finding, quieter with one seed and louder with another": unsure,
@@ -186,19 +186,19 @@ def _note(found: Changes, figure: str) -> str:
 
 def _bars(figure: str, rows: list[Change], places: list[int]) -> dict[str, Any]:
     values = [_value(rows[k], figure) for k in places]
-    found: dict[str, Any] = {
+    bars: dict[str, Any] = {
         "x": values, "y": places, "orientation": "h", "width": 0.26,
         "customdata": [_label(rows[k], figure) for k in places],
         "hovertemplate": "%{customdata}<extra></extra>",
     }  # fmt: skip
     if figure == "level":
         ranges = [rows[k].level_range for k in places]
-        found["error_x"] = {
+        bars["error_x"] = {
             "type": "data", "symmetric": False, "thickness": 1.4, "width": 3, "color": look.colour("grey"),
             "array": [high - value for (_, high), value in zip(ranges, values, strict=True)],
             "arrayminus": [value - low for (low, _), value in zip(ranges, values, strict=True)],
         }  # fmt: skip
-    return found
+    return bars
 
 
 def _decades(rows: list[Change]) -> dict[str, Any]:
@@ -213,13 +213,13 @@ def _decades(rows: list[Change]) -> dict[str, Any]:
     }
 
 
-def _table(found: Changes) -> Table:
-    columns, rows = found.table()
+def _table(study: Changes) -> Table:
+    columns, rows = study.table()
     head = {
         "dB(A)": "level, dB(A)", "over seeds": "range over seeds, dB(A)", "life": "life, h",
         "torque": "torque, N mm", "stiff.": "radial stiffness",
     }  # fmt: skip
-    ranked = found.ranked(found.figures[0])
+    ranked = study.ranked(study.figures[0])
     for each, row in zip(ranked, rows, strict=True):
         assert each.after is not None
         row[0] = _words(each)
@@ -231,5 +231,5 @@ def _table(found: Changes) -> Table:
         if "torque" in columns:
             row[columns.index("torque")] = f"{each.after.torque:.2f}"
     return Table(
-        "What each choice changes", [head.get(name, name) for name in columns], rows, note=found.conditions()
+        "What each choice changes", [head.get(name, name) for name in columns], rows, note=study.conditions()
     )

@@ -77,14 +77,14 @@ def sphere(subject: Subject) -> Sphere:
         frequency, squares = recording.mean_squares(places, subject.radiation_model, _resolution(subject))
     except ValueError as problem:
         raise Absent(str(problem)) from None
-    found = {}
+    levels = {}
     for name, weights in _bands(frequency).items():
         values = level(squares @ weights)
         whole = np.empty((_LATITUDES, _AROUND))
         whole[0], whole[-1] = values[0], values[1]
         whole[1:-1] = values[2:].reshape(_LATITUDES - 2, _AROUND)
-        found[name] = whole
-    return Sphere(polar, azimuth, found)
+        levels[name] = whole
+    return Sphere(polar, azimuth, levels)
 
 
 def _resolution(subject: Subject) -> float:
@@ -93,25 +93,25 @@ def _resolution(subject: Subject) -> float:
 
 def directivity(subject: Subject, microphones: Microphones | None) -> Section:
     """Balloon, three planes, and a circle through the first microphone."""
-    found = sphere(subject)
-    blocks: list[Block] = [_balloon(subject, found), _planes(subject, found)]
+    levels = sphere(subject)
+    blocks: list[Block] = [_balloon(subject, levels), _planes(subject, levels)]
     if microphones is not None and (chart := _circle(subject, microphones)) is not None:
         blocks.append(chart)
     return Section("directivity", "Directivity", blocks)
 
 
-def _choice(found: Sphere, unit: str) -> Choice:
-    return Choice("band", unit, [Option(name, name) for name in found.levels])
+def _choice(levels: Sphere, unit: str) -> Choice:
+    return Choice("band", unit, [Option(name, name) for name in levels.levels])
 
 
-def _balloon(subject: Subject, found: Sphere) -> Chart:
+def _balloon(subject: Subject, levels: Sphere) -> Chart:
     figure = look.figure(
         height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False, modebar=look.TOOLS_ABOVE
     )
-    directions = found.directions()
+    directions = levels.directions()
     closed = np.concatenate([directions, directions[:, :1]], axis=1)
-    spots = _spots(found)
-    for k, (name, values) in enumerate(found.levels.items()):
+    spots = _spots(levels)
+    for k, (name, values) in enumerate(levels.levels.items()):
         whole = np.concatenate([values, values[:, :1]], axis=1)
         top = float(values.max())
         radius = np.maximum(whole - (top - _RANGE), 0.0) / _RANGE
@@ -137,12 +137,12 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
             "camera": {"eye": {"x": 1.25, "y": 1.15, "z": 0.75}},
         }
     )  # fmt: skip
-    a = found.levels["A-weighted"]
+    a = levels.levels["A-weighted"]
     return Chart(
         "balloon", f"Level over direction at {subject.radius:g} m", figure,
         f"Three-dimensional directivity at {subject.radius:g} m: levels from {a.min():.1f} to {a.max():.1f} "
         "dB(A).",
-        (_choice(found, "Level"),), solid=True,
+        (_choice(levels, "Level"),), solid=True,
         note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
         f"centre is "
         f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
@@ -151,10 +151,10 @@ def _balloon(subject: Subject, found: Sphere) -> Chart:
     )  # fmt: skip
 
 
-def _spots(found: Sphere) -> NDArray[np.int16]:
+def _spots(levels: Sphere) -> NDArray[np.int16]:
     """Directions (deg) for the pointer: from +X, and from 12 o'clock, shape (latitudes, around + 1, 2)."""
-    around = np.append(np.degrees(found.azimuth), 0.0)
-    both = np.stack(np.meshgrid(np.degrees(found.polar), around, indexing="ij"), axis=-1)
+    around = np.append(np.degrees(levels.azimuth), 0.0)
+    both = np.stack(np.meshgrid(np.degrees(levels.polar), around, indexing="ij"), axis=-1)
     return np.round(both).astype(np.int16)
 
 
@@ -182,10 +182,10 @@ def _radial(band: str, values: NDArray[np.float64]) -> dict[str, Any]:
     return {"range": list(_scale(values)), "title": {"text": _unit(band)}}
 
 
-def _planes(subject: Subject, found: Sphere) -> Chart:
+def _planes(subject: Subject, levels: Sphere) -> Chart:
     choices = []
-    figure = look.polar(520, _radial("A-weighted", found.levels["A-weighted"]))
-    for k, (name, values) in enumerate(found.levels.items()):
+    figure = look.polar(520, _radial("A-weighted", levels.levels["A-weighted"]))
+    for k, (name, values) in enumerate(levels.levels.items()):
         for plane, row in _rounds(values).items():
             figure.add_scatterpolar(
                 theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row, DECIBELS), mode="lines",
@@ -212,11 +212,11 @@ def _circle(subject: Subject, microphones: Microphones) -> Chart | None:
         return None
     points = list(circle_points(radius, axial, _CIRCLE))
     frequency, squares = subject.recording.mean_squares(points, subject.radiation_model, _resolution(subject))
-    found = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
-    figure = look.polar(480, _radial("A-weighted", found["A-weighted"]))
+    levels = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
+    figure = look.polar(480, _radial("A-weighted", levels["A-weighted"]))
     angle = np.linspace(0.0, 360.0, _CIRCLE + 1)
     choices = []
-    for k, (name, values) in enumerate(found.items()):
+    for k, (name, values) in enumerate(levels.items()):
         figure.add_scatterpolar(
             theta=small(angle), r=small(np.append(values, values[0]), DECIBELS), mode="lines", name=name,
             meta={"band": name},

@@ -257,10 +257,10 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
         range(len(microphones.shown)), key=lambda k: microphones.levels["A"]["total"][microphones.shown[k]]
     )
     frequency, values = microphones.spectra["total"][place]
-    found = _lines(subject, frequency, values)
-    columns, rows = lines_table(found)
+    lines = _lines(subject, frequency, values)
+    columns, rows = lines_table(lines)
     end = subject.recording.excitation_end
-    for row, line in zip(rows, found, strict=True):
+    for row, line in zip(rows, lines, strict=True):
         at = int(np.argmin(np.abs(frequency - line.frequency)))
         parts = {name: microphones.spectra[name][place][1][at] for name in microphones.components[1:]}
         beyond = end is not None and line.frequency > end
@@ -277,13 +277,13 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
 
 
 def _third_octaves(microphones: Microphones) -> Chart:
-    bands, found = microphones.third_octaves
+    bands, levels = microphones.third_octaves
     figure = look.figure(height=400, barmode="group", bargap=0.12)
     names = [f"{band:g}" for band in bands]
     choice = _microphone_choice(microphones)
-    top = max(float(values.max()) for values in found.values())
+    top = max(float(values.max()) for values in levels.values())
     low = top - _RANGE
-    for name, values in found.items():
+    for name, values in levels.items():
         for k, row in enumerate(values):
             figure.add_bar(
                 x=names, y=small(np.maximum(row - low, 0.0)), base=low, name=look.words(name),

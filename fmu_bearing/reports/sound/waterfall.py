@@ -67,17 +67,17 @@ def _waterfall(microphones: Microphones) -> Waterfall:
 
 
 def _map(microphones: Microphones, over_speed: bool) -> Chart:
-    found = _waterfall(microphones)
+    blocks = _waterfall(microphones)
     name, _ = _microphone(microphones)
     start = microphones.subject.recording.start
-    y = found.speed / RPM if over_speed else found.time + start
+    y = blocks.speed / RPM if over_speed else blocks.time + start
     order = np.argsort(y)
-    top = float(found.levels.max())
+    top = float(blocks.levels.max())
     figure = look.figure(height=520, modebar=look.TOOLS_ABOVE)
     unit = "r/min" if over_speed else "s"
     figure.add_heatmap(
-        x0=float(found.frequency[0]), dx=float(found.frequency[1] - found.frequency[0]), y=small(y[order]),
-        z=small(np.maximum(found.levels[order], top - _RANGE), _STEP), zmin=top - _RANGE, zmax=top,
+        x0=float(blocks.frequency[0]), dx=float(blocks.frequency[1] - blocks.frequency[0]), y=small(y[order]),
+        z=small(np.maximum(blocks.levels[order], top - _RANGE), _STEP), zmin=top - _RANGE, zmax=top,
         zsmooth=False, colorscale="Magma", colorbar=look.bar("dB"),
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip
@@ -85,7 +85,7 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
         _order_lines(figure, microphones.subject, y[order])
     recording = microphones.subject.recording
     if recording.excitation_end is not None:
-        ends = recording.excitation_end * found.speed[order] / float(np.mean(recording.speed))
+        ends = recording.excitation_end * blocks.speed[order] / float(np.mean(recording.speed))
         figure.add_scatter(
             x=small(np.where(ends < _HIGHEST, ends, np.nan)), y=small(y[order]), mode="lines", name=END,
             line={"color": "#FFFFFF", "width": 1.5, "dash": "dash"}, showlegend=False,
@@ -101,7 +101,7 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
     title = f"Level over frequency and {'shaft speed' if over_speed else 'time'} at {name}"
     return Chart(
         "waterfall", title, figure, title + ", in dB re 20 uPa, as colours.",
-        note=f"Blocks of {1e3 / found.frequency[1]:.3g} ms, {found.frequency[1]:.3g} Hz between lines, "
+        note=f"Blocks of {1e3 / blocks.frequency[1]:.3g} ms, {blocks.frequency[1]:.3g} Hz between lines, "
         f"flat-top window."
         + (" Dotted: kinematic frequencies." if over_speed else "")
         + " Dashed: end of the excitation, where it lies within the picture. Levels below the scale are "

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class BearingStiffness(StiffnessTable):
-    """Stiffness and damping of a bearing's inner ring against the held outer ring, SI units.
+    """Stiffness and damping of a bearing's inner ring against the fixed outer ring, SI units.
 
     Forces on the ring are -K q - C q' with q = x, y, z (m) and tilts about y, z (rad), at the centre of the
     circle of balls. The balls' inertia and friction are in K and C; mass, gyroscopic moment and supports of

@@ -70,7 +70,7 @@ def arm(static: NDArray[np.float64]) -> float:
     return 1e-4 * math.ceil(1e4 * math.sqrt(float(np.max(tilt / radial))))
 
 
-def shares(matrix: NDArray[np.float64], a: float) -> NDArray[np.float64]:
+def plane_matrices(matrix: NDArray[np.float64], a: float) -> NDArray[np.float64]:
     """Return what each plane holds of a bearing's stiffness or damping.
 
     Parameters
@@ -87,22 +87,22 @@ def shares(matrix: NDArray[np.float64], a: float) -> NDArray[np.float64]:
     aside = _SIGNS[:, None] * matrix[..., _ASIDE, :][..., _ASIDE] * _SIGNS
     coupling = 0.5 * (aside[..., :2, 2:] + aside[..., 2:, :2]) / a
     tilt = aside[..., 2:, 2:] / a**2
-    found = np.zeros((3, *matrix.shape[:-2], 3, 3))
-    radial = found[..., 1:, 1:]
+    by_plane = np.zeros((3, *matrix.shape[:-2], 3, 3))
+    radial = by_plane[..., 1:, 1:]
     radial[0], radial[2] = 0.5 * (tilt - coupling), 0.5 * (tilt + coupling)
     radial[1] = aside[..., :2, :2] - tilt
-    found[1, ..., 0, 0] = matrix[..., _X, _X]
-    return found
+    by_plane[1, ..., 0, 0] = matrix[..., _X, _X]
+    return by_plane
 
 
-def together(held: NDArray[np.float64], a: float) -> NDArray[np.float64]:
-    """Return the matrices (shape (..., 5, 5)) that ``held``, as `shares` returns it, has together."""
-    found = np.zeros((*held.shape[1:-2], len(FREEDOMS), len(FREEDOMS)))
-    for place, one in zip((-a, 0.0, a), held, strict=True):
+def sum_of_planes(matrices: NDArray[np.float64], a: float) -> NDArray[np.float64]:
+    """Return the sum (shape (..., 5, 5)) of ``matrices``, which `plane_matrices` returns."""
+    matrix = np.zeros((*matrices.shape[1:-2], len(FREEDOMS), len(FREEDOMS)))
+    for place, one in zip((-a, 0.0, a), matrices, strict=True):
         lever = np.eye(len(FREEDOMS))[: _Z + 1]
         lever[_Y, _BZ], lever[_Z, _BY] = place, -place
-        found += lever.T @ one @ lever
-    return found
+        matrix += lever.T @ one @ lever
+    return matrix
 
 
 def mirrored_matrix(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -123,7 +123,7 @@ ERRORS = ("radial and tilt", "coupling", "axial coupling")
 
 
 def errors(
-    found: Planes, k: NDArray[np.float64], c: NDArray[np.float64], w: NDArray[np.float64]
+    matrices: Planes, k: NDArray[np.float64], c: NDArray[np.float64], w: NDArray[np.float64]
 ) -> NDArray[np.float64]:  # fmt: skip
     """Return how far K + i w C of the planes is from the bearing's, over the root of both diagonal entries.
 
@@ -141,7 +141,7 @@ def errors(
         the tilts; in the coupling of y and z with the tilts; and in the coupling of x with all others.
     """
     i_w = 1j * w[:, None, None]
-    off = together(found.K, found.a) - k + i_w * (together(found.C, found.a) - c)
+    off = sum_of_planes(matrices.K, matrices.a) - k + i_w * (sum_of_planes(matrices.C, matrices.a) - c)
     off = np.abs(off) / pairs(k + i_w * c)
     kind = np.array([0, 1, 1, 2, 2])  # axial, radial, tilt
     same = kind[:, None] == kind

@@ -39,36 +39,36 @@ def check_axes(speeds: int, frequencies: int) -> None:
 
 
 def write(
-    found: StiffnessTable, path: str | os.PathLike[str], preload: float | None, mirrored: bool,
+    table: StiffnessTable, path: str | os.PathLike[str], preload: float | None, mirrored: bool,
     nodes: tuple[int, int, int],
 ) -> tuple[Path, Path, Path]:  # fmt: skip
     """Write the elements; see `BearingStiffness.to_ross`."""
     target = check_file(path, ".toml", "an element for ROSS")
-    check_axes(len(found.speeds), len(found.frequencies))
-    planes = found.planes(preload, mirrored)
-    of = f"preload {found.preloads[found.at_preload(preload)]:g} N{', mirrored' if mirrored else ''}"
+    check_axes(len(table.speeds), len(table.frequencies))
+    planes = table.planes(preload, mirrored)
+    of = f"preload {table.preloads[table.at_preload(preload)]:g} N{', mirrored' if mirrored else ''}"
     files = []
     for k, node in enumerate(nodes):
-        text = _element(found, of, planes, k, node)
+        text = _element(table, of, planes, k, node)
         files.append(write_whole(target.with_name(f"{target.stem}-{k + 1}.toml"), text.encode()))
     return files[0], files[1], files[2]
 
 
-def _element(found: StiffnessTable, of: str, planes: Planes, k: int, node: int) -> str:
+def _element(table: StiffnessTable, of: str, planes: Planes, k: int, node: int) -> str:
     """Return the text of the file for the ``k``-th plane."""
-    tag = f"{found.scene.bearing.designation} {k + 1} of 3"
+    tag = f"{table.scene.bearing.designation} {k + 1} of 3"
     remarks = (
         f"Element {k + 1} of 3 of a bearing for ROSS {RELEASE}; release 2 cannot read it.",
-        f"Scene {found.scene.name}, {of}.",
+        f"Scene {table.scene.name}, {of}.",
         f"The node is {1e3 * planes.places[k]:+.4f} mm from the centre of the circle of balls along z, the",
         "axis of ROSS that is X of the scene. All three together are the bearing, its tilt included.",
     )
     lines = [f"# {remark}" for remark in remarks]
     lines += [f'["BearingElement_{tag}"]', f'tag = "{tag}"', f"n = {node}"]
-    if len(found.speeds) > 1:
-        lines.append(f"speed = {_list(found.speeds * RPM)}")
-    if len(found.frequencies) > 1:
-        lines.append(f"frequency = {_list(2.0 * np.pi * found.frequencies)}")
+    if len(table.speeds) > 1:
+        lines.append(f"speed = {_list(table.speeds * RPM)}")
+    if len(table.frequencies) > 1:
+        lines.append(f"frequency = {_list(2.0 * np.pi * table.frequencies)}")
     for letter, matrices in (("k", planes.K[k]), ("c", planes.C[k])):
         for name, (force, motion) in _ENTRIES.items():
             values = matrices[..., FREEDOMS.index(force), FREEDOMS.index(motion)]

@@ -82,9 +82,9 @@ class Stiffness(Result):
     def cautions(self) -> list[str]:
         """Return what limits these numbers and what a designer should look at, each line once."""
         lines = [] if self.nose is None else self.nose.cautions()
-        for one in self.bearings:
-            name = "" if self.nose is None else f"bearing {one.number}: "
-            lines += [f"{name}{line}" for line in one.cautions()]
+        for bearing in self.bearings:
+            name = "" if self.nose is None else f"bearing {bearing.number}: "
+            lines += [f"{name}{line}" for line in bearing.cautions()]
         return list(dict.fromkeys(lines))
 
     def files(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
@@ -92,7 +92,7 @@ class Stiffness(Result):
         path = Path(path)
         if self.nose is None:
             return (path,)
-        return tuple(path.with_stem(f"{path.stem}-{one.number}") for one in self.bearings)
+        return tuple(path.with_stem(f"{path.stem}-{bearing.number}") for bearing in self.bearings)
 
     def save(self, path: str | os.PathLike[str]) -> tuple[Path, ...]:
         """Write the bearings' tables, ``.csv`` or ``.nc``, to `files`; of a set ``.csv`` has the nose's too.
@@ -111,7 +111,7 @@ class Stiffness(Result):
         OSError
             Where it cannot be written.
         """
-        written = [one.save(file) for one, file in zip(self.bearings, self.files(path), strict=True)]
+        written = [bearing.save(file) for bearing, file in zip(self.bearings, self.files(path), strict=True)]
         if self.nose is not None and Path(path).suffix == ".csv":
             written.insert(0, self.nose.save(path))
         return tuple(written)
@@ -275,9 +275,9 @@ def _at(scene_and_inputs: tuple[Scene, dict[int, float]], row: list[Statics]) ->
     scene, inputs = scene_and_inputs
     if not scene.assembly.joined:
         return under_force(scene, inputs)
-    found = point(scene, inputs)
-    row.append(found.statics)
-    return found.system
+    statics = point(scene, inputs)
+    row.append(statics.statics)
+    return statics.system
 
 
 def _as_it_is(_bearing: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -289,12 +289,12 @@ def _axis(
 ) -> NDArray[np.float64]:
     """Return the values of an axis, rising, each once."""
     try:
-        found = np.unique([float(value) for value in (default if values is None else values)])
+        axis = np.unique([float(value) for value in (default if values is None else values)])
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {values!r} is refused: give numbers, in {unit}") from None
-    if found.size == 0 or not np.isfinite(found).all():
+    if axis.size == 0 or not np.isfinite(axis).all():
         raise ValueError(f"{name} = {values!r} is refused: give finite numbers, in {unit}")
-    return found
+    return axis
 
 
 def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:

@@ -24,14 +24,14 @@ _TILTS = ("by", "bz")
 STATIC, DYNAMIC = "static", "dynamic"
 
 
-def save(found: StiffnessTable, path: str | os.PathLike[str]) -> Path:
+def save(table: StiffnessTable, path: str | os.PathLike[str]) -> Path:
     """Write a table to ``.csv`` or ``.nc``; see `BearingStiffness.save`."""
     target = check_target(path, "a table of stiffness")
     target.parent.mkdir(parents=True, exist_ok=True)
     if target.suffix == ".csv":
-        write_csv(target, columns(), list(_rows(found)))
+        write_csv(target, columns(), list(_rows(table)))
         return target
-    return write_netcdf(target, dataset(found))
+    return write_netcdf(target, dataset(table))
 
 
 def columns() -> list[str]:
@@ -52,15 +52,15 @@ def unit(force: str, motion: str, damping: bool = False) -> str:
     return f"{'.'.join(above)}/{below}"
 
 
-def _rows(found: StiffnessTable) -> Iterator[list[str]]:
+def _rows(table: StiffnessTable) -> Iterator[list[str]]:
     """Yield the rows of the CSV file: of each point that for frequency to 0, then one per frequency."""
     empty = [""] * len(FREEDOMS) ** 2
-    for i, speed in enumerate(found.speeds):
-        for k, preload in enumerate(found.preloads):
+    for i, speed in enumerate(table.speeds):
+        for k, preload in enumerate(table.preloads):
             point = [_text(speed), _text(preload)]
-            yield [STATIC, *point, "", *map(_text, found.static[i, k].ravel()), *empty]
-            for f, frequency in enumerate(found.frequencies):
-                numbers = np.concatenate([found.K[i, k, f].ravel(), found.C[i, k, f].ravel()])
+            yield [STATIC, *point, "", *map(_text, table.static[i, k].ravel()), *empty]
+            for f, frequency in enumerate(table.frequencies):
+                numbers = np.concatenate([table.K[i, k, f].ravel(), table.C[i, k, f].ravel()])
                 yield [DYNAMIC, *point, _text(frequency), *map(_text, numbers)]
 
 
@@ -68,7 +68,7 @@ def _text(value: float) -> str:
     return repr(float(value))
 
 
-def dataset(found: StiffnessTable) -> "xarray.Dataset":
+def dataset(table: StiffnessTable) -> "xarray.Dataset":
     """Return a table as a dataset; see `BearingStiffness.to_xarray`."""
     xr = need("xarray", "a dataset")
     over = ("speed", "preload", "frequency")
@@ -76,27 +76,27 @@ def dataset(found: StiffnessTable) -> "xarray.Dataset":
     si = "SI: N or N.m per m or rad"
     names: NDArray[np.object_] = np.array(FREEDOMS, dtype=object)
     variables = {
-        "K": ((*over, *pair), found.K, {"units": si, "long_name": "Stiffness"}),
-        "C": ((*over, *pair), found.C, {"units": f"{si}, times s", "long_name": "Damping"}),
+        "K": ((*over, *pair), table.K, {"units": si, "long_name": "Stiffness"}),
+        "C": ((*over, *pair), table.C, {"units": f"{si}, times s", "long_name": "Damping"}),
         "static": (
             (*over[:2], *pair),
-            found.static,
+            table.static,
             {"units": si, "long_name": "Stiffness for frequency to 0"},
         ),
-        "f_c": (over[:2], found.orbit, {"units": "Hz", "long_name": "Frequency of the balls' orbit"}),
-        "spread": (over[:2], found.spread, {"units": "", "long_name": "Range over one ball pitch, over K"}),
+        "f_c": (over[:2], table.orbit, {"units": "Hz", "long_name": "Frequency of the balls' orbit"}),
+        "spread": (over[:2], table.spread, {"units": "", "long_name": "Range over one ball pitch, over K"}),
     }
     coords = {
-        "speed": ("speed", found.speeds, {"units": "r/min", "long_name": "Shaft speed"}),
-        "preload": ("preload", found.preloads, {"units": "N", "long_name": "Preload"}),
-        "frequency": ("frequency", found.frequencies, {"units": "Hz", "long_name": "Frequency"}),
+        "speed": ("speed", table.speeds, {"units": "r/min", "long_name": "Shaft speed"}),
+        "preload": ("preload", table.preloads, {"units": "N", "long_name": "Preload"}),
+        "frequency": ("frequency", table.frequencies, {"units": "Hz", "long_name": "Frequency"}),
         "force": ("force", names, {"long_name": "Force along, or moment about, on the inner ring"}),
         "motion": ("motion", names, {"long_name": "Displacement along, or tilt about, of the inner ring"}),
     }
     head = {
-        "title": f"Stiffness and damping of {found.scene.name}",
-        "scene": found.scene.to_toml(),
-        "spacing": found.spacing,
+        "title": f"Stiffness and damping of {table.scene.name}",
+        "scene": table.scene.to_toml(),
+        "spacing": table.spacing,
         "fmu_bearing": version("fmu-bearing"),
         "engine": source_hash(),
     }

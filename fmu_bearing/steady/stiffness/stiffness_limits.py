@@ -15,55 +15,55 @@ _APART = 0.03  # of the stiffness: K for frequency to 0 is then no substitute
 _ROUNDING = 1e-9  # of the stiffness: a smaller loss is none
 
 
-def limits_of(found: StiffnessTable) -> Iterator[str]:
+def limits_of(table: StiffnessTable) -> Iterator[str]:
     """Yield what limits a table, in sentences."""
-    largest = float(found.spread.max())
+    largest = float(table.spread.max())
     if largest > SPREAD:
         yield (
             f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
-    if found.preloads[0] == 0.0 and not found.on_shaft:  # of a set the loads may hold them
+    if table.preloads[0] == 0.0 and not table.on_shaft:  # of a set the loads may hold them
         yield "0 N: no preload holds balls and races together: K and C are of loose balls and mean little"
-    slow = found.speeds[np.abs(found.speeds) / 60.0 < STICKING]
+    slow = table.speeds[np.abs(table.speeds) / 60.0 < STICKING]
     if slow.size:
         yield (
             f"{slow[0]:g} r/min: contacts that do not roll stick below 1 mm/s: damping holds for motions "
             "slower than that only"
         )
-    for i, k in np.argwhere(~found.steady)[:1]:
-        yield f"{found.speeds[i]:g} r/min, {found.preloads[k]:g} N: {UNSTEADY}"
-    yield from _whirl(found)
-    if found.spacing == "free":
-        ratio = found.frequencies / found.orbit[:, :, None]
+    for i, k in np.argwhere(~table.steady)[:1]:
+        yield f"{table.speeds[i]:g} r/min, {table.preloads[k]:g} N: {UNSTEADY}"
+    yield from _whirl(table)
+    if table.spacing == "free":
+        ratio = table.frequencies / table.orbit[:, :, None]
         if np.any(np.abs(ratio - 1.0) < _NEAR):
             yield (
                 "frequencies within 20 % of the balls' orbit f_c: free balls bunch there and K has a pole; "
                 "spacing = held leaves that out"
             )
-    if found.scene.bends:
+    if table.scene.bends:
         yield "K and C include the bending of the rings, which matters where balls carry unequal loads"
-    apart = found.against_static()
+    apart = table.against_static()
     if apart > _APART:
         yield (
-            f"K at {found.frequencies[0]:.4g} Hz differs from K for frequency to 0 by up to "
+            f"K at {table.frequencies[0]:.4g} Hz differs from K for frequency to 0 by up to "
             f"{100.0 * apart:.0f} %: balls that carry little take tens of milliseconds to turn over to new "
             "contact angles"
         )
 
 
-def _whirl(found: StiffnessTable) -> Iterator[str]:
+def _whirl(table: StiffnessTable) -> Iterator[str]:
     """Yield the caution of a motion that takes power from the shaft, and which one it is."""
-    lost, vectors = found.losses()
+    lost, vectors = table.losses()
     least = lost[..., 0]
     if least.min() >= -_ROUNDING:
         return
     at = np.unravel_index(int(least.argmin()), least.shape)
-    highest = found.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
+    highest = table.frequencies[np.flatnonzero((least < -_ROUNDING).any(axis=(0, 1)))[-1]]
     yield (
-        f"{_motion(vectors[at][:, 0], found.speeds[at[0]] >= 0.0)} of up to {highest:.4g} Hz takes power "
-        f"from the shaft through the rolling contacts: at {found.speeds[at[0]]:g} r/min and "
-        f"{found.frequencies[at[2]]:.4g} Hz {-100.0 * least.min():.2f} % of the stiffness"
+        f"{_motion(vectors[at][:, 0], table.speeds[at[0]] >= 0.0)} of up to {highest:.4g} Hz takes power "
+        f"from the shaft through the rolling contacts: at {table.speeds[at[0]]:g} r/min and "
+        f"{table.frequencies[at[2]]:.4g} Hz {-100.0 * least.min():.2f} % of the stiffness"
     )
 
 

@@ -19,22 +19,22 @@ _PANELS = (
 )
 
 
-def picture(found: StiffnessTable, frequency: float | None = None) -> "Figure":
+def picture(table: StiffnessTable, frequency: float | None = None) -> "Figure":
     """Draw K and C over speed; see `BearingStiffness.picture`."""
-    wanted = found.frequencies[len(found.frequencies) // 2] if frequency is None else frequency
-    at = int(np.abs(np.log(found.frequencies / wanted)).argmin())
+    wanted = table.frequencies[len(table.frequencies) // 2] if frequency is None else frequency
+    at = int(np.abs(np.log(table.frequencies / wanted)).argmin())
     figure = empty((11.0, 6.2))
     panels = figure.subplots(2, len(_PANELS), sharex=True)
-    krpm = 1e-3 * found.speeds
+    krpm = 1e-3 * table.speeds
     dots = "o" if len(krpm) == 1 else ""
     for column, (title, freedom, stiff, damped) in enumerate(_PANELS):
         i = FREEDOMS.index(freedom)
         above, below = panels[:, column]
-        for k, preload in enumerate(found.preloads):
+        for k, preload in enumerate(table.preloads):
             style = marked(k, dots)
-            above.plot(krpm, stiff[1] * found.K[:, k, at, i, i], **style, label=f"{preload:g} N")
-            above.plot(krpm, stiff[1] * found.static[:, k, i, i], color=style["color"], ls="--", lw=1.0)
-            below.plot(krpm, damped[1] * found.C[:, k, at, i, i], **style)
+            above.plot(krpm, stiff[1] * table.K[:, k, at, i, i], **style, label=f"{preload:g} N")
+            above.plot(krpm, stiff[1] * table.static[:, k, i, i], color=style["color"], ls="--", lw=1.0)
+            below.plot(krpm, damped[1] * table.C[:, k, at, i, i], **style)
         label(above, "", stiff[0], f"K {title}")
         label(below, "speed, 1000 r/min", damped[0], f"C {title}")
         for ax in (above, below):
@@ -49,5 +49,5 @@ def picture(found: StiffnessTable, frequency: float | None = None) -> "Figure":
         ncols=len(labels) + 1,
         frameon=False,
     )
-    figure.suptitle(f"{found.scene.name}: the bearing at {found.frequencies[at]:.4g} Hz")
+    figure.suptitle(f"{table.scene.name}: the bearing at {table.frequencies[at]:.4g} Hz")
     return figure

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.results.base import Result
 from fmu_bearing.scene import Scene
-from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, pairs, shares
+from fmu_bearing.steady.stiffness.planes import Planes, arm, errors, mirrored_matrix, pairs, plane_matrices
 
 Spacing = Literal["held", "free"]
 
@@ -98,7 +98,7 @@ class StiffnessTable(Result):
         """
         at, a = self.at_preload(preload), arm(self.static)
         k, c = (mirrored_matrix(one) if mirrored else one for one in (self.K[:, at], self.C[:, at]))
-        return Planes(a, shares(k, a), shares(c, a))
+        return Planes(a, plane_matrices(k, a), plane_matrices(c, a))
 
     def plane_errors(self, preload: float | None = None) -> NDArray[np.float64]:
         """Return how far the three planes are from the bearing at the points of the table.

@@ -75,14 +75,14 @@ class Energies:
         inner, outer : ndarray, shape (draws, orders)
             Factors on the energies of the orders.
         """
-        found = np.zeros((len(exponent), len(self.names)))
+        total = np.zeros((len(exponent), len(self.names)))
         races = ((self.inner_orders, self.inner, inner), (self.outer_orders, self.outer, outer))
         for orders, energies, factors in races:
             steeper = np.exp(-2.0 * np.outer(exponent - EXPONENT, np.log(orders)))
-            found += (steeper * factors) @ energies.T
+            total += (steeper * factors) @ energies.T
         if self.rest is not None:
-            found += np.array([np.exp(np.interp(exponent, _GRID, np.log(row))) for row in self.rest]).T
-        return found
+            total += np.array([np.exp(np.interp(exponent, _GRID, np.log(row))) for row in self.rest]).T
+        return total
 
     def strong(self, exponent: float, share: float) -> "Energies":
         """Return the orders that make a share of any window at an exponent, the others in ``rest``."""
@@ -124,15 +124,15 @@ def band_windows(scene: Scene) -> tuple[Window, ...]:
     return tuple(Window(name, low, high, k) for k, (name, (low, high)) in enumerate(ends))
 
 
-def line_names(found: Spectra) -> dict[str, float]:
+def line_names(spectra: Spectra) -> dict[str, float]:
     """Return the lines of the races by name, with their frequencies (Hz), lowest first."""
-    first = Reading(found.frequency, found.inner, 0.0, found.orbit)
-    rates = frequencies(found.scene, first)
-    known = [one for race in ("inner race", "outer race") for one in waves(found.scene, rates, race)]
+    first = Reading(spectra.frequency, spectra.inner, 0.0, spectra.orbit)
+    rates = frequencies(spectra.scene, first)
+    known = [wave for race in ("inner race", "outer race") for wave in waves(spectra.scene, rates, race)]
     return {one.name: one.order * rates.f_r for one in sorted(known, key=lambda one: one.order)}
 
 
-def line_window(found: Spectra, name: str) -> Window:
+def line_window(spectra: Spectra, name: str) -> Window:
     """Return the window of a line by name.
 
     Raises
@@ -140,7 +140,7 @@ def line_window(found: Spectra, name: str) -> Window:
     ValueError
         For a name that is none, or a line outside the bands.
     """
-    known = line_names(found)
+    known = line_names(spectra)
     plain = " ".join(name.replace("+", " + ").replace("-", " - ").split())
     if plain not in known:
         first = ", ".join(list(known)[:6])
@@ -148,40 +148,40 @@ def line_window(found: Spectra, name: str) -> Window:
             f"line '{name}': it is none of a race in this test; lines are named as f_i - f_r or 2 f_o, here "
             f"from the lowest on {first} (f_r: shaft, f_i, f_o: balls passing the inner and outer race)"
         )
-    at, half = known[plain], _LOBE * found.frequency[1]
-    for k, (low, high) in enumerate(bands(found.scene).values()):
+    at, half = known[plain], _LOBE * spectra.frequency[1]
+    for k, (low, high) in enumerate(bands(spectra.scene).values()):
         if low <= at < high:
             return Window(plain, at - half, at + half, k)
     raise ValueError(f"line '{name}' lies at {at:.0f} Hz, outside the bands of the test: name another one")
 
 
-def energies(found: Spectra, windows: Sequence[Window]) -> Energies:
+def energies(spectra: Spectra, windows: Sequence[Window]) -> Energies:
     """Return the energies per order of spectra in windows."""
-    frequency = found.frequency
-    masks = np.array([share(frequency, one.low, one.high) for one in windows])
-    rates = frequencies(found.scene, Reading(frequency, found.inner, 0.0, found.orbit))
-    known = waves(found.scene, rates, "inner race")
+    frequency = spectra.frequency
+    masks = np.array([share(frequency, window.low, window.high) for window in windows])
+    rates = frequencies(spectra.scene, Reading(frequency, spectra.inner, 0.0, spectra.orbit))
+    known = waves(spectra.scene, rates, "inner race")
     places = rates.f_r * np.array([one.order for one in known])
     nearest = np.searchsorted(0.5 * (places[1:] + places[:-1]), frequency)
     inner_orders, index = np.unique([one.wave for one in known], return_inverse=True)
-    inner = _binned(masks * found.inner, index[nearest], inner_orders.size)
-    count = found.scene.bearing.ball_count
+    inner = _binned(masks * spectra.inner, index[nearest], inner_orders.size)
+    count = spectra.scene.bearing.ball_count
     passing = np.maximum(np.round(frequency / rates.f_o).astype(int), 1)
     outer_orders, outer = [], []
-    for residue, energy in zip(found.residues, found.outer, strict=True):
+    for residue, energy in zip(spectra.residues, spectra.outer, strict=True):
         middle = residue if residue <= count // 2 else residue - count  # the nearest whole number of balls
         outer_orders.append(count * np.arange(passing.max() + 1) + middle)
         outer.append(_binned(masks * energy, passing, passing.max() + 1))
     orders, every = np.concatenate(outer_orders), np.concatenate(outer, axis=1)
     some = (every.sum(axis=0) > 0.0) & (orders > 0)
-    whole = np.array([share(frequency, *ends) for ends in bands(found.scene).values()])
-    bands_of = whole[[one.band for one in windows]]  # a line has the ratio of its band
-    rigid = found.rigid[BENT_AT, : len(found.bent)]
+    whole = np.array([share(frequency, *ends) for ends in bands(spectra.scene).values()])
+    bands_of = whole[[window.band for window in windows]]  # a line has the ratio of its band
+    rigid = spectra.rigid[BENT_AT, : len(spectra.bent)]
     unit = AMPLITUDE_UM**2
     return Energies(
         tuple(one.name for one in windows), inner_orders, orders[some], inner / unit, every[:, some] / unit,
-        np.einsum("wf,psf->wps", masks, found.rigid) / found.form_nm**2,
-        (bands_of @ found.bent.T) / np.maximum(bands_of @ rigid.T, _LEAST),
+        np.einsum("wf,psf->wps", masks, spectra.rigid) / spectra.form_nm**2,
+        (bands_of @ spectra.bent.T) / np.maximum(bands_of @ rigid.T, _LEAST),
     )  # fmt: skip
 
 

@@ -62,7 +62,7 @@ def check(bands: Mapping[str, float], lines: Mapping[str, float], deviation: flo
 
 
 def measured(
-    found: Spectra, bands: Mapping[str, float], lines: Mapping[str, float], deviation: float, at_most: bool
+    spectra: Spectra, bands: Mapping[str, float], lines: Mapping[str, float], deviation: float, at_most: bool
 ) -> Measured:
     """Return bands and lines as windows of the spectra, with their values.
 
@@ -71,12 +71,14 @@ def measured(
     ValueError
         For a line that is none.
     """
-    windows: Sequence[Window] = [one for one in band_windows(found.scene) if one.name in bands]
+    windows: Sequence[Window] = [one for one in band_windows(spectra.scene) if one.name in bands]
     values = [
-        Value(bands[one.name], max(deviation, _MIDDLE_DEVIATION if one.name == BANDS[1] else 0.0), at_most)
-        for one in windows
+        Value(
+            bands[window.name], max(deviation, _MIDDLE_DEVIATION if window.name == BANDS[1] else 0.0), at_most
+        )
+        for window in windows
     ]
-    of_lines = [line_window(found, name) for name in lines]
+    of_lines = [line_window(spectra, name) for name in lines]
     # a line is read from a spectrum: a value, also beside limits of the bands
     values += [Value(value, deviation) for value in lines.values()]
     return Measured((*windows, *of_lines), tuple(values))

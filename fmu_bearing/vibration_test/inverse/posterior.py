@@ -101,7 +101,7 @@ class _Weighed(NamedTuple):
 
 
 def posterior(
-    found: Energies, values: Sequence[Value], prior: Prior, scatter: bool = True, draws: int = DRAWS
+    energies: Energies, values: Sequence[Value], prior: Prior, scatter: bool = True, draws: int = DRAWS
 ) -> Draws:
     """Return draws that explain measured values.
 
@@ -117,15 +117,15 @@ def posterior(
         How many are weighed.
     """
     rng = np.random.default_rng(_SEED)
-    first = _proposed(found, prior, rng, min(_FIRST, draws))
-    seen = _weighed(found, values, prior, scatter, first, rng, lines=False)
+    first = _proposed(energies, prior, rng, min(_FIRST, draws))
+    seen = _weighed(energies, values, prior, scatter, first, rng, lines=False)
     share = _shares(seen.weight + first.correction)
     middle = float(share @ first.exponent)
     width = _AROUND * float(np.sqrt(share @ (first.exponent - middle) ** 2)) + 0.02
-    lines = any(name not in "LMH" for name in found.names)
+    lines = any(name not in "LMH" for name in energies.names)
     propose = _chosen if lines and scatter else _proposed_around
-    second = propose(found, values, prior, rng, draws, (middle, width))
-    weighed = _weighed(found, values, prior, scatter, second, rng)
+    second = propose(energies, values, prior, rng, draws, (middle, width))
+    weighed = _weighed(energies, values, prior, scatter, second, rng)
     share = _shares(weighed.weight + second.correction)
     # systematic resampling (Kitagawa 1996): evenly spaced numbers through the sums of the weights
     chosen = np.searchsorted(np.cumsum(share), (rng.uniform() + np.arange(_KEPT)) / _KEPT)
@@ -142,7 +142,7 @@ def _shares(weight: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _proposed(
-    found: Energies, prior: Prior, rng: np.random.Generator, count: int,
+    energies: Energies, prior: Prior, rng: np.random.Generator, count: int,
     around: tuple[float, float] | None = None,
 ) -> _Proposed:  # fmt: skip
     """Draw all but A_1: the exponent evenly, or most of them from a normal distribution."""
@@ -161,28 +161,28 @@ def _proposed(
     least, most = np.log(prior.ball_form_nm)
     form = np.exp(rng.uniform(float(least), float(most), count))
     return _Proposed(
-        exponent, form, rng.integers(found.seeds, size=count),
-        rng.integers(found.bending.shape[1], size=count), np.arange(count), correction,
+        exponent, form, rng.integers(energies.seeds, size=count),
+        rng.integers(energies.bending.shape[1], size=count), np.arange(count), correction,
     )  # fmt: skip
 
 
 def _proposed_around(
-    found: Energies, values: Sequence[Value], prior: Prior, rng: np.random.Generator, count: int,
+    energies: Energies, values: Sequence[Value], prior: Prior, rng: np.random.Generator, count: int,
     around: tuple[float, float],
 ) -> _Proposed:  # fmt: skip
-    return _proposed(found, prior, rng, count, around)
+    return _proposed(energies, prior, rng, count, around)
 
 
 def _chosen(
-    found: Energies, values: Sequence[Value], prior: Prior, rng: np.random.Generator, count: int,
+    energies: Energies, values: Sequence[Value], prior: Prior, rng: np.random.Generator, count: int,
     around: tuple[float, float],
 ) -> _Proposed:  # fmt: skip
     """Choose draws of which lines and bands are about as measured, from many, by their strong orders alone.
 
     Few scatter seeds agree with a line. The weak orders of a band count with their mean.
     """
-    pool = _proposed(found, prior, rng, _POOL, around)
-    weighed = _weighed(found.strong(around[0], _STRONG), values, prior, True, pool, rng, step=1.0)
+    pool = _proposed(energies, prior, rng, _POOL, around)
+    weighed = _weighed(energies.strong(around[0], _STRONG), values, prior, True, pool, rng, step=1.0)
     share = _EVEN / _POOL + (1.0 - _EVEN) * _shares(weighed.weight + pool.correction)
     chosen = rng.choice(_POOL, count, p=share / share.sum())
     drawn = pool.at(chosen)
@@ -190,11 +190,11 @@ def _chosen(
 
 
 def _weighed(
-    found: Energies, values: Sequence[Value], prior: Prior, scatter: bool, drawn: _Proposed,
+    energies: Energies, values: Sequence[Value], prior: Prior, scatter: bool, drawn: _Proposed,
     rng: np.random.Generator, lines: bool = True, step: float = _STEP,
 ) -> _Weighed:  # fmt: skip
     """Weigh draws, each over a grid of ln A_1, and draw A_1; without ``lines`` by the bands alone."""
-    used = [k for k, name in enumerate(found.names) if lines or name in "LMH"]
+    used = [k for k, name in enumerate(energies.names) if lines or name in "LMH"]
     least = min((values[k].deviation for k in used), default=1.0)
     low, high = np.log(prior.amplitude_um)
     grid = np.linspace(low, high, int(np.ceil((high - low) / (step * least))) + 1)
@@ -205,11 +205,11 @@ def _weighed(
         part = drawn.at(slice(begin, begin + _CHUNK))
         factors = (
             [order_energies(part.scatter[:, None], race, orders)
-             for race, orders in enumerate((found.inner_orders, found.outer_orders))]
+             for race, orders in enumerate((energies.inner_orders, energies.outer_orders))]
             if scatter else [1.0, 1.0]
         )  # fmt: skip
-        races = found.races(part.exponent, *factors)[:, used]
-        balls = (found.forms(part.exponent, part.seed, part.bent) * part.form[:, None] ** 2)[:, used]
+        races = energies.races(part.exponent, *factors)[:, used]
+        balls = (energies.forms(part.exponent, part.seed, part.bent) * part.form[:, None] ** 2)[:, used]
         likelihood = np.zeros((len(part.exponent), grid.size))
         for column, k in enumerate(used):
             energy = np.exp(2.0 * grid) * races[:, column, None] + balls[:, column, None]

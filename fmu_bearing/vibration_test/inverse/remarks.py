@@ -56,7 +56,7 @@ def remarks(surface: Surface, drawn: Draws, prior: Prior, given: Measured, found
             f"A_1 and p go together (correlation {together:.2f}): compare bearings by order 12, which has "
             f"{order.median:.3g} nm ({order.low:.3g} to {order.high:.3g})."
         )
-    names = {one.name for one in given.windows}
+    names = {window.name for window in given.windows}
     if surface.order_scatter_seed is not None and (missing := [one for one in ASKED if one not in names]):
         places = line_names(found)
         words = " and ".join(f"{one} ({places[one]:.0f} Hz)" for one in missing)
@@ -67,7 +67,7 @@ def remarks(surface: Surface, drawn: Draws, prior: Prior, given: Measured, found
     ball, (low, high) = law.ball_form_nm, prior.ball_form_nm
     if np.log(ball.high / ball.low) > _OPEN * np.log(high / low):
         yield f"The form of the balls stays open: {ball.low:.3g} to {ball.high:.3g} nm."
-    limits = [one.name for one, value in zip(given.windows, given.values, strict=True) if value.at_most]
+    limits = [window.name for window, value in zip(given.windows, given.values, strict=True) if value.at_most]
     if limits:
         yield (
             f"{', '.join(limits)}: a limit is no value. Below it the range rests on assumed bounds: A_1 "

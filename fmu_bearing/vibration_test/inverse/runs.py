@@ -179,12 +179,12 @@ def _run(made: _Runs, bar: Bar) -> Spectra:
     scenes += [("balls, rings that bend", one) for one in made.balls(middle, BENT_SEEDS, rigid=False)]
     for exponent in BALL_EXPONENTS:
         scenes += [("balls", one) for one in made.balls(exponent, BALL_SEEDS, rigid=True)]
-    found = [reading(scene) for _, scene in bar(scenes)]
-    energies = np.array([one.energy for one in found])
+    readings = [reading(scene) for _, scene in bar(scenes)]
+    energies = np.array([one.energy for one in readings])
     bent_from = 1 + len(outer)
     rigid_from = bent_from + BENT_SEEDS
     return Spectra(
-        made.rig(made.scene), made.form, found[0].frequency, found[0].orbit, energies[0],
+        made.rig(made.scene), made.form, readings[0].frequency, readings[0].orbit, energies[0],
         energies[1:bent_from], np.array([residue for residue, _ in outer]),
         energies[rigid_from:].reshape(len(BALL_EXPONENTS), BALL_SEEDS, -1), energies[bent_from:rigid_from],
     )  # fmt: skip
@@ -212,18 +212,18 @@ def _load(path: Path, made: _Runs) -> Spectra | None:
     return Spectra(made.rig(made.scene), made.form, orbit=orbit, **arrays)
 
 
-def _save(path: Path, found: Spectra) -> Spectra:
+def _save(path: Path, spectra: Spectra) -> Spectra:
     """Keep spectra; a cache that cannot be written is no reason to fail."""
     small = {"inner", "outer", "rigid", "bent"}  # seven digits are enough
     arrays = {
-        name: getattr(found, name).astype(np.float32) if name in small else getattr(found, name)
+        name: getattr(spectra, name).astype(np.float32) if name in small else getattr(spectra, name)
         for name in _ARRAYS
     }
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partial = path.with_suffix(f".{os.getpid()}.npz")
-        np.savez(partial, orbit=found.orbit, **arrays)
+        np.savez(partial, orbit=spectra.orbit, **arrays)
         partial.replace(path)
     except OSError:
         pass
-    return found
+    return spectra

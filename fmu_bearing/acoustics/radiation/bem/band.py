@@ -96,20 +96,20 @@ class Band:
 
     def _groups(self) -> list[list[int]]:
         """Drives whose pressures have the same poles: of one order, with or without the solid cage."""
-        found = []
+        groups = []
         for order in range(self.task.orders):
             bodies = [i for i, (m, shape) in enumerate(self._drives) if m == order and shape.any()]
             # balls do not radiate along theta in order 0
             balls = [self.ball_drive(order, axis) for axis in range(3 if order else 2)]
-            found += [bodies] if bodies else []
-            found += [balls] if order < self._balls else []
-        return found
+            groups += [bodies] if bodies else []
+            groups += [balls] if order < self._balls else []
+        return groups
 
     def solve(self, frequency: float) -> Complex:
         """Surface pressures at a frequency (Hz), shape (drives, nodes)."""
         k = self._wavenumber(frequency)
         mesh = self._scatterer.mesh
-        found = np.zeros((self.count, mesh.size), dtype=complex)
+        pressures = np.zeros((self.count, mesh.size), dtype=complex)
         system = self._scatterer.at(k, self._losses(k))
         cage_away = mesh.node_component() != BODIES - 1
         everything = np.concatenate([mesh.points, self._scatterer.inside])
@@ -125,15 +125,15 @@ class Band:
                 coming = incoming[:, order].T
                 of_order += [self.ball_drive(order, axis) for axis in range(3)]
             if of_order:
-                found[of_order] = system.pressure(order, driven, coming, keep=cage_away).T
-        return found
+                pressures[of_order] = system.pressure(order, driven, coming, keep=cage_away).T
+        return pressures
 
     def _timed(self, frequency: float) -> Complex:
         """Solve, and keep how long it took."""
         begun = time.perf_counter()
-        found = self.solve(frequency)
+        pressures = self.solve(frequency)
         self.seconds.append(time.perf_counter() - begun)
-        return found
+        return pressures
 
     def field(self, points: Real) -> Complex:
         """Pressures (Pa per unit of each drive, in air of 1 kg/m3) at points (x, r) and `frequencies`.
@@ -174,17 +174,17 @@ class Band:
         flights = self.flights(points)[:, None, None]
         still = self.field(points) * np.exp(2j * np.pi * self.frequencies * flights)
         if len(self.probed):
-            found = np.stack([self._between(one, wanted) for one in still])
+            pressures = np.stack([self._between(one, wanted) for one in still])
         else:
-            found = CubicSpline(self.frequencies, still, axis=2)(wanted)
-        return found * np.exp(-2j * np.pi * wanted * flights)
+            pressures = CubicSpline(self.frequencies, still, axis=2)(wanted)
+        return pressures * np.exp(-2j * np.pi * wanted * flights)
 
     def _between(self, still: Complex, wanted: Real) -> Complex:
         """Pressures (drives, wanted) of one point between those solved, by rational functions.
 
         Their poles follow from the pressures around the bodies and at the point itself.
         """
-        found = np.zeros((len(still), len(wanted)), dtype=complex)
+        pressures = np.zeros((len(still), len(wanted)), dtype=complex)
         point = np.repeat(still.T[:, :, None, None], self.probed.shape[3], axis=3)
         values = np.concatenate([self.probed, point], axis=2)
         groups = [rational.Group() for _ in self.groups]
@@ -194,8 +194,8 @@ class Band:
         )
         for group, members in zip(groups, self.groups, strict=True):
             group.sharp(self.frequencies[0], self.frequencies[-1])
-            found[members] = group.predicted(wanted)[:, :, -1, 0].T
-        return found
+            pressures[members] = group.predicted(wanted)[:, :, -1, 0].T
+        return pressures
 
     def _family(self) -> list[int]:
         """Harmonics of the balls are equally strong; of the bodies, the drives of one order move together."""
@@ -267,12 +267,12 @@ class Band:
         expected = _HALVED * self.expected
         there = {f: known[f] for f in self.frequencies if f in known}
         missing = [f for f in self.frequencies if f not in known]
-        for f, found in zip(missing, pool.map(self._timed, missing), strict=True):
-            there[f] = found
+        for f, pressures in zip(missing, pool.map(self._timed, missing), strict=True):
+            there[f] = pressures
             self._count(solved, expected - len(known))
-        for f, found in known.items():  # close neighbours would spoil the cubic
+        for f, pressures in known.items():  # close neighbours would spoil the cubic
             if min(abs(f - other) for other in there) > 2.0 * _NARROWEST:
-                there[f] = found
+                there[f] = pressures
         self.frequencies = np.array(sorted(there))
         self.surface = np.array([there[f] for f in self.frequencies])
         open_ = list(itertools.pairwise(self.frequencies.tolist()))
@@ -280,11 +280,11 @@ class Band:
             middles = [0.5 * (low + high) for low, high in open_]
             halved = []
             surfaces = []
-            for k, found in enumerate(pool.map(self._timed, middles)):
+            for k, pressures in enumerate(pool.map(self._timed, middles)):
                 low, high = open_[k]
-                if high - low > 2.0 * _NARROWEST and self._missed(middles[k], found) > _INTERPOLATION:
+                if high - low > 2.0 * _NARROWEST and self._missed(middles[k], pressures) > _INTERPOLATION:
                     halved += [(low, middles[k]), (middles[k], high)]
-                surfaces.append(found)
+                surfaces.append(pressures)
                 rest = len(open_) - k - 1.0 + len(halved)
                 self._count(solved, max(rest, expected - len(self.frequencies) - k))
             order = np.argsort(np.concatenate([self.frequencies, middles]))
@@ -293,15 +293,15 @@ class Band:
             open_ = halved
         self.probed = self._unprobed()
 
-    def _missed(self, frequency: float, found: Complex) -> float:
+    def _missed(self, frequency: float, pressures: Complex) -> float:
         """Largest error of the cubic through the four nearest frequencies, over each drive's own size."""
         place = int(np.searchsorted(self.frequencies, frequency))
         first = min(max(place - 2, 0), len(self.frequencies) - 4)
         near = slice(first, first + 4)
         f = self.frequencies[near]
         weights = [np.prod([(frequency - b) / (a - b) for b in f if b != a]) for a in f]
-        wrong = np.linalg.norm(found - np.tensordot(weights, self.surface[near], axes=1), axis=1)
-        size = np.linalg.norm(found, axis=1)
+        wrong = np.linalg.norm(pressures - np.tensordot(weights, self.surface[near], axes=1), axis=1)
+        size = np.linalg.norm(pressures, axis=1)
         return float(np.max(wrong / np.maximum(size, 1e-300)))
 
     def _incoming(self, points: Real, k: float) -> Complex:

@@ -37,21 +37,21 @@ def bodies_of(radiators: Radiators) -> list[Body]:
             _face("inner ring", INNER, inner.outer, bore, -half),
             _face("outer ring", OUTER, outer.outer, outer.inner, -half),
         ]
-    found = []
+    bodies = []
     if radiators.housing is not None:
-        found.append(_housing(radiators))
+        bodies.append(_housing(radiators))
     else:
-        found.append(ring("outer ring", OUTER, outer.outer, outer.inner, -half, half))
+        bodies.append(ring("outer ring", OUTER, outer.outer, outer.inner, -half, half))
         if radiators.shaft:
-            found.append(cylinder("inner ring", INNER, inner.outer, -half, half))
+            bodies.append(cylinder("inner ring", INNER, inner.outer, -half, half))
         else:
-            found.append(ring("inner ring", INNER, inner.outer, inner.inner, -half, half))
+            bodies.append(ring("inner ring", INNER, inner.outer, inner.inner, -half, half))
     if radiators.cage is not None:
         cage = radiators.cage
-        found.append(ring("cage", CAGE, cage.outer, cage.inner, -0.5 * cage.width, 0.5 * cage.width))
-    for one, other in itertools.combinations(found, 2):
+        bodies.append(ring("cage", CAGE, cage.outer, cage.inner, -0.5 * cage.width, 0.5 * cage.width))
+    for one, other in itertools.combinations(bodies, 2):
         _check_apart(one, other)
-    return found
+    return bodies
 
 
 def _face(name: str, component: int, outer: float, inner: float, x: float) -> Body:

@@ -77,10 +77,10 @@ def bem_paths(
     """
     if radiators.baffle and radiators.turned:
         ahead = replace(circle, axial=-circle.axial)
-        found = bem_paths(replace(radiators, turned=False), air, ahead, harmonics, modes)
+        all_paths = bem_paths(replace(radiators, turned=False), air, ahead, harmonics, modes)
         # mirrored along the axis: motion along it and tilts change their sign
         turned = (SD.AXIAL, SD.ROTATION)
-        return [replace(path, weights=-path.weights) if path.kind in turned else path for path in found]
+        return [replace(path, weights=-path.weights) if path.kind in turned else path for path in all_paths]
     task = task_of(radiators, air, harmonics, modes, plane)
     _check_outside(task, circle)
     solved = solution(task)

@@ -50,8 +50,8 @@ def poles(supports: Real, weights: Complex) -> Complex:
     """Poles (Hz), zeros of the denominator, as eigenvalues; one more is 0."""
     matrix = np.diag(supports).astype(complex)
     matrix -= weights * supports / weights.sum()
-    found: Complex = np.linalg.eigvals(matrix)
-    return found
+    roots: Complex = np.linalg.eigvals(matrix)
+    return roots
 
 
 class Group:
@@ -130,9 +130,9 @@ class Group:
         while True:
             places, weights = self._fits[1]
             supports = self._frequencies[places]
-            found = poles(supports, weights)
-            width = 2.0 * np.abs(found.imag)
-            sharp = found.real[(found.real > _SHARPEST * width) & (low < found.real) & (found.real < high)]
+            roots = poles(supports, weights)
+            width = 2.0 * np.abs(roots.imag)
+            sharp = roots.real[(roots.real > _SHARPEST * width) & (low < roots.real) & (roots.real < high)]
             nearest = [int(np.abs(supports - f).argmin()) for f in sharp]
             beside = {k for k, f in zip(nearest, sharp, strict=True) if abs(supports[k] - f) < f / _SHARPEST}
             if not beside or len(beside) > len(places) - 2:
@@ -196,14 +196,14 @@ def search(
         due = np.setdiff1d(due, solved)
         if not len(due):  # a pole that stays where it was solved
             return None
-        found = measure(due)
-        wrong = float(max(one.missed(due, known).max() for one, known in zip(groups, found, strict=True)))
+        fresh = measure(due)
+        wrong = float(max(group.missed(due, known).max() for group, known in zip(groups, fresh, strict=True)))
         checked = last and wrong < TYPICAL
         right = right + len(due) if wrong < TOLERANCE else 0
         harmless += sharp[:1] if right else []
         order = np.argsort(np.concatenate([solved, due]))
         solved = np.concatenate([solved, due])[order]
-        values = [np.concatenate([one, two])[order] for one, two in zip(values, found, strict=True)]
+        values = [np.concatenate([value, two])[order] for value, two in zip(values, fresh, strict=True)]
     if not checked:
         return None
     left(0.0, True)

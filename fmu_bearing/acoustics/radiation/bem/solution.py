@@ -38,18 +38,18 @@ _WAVES = 10.0
 
 def bases(task: Task) -> list[tuple[float, ...]]:
     """Frequencies (Hz) of all bands of a task: `BASE_FREQUENCIES`, cut evenly where bodies are large."""
-    found = []
+    bands = []
     for base in BASE_FREQUENCIES:
         low, high = base[0], base[-1]
         parts = int(np.ceil(task.waves(low, high) / _WAVES))
         if parts <= 1:
-            found.append(tuple(base))
+            bands.append(tuple(base))
             continue
         for first, last in itertools.pairwise(np.linspace(low, high, parts + 1).tolist()):
             inner = [f for f in base if first < f < last]
             # four points at least: a cubic takes as many
-            found.append(tuple(np.union1d(inner, np.linspace(first, last, 4)).tolist()))
-    return found
+            bands.append(tuple(np.union1d(inner, np.linspace(first, last, 4)).tolist()))
+    return bands
 
 
 #: Frequencies that the preparation of a band takes as long as: 0.8 to 1.7, up to 4 in bodies hardly larger
@@ -99,19 +99,19 @@ def solution(task: Task) -> Solution:
     known = _remembered(key)
     if known:
         return known[0]
-    found = Solution(task)
+    field_solution = Solution(task)
     if not task.baffled:  # faces in a rigid wall do not hear each other: nothing to solve
         path = cache_root() / "sound" / f"{key}.npz"
-        if not _load(path, found):
-            _solve_all(found)
-            _save(path, found)
-    known.append(found)
-    return found
+        if not _load(path, field_solution):
+            _solve_all(field_solution)
+            _save(path, field_solution)
+    known.append(field_solution)
+    return field_solution
 
 
-def _solve_all(found: Solution) -> None:
+def _solve_all(field_solution: Solution) -> None:
     """Solve all bands; frequencies are shared among the machine's cores."""
-    names = " and ".join(body.name for body in found.task.bodies)
+    names = " and ".join(body.name for body in field_solution.task.bodies)
     what = f"boundary elements of {names}, once for these bodies"
     # No more at a time than there are cores: each holds matrices of all orders, and the first would end late.
     workers = min(cores(), FIRST)
@@ -121,12 +121,12 @@ def _solve_all(found: Solution) -> None:
     ):  # fmt: skip
 
         def solved() -> None:
-            display.at(*progress(found.bands, min(workers, AT_ONCE)))
+            display.at(*progress(field_solution.bands, min(workers, AT_ONCE)))
 
-        usual = [band.expected for band in found.bands]
-        for i, band in enumerate(found.bands):
+        usual = [band.expected for band in field_solution.bands]
+        for i, band in enumerate(field_solution.bands):
             band.search(pool, solved)
-            _learn(found.bands, usual, i + 1)
+            _learn(field_solution.bands, usual, i + 1)
 
 
 def _learn(bands: Sequence[Band], usual: Sequence[float], done: int) -> None:
@@ -162,13 +162,13 @@ def progress(bands: Sequence[Band], at_once: int) -> tuple[float, float]:
 _TABLES = ("frequencies", "surface", "probed")
 
 
-def _load(path: pathlib.Path, found: Solution) -> bool:
+def _load(path: pathlib.Path, field_solution: Solution) -> bool:
     try:
         kept = read_arrays(path)
-        tables = [[kept[f"{name}{i}"] for name in _TABLES] for i in range(len(found.bands))]
+        tables = [[kept[f"{name}{i}"] for name in _TABLES] for i in range(len(field_solution.bands))]
     except (OSError, ValueError, KeyError):
         return False  # absent or damaged: solve again
-    for band, (frequencies, surface, probed) in zip(found.bands, tables, strict=True):
+    for band, (frequencies, surface, probed) in zip(field_solution.bands, tables, strict=True):
         if surface.shape != (len(frequencies), *band.surface.shape[1:]) or not np.isfinite(surface).all():
             return False
         if probed.shape[1:3] != band.probed.shape[1:3] or len(probed) not in {0, len(frequencies)}:
@@ -177,10 +177,10 @@ def _load(path: pathlib.Path, found: Solution) -> bool:
     return True
 
 
-def _save(path: pathlib.Path, found: Solution) -> None:
+def _save(path: pathlib.Path, field_solution: Solution) -> None:
     """Keep a solution; a cache that cannot be written is no reason to fail."""
     tables: dict[str, Any] = {
-        f"{name}{i}": getattr(band, name) for name in _TABLES for i, band in enumerate(found.bands)
+        f"{name}{i}": getattr(band, name) for name in _TABLES for i, band in enumerate(field_solution.bands)
     }
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

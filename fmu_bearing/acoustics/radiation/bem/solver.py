@@ -163,20 +163,20 @@ class System:
         kept, away = np.flatnonzero(keep), np.flatnonzero(~keep)
         result = np.zeros((size, right.shape[1]), dtype=complex)
         across = square[np.ix_(kept, away if count else away[:0])]
-        found = np.linalg.solve(square[np.ix_(kept, kept)], np.concatenate([across, given[kept]], axis=1))
-        across, found = found[:, : across.shape[1]], found[:, across.shape[1] :]
+        pressures = np.linalg.solve(square[np.ix_(kept, kept)], np.concatenate([across, given[kept]], axis=1))
+        across, pressures = pressures[:, : across.shape[1]], pressures[:, across.shape[1] :]
         if count:
             back = square[np.ix_(away, kept)]
             own = square[np.ix_(away, away)] - back @ across
-            result[away, :count] = np.linalg.solve(own, given[away, :count] - back @ found[:, :count])
-            found[:, :count] -= across @ result[away, :count]
-        result[kept] = found
+            result[away, :count] = np.linalg.solve(own, given[away, :count] - back @ pressures[:, :count])
+            pressures[:, :count] -= across @ result[away, :count]
+        result[kept] = pressures
         return result
 
 
 def inner_points(bodies: Sequence[Body], highest: float) -> NDArray[np.float64]:
     """Points inside those bodies whose inside resonates below ``highest`` (1/m), shape (n, 2)."""
-    found = []
+    points = []
     for body in bodies:
         corners = body.polygon()
         low, high = corners.min(axis=0), corners.max(axis=0)
@@ -186,8 +186,8 @@ def inner_points(bodies: Sequence[Body], highest: float) -> NDArray[np.float64]:
             continue
         modes = float(np.prod(highest * extent / np.pi))
         count = int(np.ceil(max(np.clip(modes, _LEAST_POINTS, _MOST_POINTS), _SHARE * modes)))
-        found.append(_spread(body, low, high, count))
-    return np.concatenate(found) if found else np.zeros((0, 2))
+        points.append(_spread(body, low, high, count))
+    return np.concatenate(points) if points else np.zeros((0, 2))
 
 
 def _spread(
@@ -212,13 +212,13 @@ def halton(first: int, count: int) -> NDArray[np.float64]:
     Digits of the number in base 2 and in base 3, mirrored at the point (Halton 1960). SciPy has it among its
     statistics, which take longer to load than these points to use.
     """
-    found = np.zeros((count, 2))
+    points = np.zeros((count, 2))
     for axis, base in enumerate((2, 3)):
         left, place = np.arange(first, first + count), 1.0 / base
         while left.any():
-            found[:, axis] += left % base * place
+            points[:, axis] += left % base * place
             left, place = left // base, place / base
-    return found
+    return points
 
 
 def orbit_dipoles(

@@ -65,15 +65,15 @@ class Task:
 
     def key(self) -> str:
         """Hash of all numbers that pressures depend on, and of the sources that solve them."""
-        found = hashlib.sha256(rooms_digest("acoustics/radiation/bem", "engine/boundary_elements").encode())
+        digest = hashlib.sha256(rooms_digest("acoustics/radiation/bem", "engine/boundary_elements").encode())
         numbers = [self.sound_speed, self.orbit, self.harmonics, self.baffled]
-        found.update(repr((numbers, self.plane)).encode())
+        digest.update(repr((numbers, self.plane)).encode())
         for body in self.bodies:
-            found.update(body.contour.tobytes() + repr(body.sides).encode())
+            digest.update(body.contour.tobytes() + repr(body.sides).encode())
         for shape in self.shapes:
-            found.update(repr((shape.component, shape.order)).encode())
-            found.update(shape.points.tobytes() + shape.shape.tobytes())
-        return found.hexdigest()[:24]
+            digest.update(repr((shape.component, shape.order)).encode())
+            digest.update(shape.points.tobytes() + shape.shape.tobytes())
+        return digest.hexdigest()[:24]
 
     @property
     def orders(self) -> int:
@@ -105,12 +105,12 @@ def drives(task: Task, mesh: Mesh) -> list[tuple[int, NDArray[np.float64]]]:
     """Order and normal acceleration at the nodes of each of the bodies' drives; nil for absent bodies."""
     normals, points, component = mesh.node_normals(), mesh.points, mesh.node_component()
     lever = normals[:, 0] * points[:, 1] - normals[:, 1] * points[:, 0]
-    found = []
+    profiles = []
     for order, profile in ((0, normals[:, 0]), (1, normals[:, 1]), (1, lever)):
-        found += [(order, profile * (component == body)) for body in range(BODIES)]
+        profiles += [(order, profile * (component == body)) for body in range(BODIES)]
     for shape in task.shapes:
-        found.append((shape.order, shape.at(points, normals) * (component == shape.component)))
-    return found
+        profiles.append((shape.order, shape.at(points, normals) * (component == shape.component)))
+    return profiles
 
 
 def shapes_of(modes: Sequence) -> tuple[Shape, ...]:

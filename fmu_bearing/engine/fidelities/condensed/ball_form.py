@@ -22,7 +22,7 @@ _STILL = 1e-9  # of the shaft's speed: slower balls do not turn
 
 
 @kernel
-def hold_rolling(p, lv, y, turning, w):
+def freeze_rolling(p, lv, y, turning, w):
     """Keep spin and contact directions of the state ``y`` at the shaft speed ``turning`` (rad/s).
 
     The rows of both contacts in ``w`` belong to that state. Means over the balls, which are equal there.
@@ -36,8 +36,8 @@ def hold_rolling(p, lv, y, turning, w):
             lv[L.ROLL_AXIS + i] += y[Y.WX + i * STRIDE + j] / balls
             for race in range(2):
                 row = W.RACE + race * R.SIZE + i * STRIDE + j
-                lv[L.TOUCH + FOUR * i + race] += w[row + R.EN] / balls
-                lv[L.TOUCH + FOUR * i + 2 + race] += w[row + R.EM] / balls
+                lv[L.CONTACT_AXES + FOUR * i + race] += w[row + R.EN] / balls
+                lv[L.CONTACT_AXES + FOUR * i + 2 + race] += w[row + R.EM] / balls
     size = math.sqrt(lv[L.ROLL_AXIS] ** 2 + lv[L.ROLL_AXIS + 1] ** 2 + lv[L.ROLL_AXIS + 2] ** 2)
     if size < _STILL * abs(turning):
         return
@@ -48,13 +48,13 @@ def hold_rolling(p, lv, y, turning, w):
 
 @kernel
 def turned_back(lv, cosine, sine):
-    """Directions ``L.TOUCH``, turned about the balls' spin axis by minus an angle, and their rates.
+    """Directions ``L.CONTACT_AXES``, turned about the balls' spin axis by minus an angle, and their rates.
 
     Four at a time: into both races, across both tracks. ``cosine``, ``sine``: of the angle; the rates are
     derivatives by it (rad).
     """
     axis = splat(lv[L.ROLL_AXIS]), splat(lv[L.ROLL_AXIS + 1]), splat(lv[L.ROLL_AXIS + 2])
-    at = L.TOUCH
+    at = L.CONTACT_AXES
     e = load(lv, at), load(lv, at + FOUR), load(lv, at + 2 * FOUR)
     still = scaled(dot(axis, e), axis)
     moving = added(e, scaled(-1.0, still))
@@ -65,7 +65,7 @@ def turned_back(lv, cosine, sine):
 
 
 @kernel
-def one_of(vectors, k):
+def vector_of(vectors, k):
     """Vector ``k`` of four."""
     x, r, t = vectors
     return lane(x, k), lane(r, k), lane(t, k)
@@ -85,7 +85,7 @@ def pair_of_sums(p, form, orders, x, y):
 
 @kernel
 def add_ball_form(p, c, lv, rolled, speed, w):
-    """Add the balls' form to the heights under both races; write ``T.LEAN``.
+    """Add the balls' form to the heights under both races; write ``T.FORM_SLOPE``.
 
     ``rolled`` (rad): by which the balls have turned; ``speed`` of the shaft (rad/s). Heights are advanced by
     contact damping.
@@ -97,9 +97,9 @@ def add_ball_form(p, c, lv, rolled, speed, w):
     rate = lv[L.ROLL] * speed
     ahead = scale * rate * p[P.CONTACT_DAMPING]
     here, rates = turned_back(lv, math.cos(rolled), math.sin(rolled))
-    inner, outer = one_of(here, 0), one_of(here, 1)
-    inner_across, outer_across = one_of(here, 2), one_of(here, 3)
-    inner_rate, outer_rate = one_of(rates, 0), one_of(rates, 1)
+    inner, outer = vector_of(here, 0), vector_of(here, 1)
+    inner_across, outer_across = vector_of(here, 2), vector_of(here, 3)
+    inner_rate, outer_rate = vector_of(rates, 0), vector_of(rates, 1)
     for j in range(0, int(p[P.LANES]), FOUR):
         a = three(p, axes + j)
         height, rise, height_o, rise_o = pair_of_sums(p, form, orders, dot(a, inner), dot(a, outer))
@@ -107,5 +107,5 @@ def add_ball_form(p, c, lv, rolled, speed, w):
         swept_o = dot(a, outer_rate)
         store(w, T.INNER + j, load(w, T.INNER + j) + (scale * height + ahead * rise * swept))
         store(w, T.OUTER + j, load(w, T.OUTER + j) + (scale * height_o + ahead * rise_o * swept_o))
-        store(w, T.LEAN + j, scale * rise * dot(a, inner_across))
-        store(w, T.LEAN_OUTER + j, scale * rise_o * dot(a, outer_across))
+        store(w, T.FORM_SLOPE + j, scale * rise * dot(a, inner_across))
+        store(w, T.FORM_SLOPE_OUTER + j, scale * rise_o * dot(a, outer_across))

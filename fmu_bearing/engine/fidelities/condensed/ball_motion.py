@@ -40,7 +40,7 @@ def rest_balls(p, lv, w):
         store(lv, L.OWN_PLACE + j, rest)
         store(lv, L.OWN_VELOCITY + j, splat(0.0))
         store(lv, L.OWN_REST + j, rest)
-        store(lv, L.OWN_HELD + j, splat(0.0))
+        store(lv, L.OWN_LOADED + j, splat(0.0))
         store(lv, L.OWN_DRIVEN + j, square * rest)
 
 
@@ -56,7 +56,7 @@ def carry_balls(p, lv, w):
         drive = load(lv, L.OWN_DRIVEN + j) + square * (rest - load(lv, L.OWN_REST + j))
         store(lv, L.OWN_PLACE + j, load(lv, L.OWN_PLACE + j) + (rest - load(lv, L.OWN_REST + j)))
         store(lv, L.OWN_REST + j, rest)
-        store(lv, L.OWN_HELD + j, load(w, T.HELD + j))
+        store(lv, L.OWN_LOADED + j, load(w, T.LOADED + j))
         store(lv, L.OWN_DRIVEN + j, drive)
 
 
@@ -97,9 +97,9 @@ def move_balls(p, lv, h, x, rates, w):
     k0, k1, k2 = lv[L.OWN_KICK], lv[L.OWN_KICK + 1], lv[L.OWN_KICK + 2]
     k3, k4 = lv[L.OWN_KICK + _DRIVES - 2], lv[L.OWN_KICK + _DRIVES - 1]
     for j in range(0, int(p[P.LANES]), FOUR):
-        rest, held = load(w, T.ASIDE + j), load(w, T.HELD + j)
+        rest, loaded = load(w, T.ASIDE + j), load(w, T.LOADED + j)
         rolled = uniform + with_cosine * load(w, T.COS + j) - with_sine * load(w, T.SIN + j)
-        end = square * rest + held * rolled
+        end = square * rest + loaded * rolled
         now, before = load(lv, L.OWN_DRIVEN + j), load(lv, L.OWN_BEFORE + j)
         earlier, earliest = load(lv, L.OWN_EARLIER + j), load(lv, L.OWN_EARLIEST + j)
         place, velocity = load(lv, L.OWN_PLACE + j), load(lv, L.OWN_VELOCITY + j)
@@ -108,7 +108,7 @@ def move_balls(p, lv, h, x, rates, w):
         store(lv, L.OWN_PLACE + j, stay * place + coast * velocity + driven)
         store(lv, L.OWN_VELOCITY + j, (stay - rate * coast) * velocity - square * coast * place + kicked)
         store(lv, L.OWN_REST + j, rest)
-        store(lv, L.OWN_HELD + j, held)
+        store(lv, L.OWN_LOADED + j, loaded)
         store(lv, L.OWN_EARLIEST + j, earlier)
         store(lv, L.OWN_EARLIER + j, before)
         store(lv, L.OWN_BEFORE + j, now)
@@ -161,11 +161,11 @@ def show_moving(p, lv, limit, y, f):
         vx, vr = valid * vx, valid * vr
         ax, ar = valid * bent * (x0 - 2.0 * x1 + x2), valid * bent * (r0 - 2.0 * r1 + r2)
         place, velocity = load(lv, L.OWN_PLACE + j), load(lv, L.OWN_VELOCITY + j)
-        held = load(lv, L.OWN_HELD + j)
+        loaded = load(lv, L.OWN_LOADED + j)
         away = place - load(lv, L.OWN_REST + j)
         pushed = load(lv, L.OWN_DRIVEN + j) - square * place - rate * velocity
-        velocity -= held * (softx * vx + softr * vr)
-        pushed -= held * (softx * ax + softr * ar)
+        velocity -= loaded * (softx * vx + softr * vr)
+        pushed -= loaded * (softx * ax + softr * ar)
         store(y, Y.X + j, x0 + softx * away)
         store(y, Y.R + j, r0 + softr * away)
         store(y, Y.VX + j, vx + softx * velocity)

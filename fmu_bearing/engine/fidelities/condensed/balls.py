@@ -25,7 +25,7 @@ from fmu_bearing.engine.lanes import load, select, store, sum_four, sum_lanes
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, T, W, Y
 from fmu_bearing.engine.mechanics.bodies import inner_ring, outer_ring
 from fmu_bearing.engine.mechanics.contact import contact_axes, hertz, in_plane, race_surface
-from fmu_bearing.engine.mechanics.pose import axis_cosine, seen
+from fmu_bearing.engine.mechanics.pose import axis_cosine, ball_pose
 from fmu_bearing.engine.mechanics.trigonometry import TWO_PI
 from fmu_bearing.engine.mechanics.triples import store_three, three
 
@@ -66,8 +66,8 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
         store(w, T.SIN + j, s0 * co + c0 * si)
         store(w, T.INNER + j, size)
         store(w, T.OUTER + j, size)
-        store(w, T.LEAN + j, 0.0)
-        store(w, T.LEAN_OUTER + j, 0.0)
+        store(w, T.FORM_SLOPE + j, 0.0)
+        store(w, T.FORM_SLOPE_OUTER + j, 0.0)
     if scale == 0.0:
         return
     if p[P.BALL_WAVES] != 0.0:
@@ -85,15 +85,15 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
 
 
 @kernel
-def touch(p, c, race, first, tilt, heights, row, q, w):
+def write_contacts(p, c, race, first, tilt, heights, row, q, w):
     """Write the contacts of all balls with one race into its rows from ``row`` on, see ``T.CONTACT``.
 
     ``first``, ``tilt``: coordinates of the ring's displacement and tilts in ``q``, and of their rates times
     tau in ``T.AHEAD``; ``heights``: row of the race's heights.
     """
     stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
-    held = C.RACES + race * C.RACE_SIZE
-    groove_x, groove_r, free = c[held + C.GROOVE_X], c[held + C.GROOVE_RADIUS], c[held + C.FREE]
+    raceway = C.RACES + race * C.RACE_SIZE
+    groove_x, groove_r, free = c[raceway + C.GROOVE_X], c[raceway + C.GROOVE_RADIUS], c[raceway + C.FREE]
     pitch = p[P.PITCH_RADIUS]
     ux, uy, uz, by, bz = q[first + Q.X], q[first + Q.Y], q[first + Q.Z], q[tilt], q[tilt + 1]
     v = T.AHEAD + first
@@ -104,7 +104,7 @@ def touch(p, c, race, first, tilt, heights, row, q, w):
         radius = pitch + load(w, T.R + j)
         co = load(w, T.COS + j)
         si = load(w, T.SIN + j)
-        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = seen(co, si, x, radius, ux, uy, uz, by, bz, nx)
+        qx, qr, qt, nr, nt, axial, rho, hx, hr, ht = ball_pose(co, si, x, radius, ux, uy, uz, by, bz, nx)
         n, h = (nx, nr, nt), (hx, hr, ht)
         distance, per, sa, ca, e, m = contact_axes(axial - groove_x, rho - groove_r, n, h)
         ex, er, _ = e
@@ -121,16 +121,16 @@ def touch(p, c, race, first, tilt, heights, row, q, w):
 
 
 @kernel
-def between(load_i, load_o):
-    """Return how far four balls with these loads (N) are held between both races, 0 to 1.
+def loaded_share(load_i, load_o):
+    """Return how far four balls with these loads (N) are loaded by both races, 0 to 1.
 
     A ball that is not has no place across the track of its own. Twice a smooth step goes from 0.07 at 1 N to
     0.97 at 3 N, for many a light ball together must not count as a loose one.
     """
     square_i, square_o = load_i * load_i, load_o * load_o
-    held = square_i * square_o / ((square_i + 1.0) * (square_o + 1.0))
-    held *= held * (3.0 - 2.0 * held)
-    return held * held * (3.0 - 2.0 * held)
+    share = square_i * square_o / ((square_i + 1.0) * (square_o + 1.0))
+    share *= share * (3.0 - 2.0 * share)
+    return share * share * (3.0 - 2.0 * share)
 
 
 @kernel
@@ -159,8 +159,8 @@ def balance(p, lv, speed, part, w):
         x = load(w, T.X + j)
         r = load(w, T.R + j)
         # a bump that lies aside turns the contact's direction
-        pair_i = held_i + kt * load(w, T.LEAN + j)
-        pair_o = held_o + kt2 * load(w, T.LEAN_OUTER + j)
+        pair_i = held_i + kt * load(w, T.FORM_SLOPE + j)
+        pair_o = held_o + kt2 * load(w, T.FORM_SLOPE_OUTER + j)
         # net force on the ball and its stiffness
         netx = -load_i * ex - pair_i * mx - load_o * fx - pair_o * tx
         netr = -load_i * er - pair_i * mr - load_o * fr - pair_o * tr
@@ -183,8 +183,8 @@ def balance(p, lv, speed, part, w):
         store(w, T.R + j, r + dr)
         store(w, T.DX + j, dx)
         store(w, T.DR + j, dr)
-        touched = load(lv, L.MASK + j) * between(load_i, load_o)
-        store(w, T.HELD + j, touched)
+        touched = load(lv, L.MASK + j) * loaded_share(load_i, load_o)
+        store(w, T.LOADED + j, touched)
         store(w, T.ASIDE + j, touched * (softx * (x + dx) + softr * (r + dr) - still))
         # a ball that touches neither race goes towards one, but nothing waits for it
         touching = select(load_i + load_o > 0.0, load(lv, L.MASK + j), 0.0)
@@ -195,7 +195,7 @@ def balance(p, lv, speed, part, w):
 
 
 @kernel
-def push(lv, lanes, pair, lean, row, force, w):
+def forces_on_ring(lv, lanes, pair, lean, row, force, w):
     """Write forces and moments of the moved balls on one ring into its rows from ``force`` on.
 
     ``pair``: friction (N) across the track; ``lean``, ``row``: rows of the balls' slopes there and of the
@@ -238,11 +238,13 @@ def sweep(p, c, lv, speed, part, q, w):
     them.
     """
     lanes = int(p[P.LANES])
-    touch(p, c, 0, Q.INNER, Q.INNER_BY, T.INNER, T.CONTACT, q, w)
-    touch(p, c, 1, Q.OUTER, Q.OUTER + Q.BY, T.OUTER, T.CONTACT_OUTER, q, w)
+    write_contacts(p, c, 0, Q.INNER, Q.INNER_BY, T.INNER, T.CONTACT, q, w)
+    write_contacts(p, c, 1, Q.OUTER, Q.OUTER + Q.BY, T.OUTER, T.CONTACT_OUTER, q, w)
     balance(p, lv, speed, part, w)
-    push(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.LEAN, T.CONTACT, T.FORCE, w)
-    push(lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.LEAN_OUTER, T.CONTACT_OUTER, T.FORCE_OUTER, w)
+    forces_on_ring(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.FORM_SLOPE, T.CONTACT, T.FORCE, w)
+    forces_on_ring(
+        lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.FORM_SLOPE_OUTER, T.CONTACT_OUTER, T.FORCE_OUTER, w
+    )
 
 
 @kernel
@@ -276,7 +278,7 @@ def sum_forces(lanes, w, f):
 
 
 @kernel
-def carried(p, c, lv, speed, q, w):
+def solve_balls(p, c, lv, speed, q, w):
     """Sweep until the first-order forces serve; False where the balls find no rest in bounded work."""
     lanes = int(p[P.LANES])
     for n in range(_SWEEPS):
@@ -305,7 +307,7 @@ def accelerations(p, c, lv, angle, speed, speed_rate, q, w):
     for i in range(L.N):
         q[i] = w[W.STAGE + Y.Q0 + i]
         w[T.AHEAD + i] = tau * w[W.STAGE + Y.V0 + i]
-    if not carried(p, c, lv, speed, q, w):
+    if not solve_balls(p, c, lv, speed, q, w):
         return False
     lanes = int(p[P.LANES])
     f = w[W.F : W.F + F.SIZE]

@@ -4,7 +4,7 @@ See `operator`; `patterns` steps them.
 """
 
 from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
-from fmu_bearing.engine.fidelities.condensed.balls import between
+from fmu_bearing.engine.fidelities.condensed.balls import loaded_share
 from fmu_bearing.engine.fidelities.condensed.families import family_size
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store, sum_four, sum_lanes
@@ -16,9 +16,9 @@ _LIGHT = 1e-4
 
 
 @kernel
-def share_held(p, lv, w):
-    """Return the share of the balls that both races hold as at the held point; others rest where they are."""
-    return min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * sum_lanes(w, T.HELD, int(p[P.LANES])) / p[P.BALLS])
+def share_of_loaded_balls(p, lv, w):
+    """Return the share of balls that both races load as at the frozen point; others rest where they are."""
+    return min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * sum_lanes(w, T.LOADED, int(p[P.LANES])) / p[P.BALLS])
 
 
 @kernel
@@ -68,7 +68,7 @@ def pressing(w, k, tau):
 
 
 @kernel
-def linear_press(lv, race, tau, x0, r0, x, r, w):
+def linear_approach(lv, race, tau, x0, r0, x, r, w):
     """Return by how much the rings' linear motion presses a contact (m): uniform, then complex of family 1.
 
     ``x0``, ``r0``: the linear places of a ball, of family 0; ``x``, ``r``: complex, of family 1; ``tau`` (s):
@@ -83,7 +83,7 @@ def linear_press(lv, race, tau, x0, r0, x, r, w):
 
 
 @kernel
-def moved_load(w, at, j):
+def load_after_move(w, at, j):
     """Return loads (N) of four contacts, rows from ``at`` on, with the balls where the sweep put them.
 
     To first order, as what rings feel: by the loads before the sweep, what a ball adds would change from one
@@ -100,13 +100,14 @@ def find_away(p, lv, w):
     Of family 0, then of family 1: complex x, r, then how far both contacts press, see ``L.AWAYS``. After a
     sweep, with the rings at the trial state. Balls that are farther away than contacts approach fade out, as
     loose ones and light ones do: nothing there is linear, and what one ball does would change with forces
-    that nobody feels. Where all carry little, as much as they carry at the held point is no less than whole.
+    that nobody feels. Where all carry little, as much as they carry at the frozen point is no less than
+    whole.
     """
     x0, r0 = linear_place(lv, 0, 0, w).real, linear_place(lv, 0, 1, w).real
     x1, r1 = linear_place(lv, 1, 0, w), linear_place(lv, 1, 1, w)
     tau = p[P.CONTACT_DAMPING]
-    i0, i1 = linear_press(lv, 0, tau, x0, r0, x1, r1, w)
-    o0, o1 = linear_press(lv, 1, tau, x0, r0, x1, r1, w)
+    i0, i1 = linear_approach(lv, 0, tau, x0, r0, x1, r1, w)
+    o0, o1 = linear_approach(lv, 1, tau, x0, r0, x1, r1, w)
     x0 += lv[L.AT_BALL]
     r0 += lv[L.AT_BALL + 1]
     per_i, per_o = lv[L.PRESS + L.PRESS_SOFT], lv[L.PRESS + L.PRESS_SIZE + L.PRESS_SOFT]
@@ -122,17 +123,17 @@ def find_away(p, lv, w):
         x = load(w, T.X + j) - x0 - (x1.real * co - x1.imag * si)
         r = load(w, T.R + j) - r0 - (r1.real * co - r1.imag * si)
         far = x * (xx * x + xr2 * r) + rr2 * r * r
-        inner, outer = moved_load(w, T.CONTACT, j), moved_load(w, T.CONTACT_OUTER, j)
+        inner, outer = load_after_move(w, T.CONTACT, j), load_after_move(w, T.CONTACT_OUTER, j)
         loaded = per * inner * outer
         loaded *= loaded
-        held = load(lv, L.MASK + j) * min(1.0, whole * between(inner, outer)) * loaded * loaded
-        held /= (loaded * loaded + _LIGHT) * (1.0 + far * far)
-        x, r = held * x, held * r
+        weight = load(lv, L.MASK + j) * min(1.0, whole * loaded_share(inner, outer)) * loaded * loaded
+        weight /= (loaded * loaded + _LIGHT) * (1.0 + far * far)
+        x, r = weight * x, weight * r
         ux, ur = ux + x, ur + r
         cx, cr = cx + co * x, cr + co * r
         sx, sr = sx - si * x, sr - si * r
-        x = held * (per_i * inner - i0 - (i1.real * co - i1.imag * si))
-        r = held * (per_o * outer - o0 - (o1.real * co - o1.imag * si))
+        x = weight * (per_i * inner - i0 - (i1.real * co - i1.imag * si))
+        r = weight * (per_o * outer - o0 - (o1.real * co - o1.imag * si))
         ui, uo = ui + x, uo + r
         ci, cout = ci + co * x, cout + co * r
         si_, sout = si_ - si * x, sout - si * r
@@ -198,7 +199,7 @@ def keep_drive(w, at, re, im):
 
 @kernel
 def show_linear(lv, w):
-    """Put the rings' trial places, less the held ones, to ``T.LINEAR``, and by families with their rates."""
+    """Put the rings' trial places less the frozen ones to ``T.LINEAR``, and by families with their rates."""
     for i in range(L.N):
         w[T.LINEAR + i] = w[W.STAGE + Y.Q0 + i] - lv[L.AT_RINGS + i]
     by_families(w, T.LINEAR, T.PLACES, w)

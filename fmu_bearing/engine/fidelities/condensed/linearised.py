@@ -8,7 +8,7 @@ from fmu_bearing.engine.newton.jacobian import is_angle
 # m: central differences by it, tilts the same at the pitch circle, rates the same in the time constant of
 # contact damping. The condensed forces are smooth to 1e-9 N, so differences hold 3e-7 of 10 N/um, and what is
 # of the third order is 1e-5 of that at an approach of 0.1 um. It matters where both rings move together: the
-# stiffnesses of two contacts cancel there, and what is left of them stands beside a soft support.
+# stiffnesses of two contacts cancel there, and what is left of them acts beside a soft support.
 _MOVE = 3e-10
 _SHORTEST = 1e-7  # s: shorter time constants are as good as none
 

@@ -1,9 +1,9 @@
 """What balls and cage do between the rings by the linearised equations of fidelity `full`, by their modes.
 
 The condensed balls (``balls``) rest between the races at every instant. In fidelity `full` they have inertia,
-slip, and spin axes that lag behind, and the cage goes with them. About the held point, where all balls carry
-equal loads, that is linear: with q the rings' displacements from it, v their velocities, x the states of one
-pattern of the balls (places x, r, angle; their rates; spins) and of the cage, family by family
+slip, and spin axes that lag behind, and the cage goes with them. About the frozen point, where all balls
+carry equal loads, that is linear: with q the rings' displacements from it, v their velocities, x the states
+of one pattern of the balls (places x, r, angle; their rates; spins) and of the cage, family by family
 
     x' = A x + C_q q + C_v v + K e,       a = a_c(q, v, waves) + R_q q + R_v v + D x - D_e e.
 
@@ -16,7 +16,7 @@ rest; D_e e takes out of a_c what x brings in again, and adds that friction. Wit
 motions e is zero, and this is the linearised `full` itself, for any stiffness and at any frequency. K and D_e
 are of how contacts press: a wave under a ball moves no surface along the track.
 
-Modes of A that grow while the rings are held are left out: the cage whirls in its lands, or friction that
+Modes of A that grow while the rings are fixed are left out: the cage whirls in its lands, or friction that
 falls with sliding drives a ball. That motion is bounded by what is not linear.
 """
 
@@ -90,7 +90,7 @@ def by_ball(p, jac, family, a, k):
 
 
 @kernel
-def hold_loosely(a, at):
+def damp_undragged(a, at):
     """Damp the rate of a place that nothing drags: place and rate would share one mode."""
     if abs(a[at].real) < _SLOW:
         a[at] -= _SLOW
@@ -157,10 +157,10 @@ def gather_states(p, jac, orbit, radius, family, n, w):
             for b in range(rings):
                 at = 2 * ((_BALL_ROWS + 2 + a) * L.FAMILY_RINGS + b) + rate
                 by_rings[at] = by_members(jac, first, J.BODIES, 1, family, cage + a, b)
-        hold_loosely(x, row + _BALL_ROWS + 2 + a)
+        damp_undragged(x, row + _BALL_ROWS + 2 + a)
     if family == 1:
         add_springs(p, radius, x, n)
-    hold_loosely(x, (J.BALL - 1) * n + J.BALL - 1)
+    damp_undragged(x, (J.BALL - 1) * n + J.BALL - 1)
     for i in range(n):
         for k in range(n):
             x[i * n + k] = real_times(own_scale(p, k) / own_scale(p, i), x[i * n + k])
@@ -253,7 +253,7 @@ def keep_modes(p, lv, jac, family, n, w):
             total = 0j
             for i in range(J.BALL):
                 # contacts push a ball towards its place of rest
-                total += real_times(w[T.HOLDS + L.AWAYS * i + k], inverse[J.PLACED + i])
+                total += real_times(w[T.RESTORING + L.AWAYS * i + k], inverse[J.PLACED + i])
             put(lv, f + L.IN_AWAY + k * L.COMPLEX, into, total)
         for a in range(rings):
             total = 0j
@@ -282,7 +282,7 @@ def find_follow(lv, family, w):
 
 
 @kernel
-def find_beside(lv, jac):
+def find_feedthrough(lv, jac):
     """Write the rings' own derivatives that `full` has beside those with balls at rest.
 
     By families: differences couple them a little, the more aside the rings are, and not in the mirror image
@@ -293,10 +293,10 @@ def find_beside(lv, jac):
             for b in range(family_size(family)):
                 by = by_members(jac, J.E, J.BODIES, 1, family, a, b)
                 by -= by_members(lv, L.JX, 1, L.COLUMN, family, a, b)
-                add_members(by, lv, L.BESIDE_PLACE, 1, L.COLUMN, family, a, b)
+                add_members(by, lv, L.FEEDTHROUGH_PLACE, 1, L.COLUMN, family, a, b)
                 by = by_members(jac, J.E + Q.SIZE, J.BODIES, 1, family, a, b)
                 by -= by_members(lv, L.JV, 1, L.COLUMN, family, a, b)
-                add_members(by, lv, L.BESIDE_RATE, 1, L.COLUMN, family, a, b)
+                add_members(by, lv, L.FEEDTHROUGH_RATE, 1, L.COLUMN, family, a, b)
 
 
 @kernel
@@ -317,13 +317,13 @@ def keep_states(lv, w):
         shape = L.FAMILY + family * L.FAMILY_SIZE + L.SHAPE
         for m in range(int(lv[L.OPERATOR + family])):
             away = mode_of(lv, L.MODES_NOW + family * L.COMPLEX, m)
-            away -= held_by(lv, family, m, lv, L.MODES_DRIVEN)
+            away -= static_mode(lv, family, m, lv, L.MODES_DRIVEN)
             for i in range(L.INTERNAL):
                 kept[family * L.INTERNAL + i] += mode_of(lv, shape + i * L.COMPLEX, m) * away
 
 
 @kernel
-def held_by(lv, family, m, x, drives):
+def static_mode(lv, family, m, x, drives):
     """Where the drives of rings at rest at ``x[drives:]`` would hold mode ``m`` of a family: complex."""
     value = mode_of(lv, L.FAMILY + family * L.FAMILY_SIZE + L.VALUE, m)
     if square(value) < 1.0:
@@ -356,7 +356,7 @@ def put_states(lv, family, n, w):
 
 @kernel
 def find_operator(p, lv, jac, orbit, w):
-    """Fill the operator from the Jacobian of `full` at the held point and derivatives with balls at rest.
+    """Fill the operator from the Jacobian of `full` at the frozen point and derivatives with balls at rest.
 
     Both were just made there, after `contact_forces`. ``orbit``: rad/s of the balls. States of
     balls and cage are carried over.
@@ -364,8 +364,8 @@ def find_operator(p, lv, jac, orbit, w):
     keep_states(lv, w)
     clear_operator(lv)
     for i in range(L.MATRIX):
-        lv[L.HELD_PLACE + i] = lv[L.JX + i]
-        lv[L.HELD_RATE + i] = lv[L.JV + i]
+        lv[L.FROZEN_JX + i] = lv[L.JX + i]
+        lv[L.FROZEN_JV + i] = lv[L.JV + i]
     n = internal(p)
     radius = p[P.PITCH_RADIUS] + lv[L.Y0 + Y.R]
     for family in range(2):
@@ -376,9 +376,11 @@ def find_operator(p, lv, jac, orbit, w):
         lv[L.OPERATOR + family] = keep_modes(p, lv, jac, family, n, w)
         put_states(lv, family, n, w)
         find_follow(lv, family, w)
-        for i in range(T.PUSHED // 2):
-            lv[L.FAMILY + family * L.FAMILY_SIZE + L.PUSH + i] = w[T.PUSHES + family * (T.PUSHED // 2) + i]
-    find_beside(lv, jac)
+        for i in range(T.COUPLING_SIZE // 2):
+            lv[L.FAMILY + family * L.FAMILY_SIZE + L.COUPLING + i] = w[
+                T.COUPLING + family * (T.COUPLING_SIZE // 2) + i
+            ]
+    find_feedthrough(lv, jac)
     for i in range(L.N):
         lv[L.AT_RINGS + i] = lv[L.Y0 + Y.Q0 + i]
     lv[L.AT_BALL] = lv[L.Y0 + Y.X]

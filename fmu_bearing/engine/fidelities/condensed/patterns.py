@@ -9,7 +9,6 @@ the step is that of the trial state.
 
 from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times, square
 from fmu_bearing.engine.dense import times
-from fmu_bearing.engine.fidelities.condensed.beside import by_modes
 from fmu_bearing.engine.fidelities.condensed.drives import (
     active,
     add_input,
@@ -20,11 +19,12 @@ from fmu_bearing.engine.fidelities.condensed.drives import (
     groups,
     keep_drive,
     modes_of,
-    share_held,
+    share_of_loaded_balls,
     show_linear,
 )
+from fmu_bearing.engine.fidelities.condensed.dynamic_stiffness import modes_on_rings
 from fmu_bearing.engine.fidelities.condensed.families import add_members, family_size, member, side
-from fmu_bearing.engine.fidelities.condensed.operator import held_by, mode_of, put
+from fmu_bearing.engine.fidelities.condensed.operator import mode_of, put, static_mode
 from fmu_bearing.engine.fidelities.condensed.phi import moments, weigh
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
@@ -34,7 +34,7 @@ from fmu_bearing.engine.layout import FOUR, F, L, T, W, Y
 # makes what is fast in them larger, three serve.
 _STIFF = 20.0
 _SAME = 1e-9  # of a step: with so little difference the weights of another one serve
-# s: in which the share of held balls follows, a period of a ring's mode: at once, balls that come and
+# s: in which the share of loaded balls follows, a period of a ring's mode: at once, balls that come and
 # go between two trial states leave no step to go on with
 _LATELY = 1e-4
 # s: in which what a new operator adds beside the one before comes in. At once it is a step of the force at
@@ -107,24 +107,24 @@ def at_end(lv, w, m):
 
 
 @kernel
-def push_rings(lv, x, z, w):
+def add_modes_on_rings(lv, x, z, w):
     """Add what the modes ``x[z:]`` do to the rings to ``T.ADDED``.
 
-    Beside the contacts of balls at rest: with the rings' own terms; as far as balls are held.
+    Beside the contacts of balls at rest: with the rings' own terms; as far as balls are loaded.
     """
     share = lv[L.SHARE]
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE
         for a in range(family_size(family)):
-            pushed = by_modes(lv, family, f + L.OUT + a * L.COMPLEX, z + family * L.COMPLEX, x)
+            pushed = modes_on_rings(lv, family, f + L.OUT + a * L.COMPLEX, z + family * L.COMPLEX, x)
             for k in range(L.AWAYS):
                 away = pair(w, T.AWAY_NOW + T.FAMILY_AWAY * family + 2 * k)
-                pushed -= pair(lv, f + L.PUSH + 2 * (L.AWAYS * a + k)) * away
+                pushed -= pair(lv, f + L.COUPLING + 2 * (L.AWAYS * a + k)) * away
             w[T.ADDED + member(family, 0, a)] += share * pushed.real
             if family == 1:
                 w[T.ADDED + member(1, 1, a)] += share * side(1, a) * pushed.imag
-    times(lv, L.BESIDE_PLACE, w, T.LINEAR, w, T.V)
-    times(lv, L.BESIDE_RATE, w, W.STAGE + Y.V0, w, T.D)
+    times(lv, L.FEEDTHROUGH_PLACE, w, T.LINEAR, w, T.V)
+    times(lv, L.FEEDTHROUGH_RATE, w, W.STAGE + Y.V0, w, T.D)
     for i in range(L.N):
         w[T.ADDED + i] += share * (w[T.V + i] + w[T.D + i])
 
@@ -146,7 +146,7 @@ def add_patterns(p, lv, h, w):
             for m in range(first, first + groups(lv, family), FOUR):
                 re, im = at_end(lv, w, m)
                 keep_drive(w, T.MODES_END + m, re, im)
-        push_rings(lv, w, T.MODES_END, w)
+        add_modes_on_rings(lv, w, T.MODES_END, w)
     left = 1.0 - h / (h + _COMES_IN)
     for i in range(L.N):
         w[T.ADDED + i] += left * lv[L.JUMP + i]
@@ -196,7 +196,7 @@ def keep_patterns(p, lv, h, w):
         lv[L.ADDED + i] = w[T.ADDED + i]
     if not active(lv):
         return
-    lv[L.SHARE] += h / (h + _LATELY) * (share_held(p, lv, w) - lv[L.SHARE])
+    lv[L.SHARE] += h / (h + _LATELY) * (share_of_loaded_balls(p, lv, w) - lv[L.SHARE])
     away = L.MODES_DRIVEN + L.BY_AWAY * L.BOTH
     for family in range(2):
         first = family * L.COMPLEX
@@ -243,13 +243,13 @@ def carry_modes(p, lv, w):
         for m in range(modes_of(lv, family)):
             now = mode_of(lv, L.MODES_NOW + first, m)
             if lv[L.MODES_NEW] == 0.0:
-                now -= held_by(lv, family, m, lv, L.MODES_DRIVEN)
-            put(lv, L.MODES_NOW + first, m, now + held_by(lv, family, m, w, T.MODES_DRIVEN))
+                now -= static_mode(lv, family, m, lv, L.MODES_DRIVEN)
+            put(lv, L.MODES_NOW + first, m, now + static_mode(lv, family, m, w, T.MODES_DRIVEN))
             for k in range(4):
                 row = k * L.BOTH + first
                 put(lv, L.MODES_DRIVEN + row, m, mode_of(w, T.MODES_DRIVEN + row, m))
-    lv[L.SHARE] = share_held(p, lv, w)
-    push_rings(lv, lv, L.MODES_NOW, w)
+    lv[L.SHARE] = share_of_loaded_balls(p, lv, w)
+    add_modes_on_rings(lv, lv, L.MODES_NOW, w)
 
 
 @kernel
@@ -264,7 +264,7 @@ def add_step(lv, cv, cx, x, at, row, column):
     for i in range(L.N):
         for k in range(L.N):
             beside = i + L.COLUMN * k
-            own = cv * lv[L.BESIDE_RATE + beside] + cx * lv[L.BESIDE_PLACE + beside]
+            own = cv * lv[L.FEEDTHROUGH_RATE + beside] + cx * lv[L.FEEDTHROUGH_PLACE + beside]
             x[at + i * row + k * column] -= share * own
     for family in range(2):
         f = L.FAMILY + family * L.FAMILY_SIZE

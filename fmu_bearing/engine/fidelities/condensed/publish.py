@@ -8,7 +8,7 @@ from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, R, S, T, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.equations import inner_pose, outer_pose
-from fmu_bearing.engine.mechanics.race import normal, waves
+from fmu_bearing.engine.mechanics.race import normal_contact, waviness
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 
@@ -41,18 +41,18 @@ def publish_balls(p, lv, speed, speed_rate, y, f):
 
 
 @kernel
-def held_heat(lv):
-    """Sum (W) of the heats held from the operating point."""
+def frozen_heat(lv):
+    """Sum (W) of the heats frozen at the operating point."""
     return lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
 
 
 @kernel
-def held_torque(lv, speed):
-    """Torque (N m) that puts in the heats held from the operating point at ``speed`` (rad/s)."""
-    found = lv[L.FOUND_SPEED]
+def frozen_torque(lv, speed):
+    """Torque (N m) that puts in the heats frozen at the operating point at ``speed`` (rad/s)."""
+    frozen = lv[L.FROZEN_SPEED]
     # in a ramp from far below, the speed that the heats belong to is still to come
-    near = found != 0.0 and speed * found > 0.5 * found * found
-    return held_heat(lv) / speed if near else lv[L.TORQUE]
+    near = frozen != 0.0 and speed * frozen > 0.5 * frozen * frozen
+    return frozen_heat(lv) / speed if near else lv[L.TORQUE]
 
 
 @kernel
@@ -70,8 +70,8 @@ def publish_moving(p, lv, speed, speed_rate, y, f):
     y[Y.V0 + turn] = lv[L.RATIO] * speed if p[P.CAGE] != 0.0 else 0.0
     f[F.BODY + turn] = lv[L.RATIO] * speed_rate if p[P.CAGE] != 0.0 else 0.0
     publish_balls(p, lv, speed, speed_rate, y, f)
-    f[F.WORK] = held_heat(lv)
-    f[F.TORQUE] = held_torque(lv, speed)
+    f[F.WORK] = frozen_heat(lv)
+    f[F.TORQUE] = frozen_torque(lv, speed)
     for i in range(3):
         f[F.HEAT + i] = lv[L.HEAT + i]
 
@@ -107,8 +107,8 @@ def find_contacts(p, s, w):
     outer_pose(p, c, y, w)
     for race in range(2):
         turned = s[S.ANGLE] if race == 0 else y[Y.Q0 + Q.OUTER + Q.TURN]
-        waves(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
+        waviness(p, c, y[Y.TH : Y.TH + STRIDE], lanes, race, turned, w)
         row = W.RACE + race * R.SIZE + R.WAVE
         for j in range(0, lanes, FOUR):
             store(w, row + j, load(w, row + j) + load(s, own + race * STRIDE + j))
-        normal(p, c, y, lanes, race, w)
+        normal_contact(p, c, y, lanes, race, w)

@@ -1,22 +1,22 @@
-"""What fidelities `rings` and `response` share: operators at the held point, and the end of a step."""
+"""What fidelities `rings` and `response` share: operators at the frozen point, and the end of a step."""
 
 import math
 
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.balls import accelerations, set_angles
 from fmu_bearing.engine.fidelities.condensed.contact_forces import (
-    find_holds,
-    find_presses,
-    find_pushes,
-    note_contacts,
+    find_coupling,
+    find_load_friction,
+    find_restoring,
+    store_contacts,
 )
-from fmu_bearing.engine.fidelities.condensed.held import turning_at
+from fmu_bearing.engine.fidelities.condensed.frozen import nonzero_speed
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.operator import (
     clear_operator,
     find_operator,
 )
-from fmu_bearing.engine.fidelities.condensed.publish import held_torque, publish_moving
+from fmu_bearing.engine.fidelities.condensed.publish import frozen_torque, publish_moving
 from fmu_bearing.engine.fidelities.condensed.transverse import (
     clear_transverse,
     find_friction,
@@ -53,12 +53,12 @@ def flat(p, c, lv, w):
     set_angles(p, c, lv, 0.0, 0.0, 0.0, 0.0, 0.0, w)
     for i in range(2 * STRIDE):
         w[T.INNER + i] = 0.0
-        w[T.LEAN + i] = 0.0
+        w[T.FORM_SLOPE + i] = 0.0
 
 
 @kernel
 def jacobian_with_cage(p, c, lv, speed, w, jac):
-    """Jacobian of `full` at the held point, with the cage as it runs there.
+    """Jacobian of `full` at the frozen point, with the cage as it runs there.
 
     Where it whirls and its pockets press on all balls, these lag in them. The film of its lands has the
     slopes of where the cage is: its whirl is faster or slower than what rings do, so that they feel the mean
@@ -92,8 +92,8 @@ def jacobian_with_cage(p, c, lv, speed, w, jac):
 
 
 @kernel
-def hold_operator(p, s, w):
-    """Find what balls and cage do between the rings at the held point: see `operator` and `transverse`.
+def build_operator(p, s, w):
+    """Find what balls and cage do between the rings at the frozen point: see `operator` and `transverse`.
 
     ``L.JX`` and ``L.JV`` and the trial state are overwritten. Where balls find no rest there, or nothing
     holds them between both races, they follow statically.
@@ -102,7 +102,7 @@ def hold_operator(p, s, w):
     jac = s[S.JAC : S.CONDENSED]
     c = lv[L.CONDITIONS : L.CONDITIONS + C.SIZE]
     y = lv[L.Y0 : L.Y0 + Y.SIZE]
-    speed = turning_at(lv[L.FOUND_SPEED])
+    speed = nonzero_speed(lv[L.FROZEN_SPEED])
     lv[L.MODES_NEW] = 1.0
     for i in range(Y.SIZE):
         w[W.STAGE + i] = 0.0
@@ -119,13 +119,13 @@ def hold_operator(p, s, w):
     # the last difference leaves the contacts moved
     accelerations(p, c, lv, 0.0, speed, 0.0, w[T.Q : T.Q + L.COLUMN], w)
     find_transverse(p, c, lv, speed, w)
-    find_holds(p, lv[L.Y0 + Y.OM], w)
-    find_pushes(p, lv, speed, w)
-    note_contacts(p, lv, w)
+    find_restoring(p, lv[L.Y0 + Y.OM], w)
+    find_coupling(p, lv, speed, w)
+    store_contacts(p, lv, w)
     if lv[L.SIDE_SQUARE] == 0.0:
         clear_operator(lv)
         return
-    find_presses(p, c, y, speed, w)
+    find_load_friction(p, c, y, speed, w)
     jacobian_with_cage(p, c, lv, speed, w, jac)
     find_friction(lv, jac)
     find_operator(p, lv, jac, lv[L.Y0 + Y.OM], w)
@@ -136,7 +136,7 @@ def advance(s, h):
     """Time, angle, speed, the shaft's work and the sums of heat at the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     mean_speed = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
-    impulse = h * held_torque(lv, mean_speed)
+    impulse = h * frozen_torque(lv, mean_speed)
     s[S.SHAFT_WORK] += impulse * mean_speed
     s[S.TORQUE_TIME] += impulse
     advance_clock(s, h)

@@ -19,7 +19,7 @@ from fmu_bearing.engine.layout import STRIDE, C, F, J, L, P, Q, T, Y
 from fmu_bearing.engine.mechanics.contact import in_plane
 
 _LOADED = 1.0  # N at both races: with less a ball follows statically
-# Radians per step of the balls between held races: below them polynomials through three and five drives are
+# Radians per step of the balls between fixed races: below them polynomials through three and five drives are
 # rounding, and one and three serve.
 _FINE = 1e-2
 _SMOOTH = 5e-2
@@ -33,12 +33,12 @@ def clear_transverse(lv):
     for i in range(L.SIDE, L.SIDE_STEP):
         lv[i] = 0.0
     lv[L.SIDE_STEP] = 0.0
-    for i in range(L.SIDE_GUIDE, L.SIDE_GUIDE + L.PATTERNS * L.COLUMN):
+    for i in range(L.SIDE_ROLLING, L.SIDE_ROLLING + L.PATTERNS * L.COLUMN):
         lv[i] = 0.0
 
 
 @kernel
-def held_in_plane(p, orbit, w):
+def ball_stiffness(p, orbit, w):
     """Return what holds ball 0 at its contacts by places x, r (N/m): xx, xr, rr, with its orbit's pull."""
     kxx, kxr, krr = 0.0, 0.0, -p[P.BALL_MASS] * orbit * orbit
     for at in (T.CONTACT, T.CONTACT_OUTER):
@@ -55,7 +55,7 @@ def find_direction(p, lv, speed, w):
     """Find direction and frequency of ball 0 across the track from its contacts; False where it is loose."""
     if not (w[T.CONTACT + T.LOAD] > _LOADED and w[T.CONTACT_OUTER + T.LOAD] > _LOADED):
         return False
-    kxx, kxr, krr = held_in_plane(p, lv[L.RATIO] * speed, w)
+    kxx, kxr, krr = ball_stiffness(p, lv[L.RATIO] * speed, w)
     half = 0.5 * (kxx - krr)
     soft = 0.5 * (kxx + krr) - math.sqrt(half * half + kxr * kxr)
     if not (soft > 0.0):
@@ -74,8 +74,8 @@ def find_direction(p, lv, speed, w):
 
 
 @kernel
-def guide(c, lv, w, contact, first, tilt, share):
-    """Fill ``L.SIDE_GUIDE`` of one ring: half of what its surface does at the contact of ball 0.
+def rolling_guide(c, lv, w, contact, first, tilt, share):
+    """Fill ``L.SIDE_ROLLING`` of one ring: half of what its surface does at the contact of ball 0.
 
     ``contact``: rows of the contact; ``first``: coordinate of the ring's x; ``tilt``: of its tilt about y.
     """
@@ -84,8 +84,8 @@ def guide(c, lv, w, contact, first, tilt, share):
     x = w[contact + T.QX] + c[C.BALL_RADIUS] * w[contact + T.EX]
     r = w[contact + T.QR] + c[C.BALL_RADIUS] * w[contact + T.ER]
     lever = share * (tx * r - tr * x)
-    lv[L.SIDE_GUIDE + first] = share * tx
-    row = L.SIDE_GUIDE + L.COLUMN
+    lv[L.SIDE_ROLLING + first] = share * tx
+    row = L.SIDE_ROLLING + L.COLUMN
     lv[row + first + Q.Z] = share * tr
     lv[row + tilt] = lever
     row += L.COLUMN
@@ -95,15 +95,15 @@ def guide(c, lv, w, contact, first, tilt, share):
 
 @kernel
 def find_transverse(p, c, lv, speed, w):
-    """Fill direction, frequency and rolling of the balls at the held point, whose contacts are in ``w``.
+    """Fill direction, frequency and rolling of the balls at the frozen point, whose contacts are in ``w``.
 
-    Where ball 0 is not held by both races, the balls follow statically.
+    Where ball 0 is not loaded by both races, the balls follow statically.
     """
     clear_transverse(lv)
     if not find_direction(p, lv, speed, w):
         return
-    guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)
-    guide(c, lv, w, T.CONTACT_OUTER, Q.OUTER, Q.OUTER + Q.BY, 0.5)
+    rolling_guide(c, lv, w, T.CONTACT, Q.INNER, Q.INNER_BY, 0.5)
+    rolling_guide(c, lv, w, T.CONTACT_OUTER, Q.OUTER, Q.OUTER + Q.BY, 0.5)
 
 
 @kernel
@@ -194,11 +194,11 @@ def guided(lv, k, x, rates):
     """Velocity (m/s) that rolling alone gives pattern ``k``, the rings' velocities at ``x[rates:]``."""
     total = 0.0
     for i in range(L.N):
-        total += lv[L.SIDE_GUIDE + k * L.COLUMN + i] * x[rates + i]
+        total += lv[L.SIDE_ROLLING + k * L.COLUMN + i] * x[rates + i]
     return total
 
 
 @kernel
-def pattern_answer(lv, omega):
+def pattern_receptance(lv, omega):
     """Place of a pattern at ``omega`` (rad/s) by what drives it: complex (s2)."""
     return over(complex(1.0, 0.0), complex(lv[L.SIDE_SQUARE] - omega * omega, omega * lv[L.SIDE_RATE]))

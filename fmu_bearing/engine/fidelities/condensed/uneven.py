@@ -1,4 +1,4 @@
-"""Losses that are held: with even balls, and what uneven ones add.
+"""Losses that are frozen: with even balls, and what uneven ones add.
 
 The point that fidelities rings and response are linearised about has even balls and a centred cage. Torque,
 heat and orbit speed belong to the whole steady state (``steady.point``), with balls that loads across the
@@ -35,35 +35,35 @@ _HEATS = 3
 
 
 @kernel
-def summarise_held(p, s, y, f, w):
-    """Losses by source at the held state ``y`` with its right-hand side ``f``; the state in ``s`` stays.
+def summarise_frozen(p, s, y, f, w):
+    """Losses by source at the frozen state ``y`` with its right-hand side ``f``; the state in ``s`` stays.
 
     A step's first sound sample is interpolated from what ``s`` was published with.
     """
     heat = s[S.F + F.HEAT_OIL]
     s[S.F + F.HEAT_OIL] = f[F.HEAT_OIL]
     for j in range(STRIDE):
-        w[T.HELD_ROWS + j] = s[S.Y + Y.OM + j]
-        w[T.HELD_ROWS + STRIDE + j] = s[S.Y + Y.R + j]
+        w[T.FROZEN_ROWS + j] = s[S.Y + Y.OM + j]
+        w[T.FROZEN_ROWS + STRIDE + j] = s[S.Y + Y.R + j]
         s[S.Y + Y.OM + j] = y[Y.OM + j]
         s[S.Y + Y.R + j] = y[Y.R + j]
     summarise(p, s, w)
     s[S.F + F.HEAT_OIL] = heat
     for j in range(STRIDE):
-        s[S.Y + Y.OM + j] = w[T.HELD_ROWS + j]
-        s[S.Y + Y.R + j] = w[T.HELD_ROWS + STRIDE + j]
+        s[S.Y + Y.OM + j] = w[T.FROZEN_ROWS + j]
+        s[S.Y + Y.R + j] = w[T.FROZEN_ROWS + STRIDE + j]
 
 
 @kernel
-def hold_losses(p, c, y, speed, turning, s, w):
+def freeze_losses(p, c, y, speed, turning, s, w):
     """Put what is lost at the state ``y`` to ``lv`` and ``s``; its right-hand side stays in ``w``.
 
     ``speed`` of the shaft (rad/s) for which, ``turning`` at which it is found.
     """
     lv = s[S.CONDENSED :]
-    f = w[T.HELD_F : T.HELD_F + F.SIZE]
+    f = w[T.FROZEN_F : T.FROZEN_F + F.SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
-    summarise_held(p, s, y, f, w)
+    summarise_frozen(p, s, y, f, w)
     share = speed / turning
     for i in range(_HEATS):
         lv[L.HEAT + i] = share * share * f[F.HEAT + i]
@@ -76,8 +76,8 @@ def hold_losses(p, c, y, speed, turning, s, w):
 
 
 @kernel
-def show_lost(lv, s, out, to):
-    """Put the losses that are held to ``L.LOST`` numbers at ``out[to:]``."""
+def copy_losses(lv, s, out, to):
+    """Put the losses that are frozen to ``L.LOST`` numbers at ``out[to:]``."""
     for i in range(_HEATS):
         out[to + i] = lv[L.HEAT + i]
     for i in range(S.LOSSES):
@@ -86,7 +86,7 @@ def show_lost(lv, s, out, to):
 
 
 @kernel
-def keep_lost(lv, s, x, at):
+def set_losses(lv, s, x, at):
     """Hold the losses at ``x[at:]``."""
     for i in range(_HEATS):
         lv[L.HEAT + i] = x[at + i]
@@ -102,7 +102,7 @@ def moved(now, then, times):
 
 
 @kernel
-def grown(c, lv, at):
+def race_growth(c, lv, at):
     """How far (m) contacts have moved with the conditions ``c`` from those in ``lv[at:]``.
 
     Groove circles count by their distance: where both grow together, contacts are as they were.
@@ -140,7 +140,7 @@ def away(lv, c, speed, found_speed, conditions, times):
         then = lv[conditions + i]
         if abs(c[i] - then) > times * (_MOVED * abs(then) + _ACROSS * abs(c[C.PRELOAD]) + 1e-12):
             far = True
-    return far or grown(c, lv, conditions) > times * _GROWN
+    return far or race_growth(c, lv, conditions) > times * _GROWN
 
 
 @kernel
@@ -177,21 +177,21 @@ def keep_pieces(w, lv, back):
 
 
 @kernel
-def begin_uneven(c, speed, turning, ring_held, s, w):
+def begin_uneven(c, speed, turning, rings_fixed, s, w):
     """Begin the search for what uneven balls add near the quasi-static state ``PT.FIRST_STATE``.
 
-    ``c``: conditions without imperfections, with the loads; ``ring_held``: see `steady.even`. The losses that
-    are held belong to even balls.
+    ``c``: conditions without imperfections, with the loads; ``rings_fixed``: see `steady.even`. The losses
+    that are frozen belong to even balls.
     """
     lv = s[S.CONDENSED :]
     first = state_at(w, PT.FIRST_STATE)
     lv[L.SEARCH_STATE] = L.GOING
     lv[L.SEARCH_SPEED] = speed
     lv[L.SEARCH_TURNING] = turning
-    lv[L.SEARCH_HELD] = ring_held
+    lv[L.SEARCH_FIXED] = rings_fixed
     lv[L.SEARCH_RATIO] = lv[L.RATIO]
     lv[L.SEARCH_TOTAL] = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
-    show_lost(lv, s, lv, L.SEARCH_LOST)
+    copy_losses(lv, s, lv, L.SEARCH_LOST)
     own = lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE]
     for i in range(C.SIZE):
         own[i] = c[i]
@@ -211,8 +211,8 @@ def go_on_uneven(p, s, w):
     turning = lv[L.SEARCH_TURNING]
     keep_pieces(w, lv, True)
     first = state_at(w, PT.FIRST_STATE)
-    found = search(p, c, first, turning, int(lv[L.SEARCH_HELD]), True, w, s[S.JAC : S.CONDENSED])
-    if found == SEARCHING:
+    outcome = search(p, c, first, turning, int(lv[L.SEARCH_FIXED]), True, w, s[S.JAC : S.CONDENSED])
+    if outcome == SEARCHING:
         keep_pieces(w, lv, False)
         return
     lv[L.SEARCH_STATE] = L.ENDED
@@ -228,19 +228,19 @@ def go_on_uneven(p, s, w):
         lv[L.MORE + i] = 0.0
     lv[L.MORE_AWAY] = 0.0
     lv[L.MORE_WHIRL] = 0.0
-    lv[L.MORE_PRESSED] = 1.0 if found == EVEN_BALLS else 0.0
-    if found == NOT_FOUND or found == EVEN_BALLS:
+    lv[L.MORE_PRESSED] = 1.0 if outcome == EVEN_BALLS else 0.0
+    if outcome == NOT_FOUND or outcome == EVEN_BALLS:
         return
-    whole = losing_state(found, w)
+    whole = losing_state(outcome, w)
     mean = 0.0
     for j in range(int(p[P.BALLS])):
         mean += whole[Y.OM + j] / p[P.BALLS]
     lv[L.MORE_RATIO] = mean / (turning * lv[L.SEARCH_RATIO])
-    show_lost(lv, s, w, T.HELD_LOST)
-    hold_losses(p, c, whole, lv[L.SEARCH_SPEED], turning, s, w)
+    copy_losses(lv, s, w, T.FROZEN_LOST)
+    freeze_losses(p, c, whole, lv[L.SEARCH_SPEED], turning, s, w)
     keep_cage(p, lv, whole, w)
-    show_lost(lv, s, lv, L.MORE)
-    keep_lost(lv, s, w, T.HELD_LOST)
+    copy_losses(lv, s, lv, L.MORE)
+    set_losses(lv, s, w, T.FROZEN_LOST)
     for i in range(L.LOST):
         lv[L.MORE + i] -= lv[L.SEARCH_LOST + i]
 
@@ -270,10 +270,10 @@ def add_uneven(speed, s, w):
     lv = s[S.CONDENSED :]
     total = lv[L.HEAT] + lv[L.HEAT_OUTER] + lv[L.HEAT_OIL]
     share = total / lv[L.MORE_TOTAL] if lv[L.MORE_TOTAL] > 0.0 else 0.0
-    show_lost(lv, s, w, T.HELD_LOST)
+    copy_losses(lv, s, w, T.FROZEN_LOST)
     for i in range(L.LOST):
-        w[T.HELD_LOST + i] += share * lv[L.MORE + i]
-    keep_lost(lv, s, w, T.HELD_LOST)
+        w[T.FROZEN_LOST + i] += share * lv[L.MORE + i]
+    set_losses(lv, s, w, T.FROZEN_LOST)
     lv[L.RATIO] *= lv[L.MORE_RATIO]
     lv[L.TORQUE] = 0.0
     if speed != 0.0:
@@ -281,8 +281,8 @@ def add_uneven(speed, s, w):
 
 
 @kernel
-def hold_uneven(p, speed, at_once, s, w):
-    """Put what uneven balls add to the losses of even ones, which are held at ``speed`` (rad/s).
+def freeze_uneven(p, speed, at_once, s, w):
+    """Put what uneven balls add to the losses of even ones, frozen at ``speed`` (rad/s).
 
     ``at_once``: a search that was begun is made to its end first; or else what was found before serves, until
     the pieces of the search (`go_on_uneven`) have come to their end.

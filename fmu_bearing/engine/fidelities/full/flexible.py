@@ -21,7 +21,7 @@ def groove_residual(rows, d, lanes, balls, own):
     """Force rows that the balls' residual ``d`` puts on the groove once the balls have answered."""
     for axis in range(FL.GROOVE):
         out = FL.X + axis * STRIDE
-        row = (FL.ANSWERS + axis * J.BALL) * STRIDE
+        row = (FL.COUPLINGS + axis * J.BALL) * STRIDE
         for j in range(0, lanes, FOUR):
             # spare lanes put none
             force = dot_six(six(rows, row + j, STRIDE), six(d, j, STRIDE))
@@ -29,7 +29,7 @@ def groove_residual(rows, d, lanes, balls, own):
 
 
 @kernel
-def answer_modes(p, rows, race, lanes, own, out, d):
+def subtract_modes(p, rows, race, lanes, own, out, d):
     """Take from the balls' residual ``d`` what increments at ``own[out:]`` of one ring's modes do to them."""
     first, end = modes_of(p, race)
     for j in range(0, lanes, FOUR):
@@ -83,7 +83,7 @@ def solve_modes(p, flexure, stage, d, w):
     lanes = int(p[P.LANES])
     table = int(p[P.AT_MODES])
     own = w[W.FLEX :]
-    found = FL.A
+    increment = FL.A
     acc = FL.ACC + stage * FL.COORDINATES
     # the forces have done their work: the residuals take their place
     residual = FL.FORCE
@@ -96,12 +96,12 @@ def solve_modes(p, flexure, stage, d, w):
             mode = table + k * P.MODE_SIZE
             i = 2 * k
             cosine, sine = mode_force(p, mode, lanes, own, FL.MODES + i * STRIDE, 0.0)
-            own[residual + i] = own[found + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
-            own[residual + i + 1] = own[found + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
+            own[residual + i] = own[increment + i] - own[acc + i] - cosine / p[mode + P.MODE_MASS]
+            own[residual + i + 1] = own[increment + i + 1] - own[acc + i + 1] - sine / p[mode + P.MODE_MASS]
     combine(p, inverse_of_modes(flexure, modes), own[residual:], own[out:])
     for race in range(2):
         if bends(p, race):
-            answer_modes(p, ring_factors(flexure, modes, race), race, lanes, own, out, d)
+            subtract_modes(p, ring_factors(flexure, modes, race), race, lanes, own, out, d)
 
 
 @kernel

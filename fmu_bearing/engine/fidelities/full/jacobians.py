@@ -45,9 +45,9 @@ def renew_jacobians(p, s, w, every):
 
     Returns whether all belong to the present state now.
     """
-    slow = _SLOW / members.count(p)
+    slow = _SLOW / members.bearing_count(p)
     fresh = True
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         if sb[S.JACOBIAN_TIME] == sb[S.TIME]:
             continue
@@ -62,7 +62,7 @@ def renew_jacobians(p, s, w, every):
 def fresh_contraction(p, s):
     """How Newton's method contracts with Jacobians made for this step; 0 without any."""
     worst = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         if sb[S.JACOBIAN_TIME] == sb[S.TIME]:
             worst = max(worst, slowest(sb))
@@ -83,7 +83,7 @@ def kind_of(stage):
 def expected_contraction(p, s, stage):
     """How Newton's method is expected to contract in the first iteration of a stage."""
     worst = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         worst = max(worst, members.state(p, s, b)[S.CONTRACTION + kind_of(stage)])
     return worst
 
@@ -91,7 +91,7 @@ def expected_contraction(p, s, stage):
 @kernel
 def keep_contraction(p, s, w):
     """Store what the step just made has measured; nothing where it took one iteration a stage."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         sb = members.state(p, s, b)
         for kind in range(2):
@@ -128,7 +128,7 @@ def factor_all(p, s, w, h, gh):
     False if singular: the factors that were to change are none then.
     """
     changed = False
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         if same_step(sb, h):
             continue
@@ -139,7 +139,7 @@ def factor_all(p, s, w, h, gh):
             return False
     if changed and not factor_set(p, s, w, gh):
         return False
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         if sb[S.FACTOR_STEP] == 0.0:
             sb[S.FACTOR_STEP] = h

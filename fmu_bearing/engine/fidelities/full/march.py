@@ -18,7 +18,7 @@ from fmu_bearing.engine.fidelities.full.methods.table import AT_ESDIRK4, AT_RK4,
 from fmu_bearing.engine.fidelities.full.progress import accept, renew_jacobian, total_energy
 from fmu_bearing.engine.fidelities.full.runge_kutta import integrate_power, integrate_torque
 from fmu_bearing.engine.fidelities.full.stages import acceleration, keep_change
-from fmu_bearing.engine.fidelities.full.start import sinks
+from fmu_bearing.engine.fidelities.full.start import exceeds_pedestal
 from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
@@ -30,7 +30,7 @@ from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
 from fmu_bearing.engine.spindle.follow import copy_rows
 from fmu_bearing.engine.spindle.inputs import bearing_conditions, growth_rate, loads_differ, take_loads
 from fmu_bearing.engine.spindle.port import has_port, take_motion
-from fmu_bearing.engine.spindle.sound import emit
+from fmu_bearing.engine.spindle.sound_sum import emit
 from fmu_bearing.engine.statics.rigid_preload import axial_speed
 from fmu_bearing.engine.status import NOT_CONVERGED, OK, TOO_SOFT
 
@@ -58,10 +58,10 @@ def offset_rate(p, u, s, w, b, h):
 
 @kernel
 def inputs_differ(p, u, s, w, h):
-    """Whether the inputs ``u`` change what is held over a communication step; fresh conditions on the way."""
+    """Whether the inputs ``u`` change conditions held over a communication step; fresh ones on the way."""
     own = members.set_state(p, s)
     changed = loads_differ(p, u, own)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         bearing_conditions(p, u, b, 0.5 * (s[S.SPEED] + u[U.SPEED]), w)
@@ -88,7 +88,7 @@ def take_inputs(p, u, s, w, h):
     elif not changed and rate == s[S.SPEED_RATE]:
         return
     before = total_energy(p, s, w) if changed else 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         sb[S.SPEED_RATE] = rate
@@ -117,7 +117,7 @@ def probes(s):
 def follows_scene(p):
     """Whether nothing but whirls bounds the step: no waves, sound, cage, other model or given step."""
     still = abs(p[P.MAX_STEP] - USUAL_STEP) < 1e-9 * USUAL_STEP and not has_port(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if members.parameters(p, b)[P.TURN_RATE] == 0.0:
             still = False
     return still
@@ -129,11 +129,11 @@ def longest_step(p, s, speed):
     longest = p[P.MAX_STEP]
     if follows_scene(p):
         longest = LONGEST_STEP
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             turning = members.parameters(p, b)[P.TURN_RATE] * max(abs(s[S.SPEED]), abs(speed))
             longest = min(longest, PER_STEP / (turning + 1e-300))
         longest = max(longest, p[P.MAX_STEP])
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         if pb[P.MODES] != 0.0:
             longest = min(longest, pb[P.MODE_STEP])
@@ -145,7 +145,7 @@ def longest_step(p, s, speed):
 def smallest_tolerance(p, s, speed):
     """Error (m/s) allowed in the rings' velocities: the least of all bearings."""
     smallest = 1e300
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         allowed = control.allowed_velocity(members.parameters(p, b), members.state(p, s, b), speed)
         smallest = min(smallest, allowed)
     return smallest
@@ -189,12 +189,12 @@ def add_shaft_powers(p, own, ws, h, tableau):
         own[SP.HEAT] += weight * ws[power + 1]
         own[SP.HEAT + 1] += weight * ws[power + 2]
         for i in range(SP.PLANE if led else 0):
-            own[SP.PORT_IMPULSE + i] += weight * ws[SP.PUSH + stage * SP.PLANE + i]
+            own[SP.PORT_IMPULSE + i] += weight * ws[SP.ROTOR_FORCE + stage * SP.PLANE + i]
     last = SP.POWER + (stages - 1) * SP.POWERS
     for i in range(SP.POWERS):
         own[SP.POWER_NOW + i] = ws[last + i]
     for i in range(SP.PLANE if led else 0):
-        own[SP.PORT_FORCE + i] = ws[SP.PUSH + (stages - 1) * SP.PLANE + i]
+        own[SP.PORT_FORCE + i] = ws[SP.ROTOR_FORCE + (stages - 1) * SP.PLANE + i]
 
 
 @kernel
@@ -219,7 +219,7 @@ def accept_all(p, s, w, h, tableau):
     together = members.has_shaft(p)
     if together:
         add_shaft_powers(p, own, members.set_work(p, w), h, tableau)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         integrate_power(h, tableau, wb, sb[S.WORK : S.WORK + F.POWERS])
@@ -227,7 +227,7 @@ def accept_all(p, s, w, h, tableau):
         sb[S.SHAFT_WORK] += shaft_work
         sb[S.TORQUE_TIME] += torque_time
     emit(p, s, w, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         pb = members.parameters(p, b)
         wb = members.work(p, w, b)
@@ -246,7 +246,7 @@ def accept_all(p, s, w, h, tableau):
 def begin_step(p, s):
     """Store the sums at the begin of a communication step; :func:`end_step` turns them into means."""
     own = members.set_state(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         steps.begin_means(members.state(p, s, b))
     for i in range(2):
         own[SP.MEAN_HEAT + i] = own[SP.HEAT + i]
@@ -262,12 +262,12 @@ def end_step(p, s, w, speed, end, h):
     not carry the last Newton iteration's remainder.
     """
     own = members.set_state(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
         sb[S.SPEED] = speed
     s[S.ENERGY_NOW] = total_energy(p, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         summarise(members.parameters(p, b), sb, members.work(p, w, b))
         steps.end_means(sb, h)
@@ -282,7 +282,7 @@ def march(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     begin_step(p, s)
     take_inputs(p, u, s, w, h)
-    if sinks(p, s):
+    if exceeds_pedestal(p, s):
         return TOO_SOFT
     tableau = AT_TRBDF2 if p[P.METHOD] == TRBDF2 else AT_RK4 if p[P.METHOD] == RK4 else AT_ESDIRK4
     order = TABLEAUX[tableau + TAB.ORDER]
@@ -314,12 +314,12 @@ def march(p, u, s, w, h):
 @kernel
 def solve_at_state(p, s, w, gh):
     """Solve Newton's equations with Jacobians made at the state; their places: see `solve_set`."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         renew_jacobian(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     fine = factor_all(p, s, w, gh, gh)
     if fine:
         turn_since(p, s, w, 0.0)
         solve_set(p, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         members.state(p, s, b)[S.FACTOR_STEP] = 0.0  # of what step is not known
     return OK if fine else NOT_CONVERGED

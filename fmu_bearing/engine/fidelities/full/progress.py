@@ -47,7 +47,7 @@ def bearing_energy(p, s, w):
 def total_energy(p, s, w):
     """Return the stored energy (J) of the state; accelerations and powers there are computed again."""
     total = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         total += bearing_energy(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     if not members.has_shaft(p):
         return total

@@ -14,7 +14,7 @@ from fmu_bearing.engine.mechanics.flexure import flexure_state, show_flexure
 from fmu_bearing.engine.newton.block_arrow import factor
 from fmu_bearing.engine.newton.jacobian import jacobian
 from fmu_bearing.engine.newton.modes import factor_modes
-from fmu_bearing.engine.statics.place import around
+from fmu_bearing.engine.statics.place import slope_round_bearing
 
 _ORBIT = 2  # row of a ball's orbit, behind its places along x and r
 _ROUNDS = 60
@@ -23,7 +23,7 @@ _LONGEST = 1e-6  # m: change per round, of the size of the approach, so that no 
 
 
 @kernel
-def hold_orbit(jac):
+def fix_orbit(jac):
     """Take the balls' orbit and spin out of a Jacobian: they neither answer nor act."""
     for i in range(J.BALL):
         for k in range(J.STATES):
@@ -48,7 +48,7 @@ def settling(p, c, y, angle, speed, s, w):
     d = w[W.D : W.D + F.SIZE]
     f = w[W.F : W.F + F.SIZE]
     jacobian(p, c, y, angle, speed, 0.0, w, jac)
-    hold_orbit(jac)
+    fix_orbit(jac)
     # accelerations over a time of 1 s: the inertia beside the contacts' stiffness is 1e-11 then
     factor(p, jac, 0.0, 1.0, 1.0, fac, w)
     factor_modes(p, jac, fac, y, 0.0, speed, 0.0, 1.0, flexure, w)
@@ -94,9 +94,9 @@ def settle(p, c, y, angle, speed, s, w):
         for i in range(2):
             for j in range(lanes):
                 y[i * STRIDE + j] += share * w[W.D + i * STRIDE + j]
-        found = W.FLEX + FL.D
+        increment = W.FLEX + FL.D
         for i in range(2 * int(p[P.MODES])):
-            s[at + i] += share * w[found + i]
+            s[at + i] += share * w[increment + i]
         if largest < _SETTLED:
             break
     if not (largest < 1e3 * _SETTLED):
@@ -110,6 +110,6 @@ def settle(p, c, y, angle, speed, s, w):
             before[i] = y[i] - before[i]
         for j in range(lanes):
             place = j if j < p[P.BALLS] else 0
-            y[Y.VX + j] += y[Y.OM + j] * around(p, before, Y.X, place)
-            y[Y.VR + j] += y[Y.OM + j] * around(p, before, Y.R, place)
+            y[Y.VX + j] += y[Y.OM + j] * slope_round_bearing(p, before, Y.X, place)
+            y[Y.VR + j] += y[Y.OM + j] * slope_round_bearing(p, before, Y.R, place)
     show_flexure(p, s, w)

@@ -40,7 +40,7 @@ def begin_stages(p, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     lanes = members.padded_size(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -89,7 +89,7 @@ def predict_bearings(p, s, w, h, gh, stage, tableau):
     ``h``: length of the step (s); ``gh``: weight of rates (s).
     """
     t = h * TABLEAUX[tableau + TAB.NODES + stage]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)

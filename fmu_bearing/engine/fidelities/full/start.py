@@ -34,8 +34,14 @@ from fmu_bearing.engine.spindle.rest import (
     start_vector,
     weights,
 )
-from fmu_bearing.engine.spindle.steady import place_held, rest_steadily
-from fmu_bearing.engine.statics.place import place_balls, place_cage, shift_bearing, sunk, too_far
+from fmu_bearing.engine.spindle.steady import place_at_rest, rest_steadily
+from fmu_bearing.engine.statics.place import (
+    pedestal_deflection,
+    place_balls,
+    place_cage,
+    shift_bearing,
+    too_far,
+)
 from fmu_bearing.engine.statics.rigid_preload import cold_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
@@ -46,28 +52,28 @@ _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its directio
 
 
 @kernel
-def place_rest(p, y, found, s, w):
-    """Place balls and cage in the state ``y`` about the rings there, from the equilibrium ``found``."""
-    place_balls(p, y, found)
+def place_rest(p, y, eq, s, w):
+    """Place balls and cage in the state ``y`` about the rings there, from the equilibrium ``eq``."""
+    place_balls(p, y, eq)
     if p[P.CAGE] != 0.0:
-        place_cage(p, y, found)
+        place_cage(p, y, eq)
     first_axes(p, s[S.AXES : S.JAC])
     show_axes(p, s, w)
 
 
 @kernel
-def become_steady(p, c, y, first, before, held, s, w, speed):
+def become_steady(p, c, y, first, before, fixed, s, w, speed):
     """Move the state ``y`` by what the steady state of the perfect bearing differs from ``before``.
 
     ``first``: the quasi-static state of the perfect bearing with its rings where they rest under steady
-    forces, ``before``: under quasi-static ones; ``held``: see `steady.even`. Where no steady state is near,
+    forces, ``before``: under quasi-static ones; ``fixed``: see `steady.even`. Where no steady state is near,
     orbit and spins alone are balanced.
     """
     jac = s[S.JAC : S.CONDENSED]
     settled = NOT_FOUND
     # fidelities rings and response find theirs with what they hold
     if p[P.FIDELITY] == FULL:
-        settled = settle_perfect(p, c, first, speed, held, w, jac)
+        settled = settle_perfect(p, c, first, speed, fixed, w, jac)
     s[S.SETTLED] = settled
     for i in range(Y.SIZE):
         y[i] -= before[i]
@@ -117,11 +123,11 @@ def preload_set(p, u, s, w):
     asked = u[U.PRELOAD]
     if p[int(p[P.SET]) + SP.PRELOAD_KIND] == SP.TOUCHING:
         asked = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         r = members.row(p, b)
         load = p[r + SP.ROW_SHARE] * asked
         if p[int(p[P.SET]) + SP.ONE_WAY] != 0.0:
-            load = abs(u[U.NOSE]) / members.count(p)
+            load = abs(u[U.NOSE]) / members.bearing_count(p)
         bearing_inputs(p, u, b, given)
         place, status = cold_place(members.parameters(p, b), given, load, members.work(p, w, b))
         if status != OK:
@@ -134,12 +140,12 @@ def preload_set(p, u, s, w):
 
 
 @kernel
-def pushed_back(p, w):
+def rests_without_shoulder(p, w):
     """Whether the shaft rests on a side of races without shoulder, with the bearings as they settled last."""
     ws = members.set_work(p, w)
     total = 100.0
     most = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         along = ws[members.scratch(p, b) + SP.START_FORCE]
         total += abs(along)
         most = max(most, along)
@@ -160,7 +166,7 @@ def begin_preload(p, u, s, w):
 @kernel
 def has_flaws(p, s):
     """Whether a bearing has imperfections."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if members.state(p, s, b)[S.C + C.OVERSIZE_SCALE] != 0.0:
             return True
     return False
@@ -173,7 +179,7 @@ def note_rest(p, s, w, sign):
     z = start_vector(p, SP.UNKNOWNS)
     for i in range(members.coordinates(p) if members.has_shaft(p) else 0):
         members.set_state(p, s)[SP.S_HEAD + i] += sign * ws[z + i]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         at = members.scratch(p, b)
         for i in range(2):
             ws[at + SP.START_ASIDE + i] += sign * ws[at + SP.START_OUTER + Q.Y + i]
@@ -187,8 +193,8 @@ def place_perfect(p, s, w, speed, to, sign):
     pedestals in the conditions are moved with them.
     """
     note_rest(p, s, w, sign)
-    for b in range(members.count(p)):
-        place_held(p, b, speed, members.work(p, w, b)[to : to + Y.SIZE], s, w)
+    for b in range(members.bearing_count(p)):
+        place_at_rest(p, b, speed, members.work(p, w, b)[to : to + Y.SIZE], s, w)
         neutral_aside(p, b, members.state(p, s, b)[S.C : S.C + C.SIZE], w)
 
 
@@ -200,7 +206,7 @@ def place_flawed(p, s, w, speed):
     """
     ws = members.set_work(p, w)
     z = start_vector(p, SP.UNKNOWNS)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
         settle_bearing(p, s, w, b, speed, 1.0, z, start_vector(p, SP.TRIAL_FORCES))
         y = sb[S.Y : S.Y + Y.SIZE]
@@ -209,7 +215,7 @@ def place_flawed(p, s, w, speed):
         if too_far(pb, aside_y, aside_z):
             return TOO_SOFT
         shift_bearing(pb, y, -aside_y, -aside_z)
-        place_rest(pb, y, wb[W.FOUND : W.FOUND + EQ.SIZE], sb, wb)
+        place_rest(pb, y, wb[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE], sb, wb)
     note_rest(p, s, w, 1.0)
     return OK
 
@@ -241,7 +247,7 @@ def rest_all(p, u, s, w, speed):
         status = rest(p, s, w, speed, 1.0)
         if status != OK:
             return status
-    if members.has_shaft(p) and pushed_back(p, w) and not has_port(p):
+    if members.has_shaft(p) and rests_without_shoulder(p, w) and not has_port(p):
         return NO_START
     status = place_flawed(p, s, w, speed)
     if status == OK:
@@ -253,7 +259,7 @@ def rest_all(p, u, s, w, speed):
 
 
 @kernel
-def sinks(p, s):
+def exceeds_pedestal(p, s):
     """Whether the loads of now would push the ring of a single bearing too far on its pedestal.
 
     Once it is there no step leads back: with the stiffness of before the pedestal would fling it.
@@ -262,7 +268,7 @@ def sinks(p, s):
         return False
     c = s[S.C : S.C + C.SIZE]
     own_weight, lying = weights(p, p)
-    aside, down = sunk(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
+    aside, down = pedestal_deflection(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
     return too_far(p, aside, down)
 
 
@@ -305,7 +311,7 @@ def start(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     for i in range(s.size):
         s[i] = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         for i in range(W.MOTION):
             wb[i] = 0.0
@@ -315,7 +321,7 @@ def start(p, u, s, w, t):
         ws[i] = 0.0
     speed = u[U.SPEED]
     spread_choices(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing_conditions(p, u, b, speed, w)
         sb = members.state(p, s, b)
         for i in range(C.USED):
@@ -325,14 +331,14 @@ def start(p, u, s, w, t):
         return status
     if has_port(p):
         begin_motion(p, u, own, t)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         begin_bearing(p, s, w, b, speed, t)
     for i in range(0 if members.has_shaft(p) else members.coordinates(p)):
         own[SP.S_HEAD + i] = s[S.Y + Y.Q0 + i]
     copy_rows(p, s, w)
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         summarise(members.parameters(p, b), sb, members.work(p, w, b))
         begin_means(sb)

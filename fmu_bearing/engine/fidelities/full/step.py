@@ -34,9 +34,15 @@ from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.newton.block_arrow import solve
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import solve_set, solve_shaft, turn_since, turned
-from fmu_bearing.engine.spindle.elimination import answer_driven, answer_free, find_drive, turn_driven
+from fmu_bearing.engine.spindle.elimination import condense_residual, find_drive, solve_driven, turn_driven
 from fmu_bearing.engine.spindle.follow import accelerate, free_forces, growth_power
-from fmu_bearing.engine.spindle.port import clear, feel, has_port, keep_push, lead_stage
+from fmu_bearing.engine.spindle.port import (
+    add_bearing_force,
+    clear,
+    has_port,
+    prescribe_stage,
+    store_rotor_force,
+)
 from fmu_bearing.engine.spindle.shaft import shaft_forces
 
 _DIVERGED = 1e6  # m/s: size of an increment
@@ -96,30 +102,30 @@ def increments(p, s, w, own, ws, stage, gh, angle, speed):
     """
     rate = s[S.SPEED_RATE]
     work, bent, shaken = shaft_residual(p, own, ws, stage, angle, speed, rate)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         residual_of(pb, sb, wb, stage, angle, speed, rate)
-        answer_free(p, b, pb, sb, wb, own, ws)
+        condense_residual(p, b, pb, sb, wb, own, ws)
     solve_shaft(p, own, ws)
     largest = 0.0
-    count = members.count(p)
+    count = members.bearing_count(p)
     for k in range(count):
         b = count - 1 - k  # the last one's factors are still in the cache
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
-        answer_driven(p, b, pb, sb, wb, own, ws)
+        solve_driven(p, b, pb, sb, wb, own, ws)
         size = add_increment(pb, sb, wb, stage, gh)
         # a size that is no number must not be overlooked
         largest = max(largest, size) if size < _DIVERGED else _DIVERGED
-    found = members.vector(p, SP.INCREMENT)
+    increment = members.vector(p, SP.INCREMENT)
     mine = acceleration(p, stage)
     place = members.vector(p, SP.PLACE)
     moving = members.vector(p, SP.RATE)
     for i in range(members.padded_size(p)):
-        d = ws[found + i]
+        d = ws[increment + i]
         ws[mine + i] += d
         ws[moving + i] += gh * d
         ws[place + i] += gh * gh * d
@@ -133,7 +139,7 @@ def measure_contraction(p, w, stage, before):
     The set contracts as the bearing with the largest increment left, and it is that one's Jacobian that fits
     least: what others have left is less, or follows from it through the shaft.
     """
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         rate = wb[W.REPORT + W.SIZE] / (before + 1e-300)
         at = W.REPORT + W.CONTRACTION + kind_of(stage)
@@ -217,7 +223,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
     force = members.vector(p, SP.FORCE)
     if led:
         clear(ws, force, members.padded_size(p))
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         wb = members.work(p, w, b)
         sb = members.state(p, s, b)
@@ -235,7 +241,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
         complete_torque(pb, c, speed, gh, gained, acc, wb)
         if led:
             at = corrected_forces(p, b, pb, wb, ws)
-            work += feel(p, b, pb, wb[W.STAGE : W.STAGE + Y.SIZE], acc, ws, at, force)
+            work += add_bearing_force(p, b, pb, wb[W.STAGE : W.STAGE + Y.SIZE], acc, ws, at, force)
         else:
             work += growth_power(p, b, own, wb[W.F + F.BODY], acc[F.BODY])
     put_powers(p, ws, stage, work, bent, shaken)
@@ -245,7 +251,7 @@ def keep_powers(p, s, w, stage, gh, speed, work, bent, shaken, ws):
 def put_powers(p, ws, stage, work, bent, shaken):
     """Write a stage's power in and heats of shaft and pedestal (W), and the force on the rotor at a port."""
     if has_port(p):
-        keep_push(p, ws, stage)
+        store_rotor_force(p, ws, stage)
     power = SP.POWER + stage * SP.POWERS
     ws[power] = work
     ws[power + 1] = bent
@@ -259,13 +265,13 @@ def explicit_stage(p, s, w, stage, t):
     lanes = members.padded_size(p)
     angle = s[S.ANGLE] + t * (s[S.SPEED] + 0.5 * t * s[S.SPEED_RATE])
     speed = s[S.SPEED] + t * s[S.SPEED_RATE]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         evaluate(pb, members.state(p, s, b), members.work(p, w, b), angle, speed, s[S.SPEED_RATE])
     work, bent, shaken = 0.0, 0.0, 0.0
     if members.has_shaft(p):
         work, bent, shaken = accelerate(p, s, w, True, t, angle, speed, s[S.SPEED_RATE])
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         here = W.ACC + stage * F.SIZE
         for i in range(F.SIZE):
@@ -273,9 +279,9 @@ def explicit_stage(p, s, w, stage, t):
         if members.parameters(p, b)[P.MODES] != 0.0:
             flexible.take_accelerations(members.parameters(p, b), stage, wb)
     to = acceleration(p, stage)
-    found = members.vector(p, SP.ACCELERATION)
+    of_shaft = members.vector(p, SP.ACCELERATION)
     for i in range(lanes):
-        ws[to + i] = ws[found + i]
+        ws[to + i] = ws[of_shaft + i]
     put_powers(p, ws, stage, work, bent, shaken)
 
 
@@ -287,19 +293,19 @@ def first_powers(p, s, w):
     for i in range(SP.POWERS):
         ws[SP.POWER + i] = own[SP.POWER_NOW + i]
     for i in range(SP.PLANE):
-        ws[SP.PUSH + i] = own[SP.PORT_FORCE + i]
+        ws[SP.ROTOR_FORCE + i] = own[SP.PORT_FORCE + i]
 
 
 @kernel
-def nose_square(p, ws, found):
-    """Square (m2/s2) of the nose's velocity by the vector of coordinates at ``ws[found:]``."""
+def nose_square(p, ws, vector):
+    """Square (m2/s2) of the nose's velocity by the vector of coordinates at ``ws[vector:]``."""
     lanes = members.padded_size(p)
     nose = members.table(p, SP.AT_NOSE)
     square = 0.0
     for i in range(Q.INNER_BY):
         total = 0.0
         for k in range(lanes):
-            total += p[nose + i * lanes + k] * ws[found + k]
+            total += p[nose + i * lanes + k] * ws[vector + k]
         square += total * total
     return square
 
@@ -309,15 +315,15 @@ def shaft_estimate(p, w, h, tableau):
     """Put the difference of both solutions' rates to ``SP.INCREMENT``, times the mass to the residual."""
     ws = members.set_work(p, w)
     lanes = members.padded_size(p)
-    found = members.vector(p, SP.INCREMENT)
+    increment = members.vector(p, SP.INCREMENT)
     residual = members.vector(p, SP.RESIDUAL)
     for i in range(lanes):
-        ws[found + i] = 0.0
+        ws[increment + i] = 0.0
         ws[residual + i] = 0.0
     for m in range(int(TABLEAUX[tableau + TAB.COUNT])):
         e = h * TABLEAUX[tableau + TAB.ERROR + m]
-        add_scaled(e, ws[acceleration(p, m) :], ws[found:], lanes)
-    members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, found, ws, residual)
+        add_scaled(e, ws[acceleration(p, m) :], ws[increment:], lanes)
+    members.add_product(p, members.table(p, SP.AT_MASS), 1.0, ws, increment, ws, residual)
 
 
 @kernel
@@ -333,7 +339,7 @@ def step_error(p, s, w, h, tableau, speed):
     together = members.has_shaft(p)
     if together:
         shaft_estimate(p, w, h, tableau)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         d = wb[W.D : W.D + F.SIZE]
         for i in range(F.SIZE):
@@ -348,7 +354,7 @@ def step_error(p, s, w, h, tableau, speed):
         co, si = turned(s, h)
         solve(p, s[S.FAC : S.CONDENSED], co, si, w[W.D : W.D + F.SIZE], w)
     largest = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -372,7 +378,7 @@ def step_error(p, s, w, h, tableau, speed):
 def grow_all(p, s, t):
     """Let the races of all bearings be those of the time ``t`` (s) after the state."""
     if p[P.FITS] != 0.0:
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             grow_to(members.state(p, s, b)[S.C : S.C + C.SIZE], t)
 
 
@@ -394,9 +400,9 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
     begin_stages(p, s, w)
     if together:
         first_powers(p, s, w)
-    for b in range(members.count(p)):
-        found = members.work(p, w, b)[W.REPORT + W.CONTRACTION :]
-        found[0] = found[1] = 0.0
+    for b in range(members.bearing_count(p)):
+        contraction = members.work(p, w, b)[W.REPORT + W.CONTRACTION :]
+        contraction[0] = contraction[1] = 0.0
     iterations = 0.0
     for stage in range(1, stages):
         t = h * TABLEAUX[tableau + TAB.NODES + stage]
@@ -405,7 +411,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
             predict_shaft(p, s, w, h, gh, stage, tableau)
         predict_bearings(p, s, w, h, gh, stage, tableau)
         if has_port(p):
-            lead_stage(p, s, w, stage, t)
+            prescribe_stage(p, s, w, stage, t)
         if gh == 0.0:
             explicit_stage(p, s, w, stage, t)
         else:
@@ -414,7 +420,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
             if done < 0.0:
                 return False
             iterations += done
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             pb = members.parameters(p, b)
             wb = members.work(p, w, b)
             to = W.VEL + stage * F.SIZE
@@ -426,7 +432,7 @@ def runge_kutta_step(p, s, w, h, tableau, tolerance, probe, to_speed):
         for i in range(lanes):
             ws[to + i] = ws[rate + i]
     last = W.ACC + (stages - 1) * F.SIZE
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         if last != W.LAST:
             for i in range(F.SIZE):

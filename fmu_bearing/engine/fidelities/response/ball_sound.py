@@ -16,7 +16,7 @@ So waves that move no ring sound too. ``x``: scratch of the lines, see `layout.l
 
 from fmu_bearing.engine.choices import CONTACTS
 from fmu_bearing.engine.complex_numbers import pair
-from fmu_bearing.engine.fidelities.condensed.transverse import pattern_answer
+from fmu_bearing.engine.fidelities.condensed.transverse import pattern_receptance
 from fmu_bearing.engine.fidelities.response.lines import form_sums, orders, size_sums, wave_of
 from fmu_bearing.engine.fidelities.response.samples import largest_of, order_of, place_of, signed
 from fmu_bearing.engine.jit import kernel
@@ -33,9 +33,9 @@ def reach_of_rings(x):
     largest = 0.0
     highest = 0
     for order in range(LN.REACH + 1):
-        found = largest_of(x, LN.FOLLOW + order * L.N * FOUR, L.N * FOUR)
-        largest = max(largest, found)
-        if found > _SMALL * largest:
+        amplitude = largest_of(x, LN.FOLLOW + order * L.N * FOUR, L.N * FOUR)
+        largest = max(largest, amplitude)
+        if amplitude > _SMALL * largest:
             highest = order
     return highest
 
@@ -46,12 +46,12 @@ def reach_of_heights(x):
     largest = 0.0
     highest = 0
     for order in range(LN.REACH + 1):
-        found = 0.0
+        amplitude = 0.0
         for race in range(2):
             places = place_of(LN.BY_HEIGHT + race, order) + 2 * LN.PLACES
-            found = max(found, largest_of(x, places, LN.COMPLEX - 2 * LN.PLACES))
-        largest = max(largest, found)
-        if found > _SMALL * largest:
+            amplitude = max(amplitude, largest_of(x, places, LN.COMPLEX - 2 * LN.PLACES))
+        largest = max(largest, amplitude)
+        if amplitude > _SMALL * largest:
             highest = order
     return highest
 
@@ -70,7 +70,7 @@ def add_ball_motion(p, lv, ps, ws, mu, omega, speed, place, rolled):
     if lv[L.SIDE_SQUARE] != 0.0:
         ahead = complex(1.0, seen * p[P.CONTACT_DAMPING])
         driven = lv[L.SIDE_SQUARE] * (ahead * across) + lv[L.SIDE_RATE] * rolled
-        lag = pattern_answer(lv, seen) * driven - across
+        lag = pattern_receptance(lv, seen) * driven - across
         x += lv[L.SIDE] * lag
         r += lv[L.SIDE + 1] * lag
     if int(ps[SD.H_FORM]) == CONTACTS:
@@ -177,11 +177,11 @@ def rolled_by_rings(lv, order, balls, q, re, im, omega):
     """Velocity (m/s) across the track that rolling gives all balls, of one order round the orbit: complex."""
     total = 0j
     for i in range(L.N if abs(order) <= 1 else 0):
-        by = complex(lv[L.SIDE_GUIDE + i], 0.0)
+        by = complex(lv[L.SIDE_ROLLING + i], 0.0)
         if order != 0:
             # cos and -sin of a ball's angle
-            aside = 0.5 * order * lv[L.SIDE_GUIDE + 2 * L.COLUMN + i]
-            by = complex(0.5 * lv[L.SIDE_GUIDE + L.COLUMN + i], aside)
+            aside = 0.5 * order * lv[L.SIDE_ROLLING + 2 * L.COLUMN + i]
+            by = complex(0.5 * lv[L.SIDE_ROLLING + L.COLUMN + i], aside)
         total += by * (complex(0.0, omega) * complex(q[re + i], q[im + i]))
     return balls * total
 

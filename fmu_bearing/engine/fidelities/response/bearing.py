@@ -1,7 +1,7 @@
 """One bearing's part of fidelity `response`: derivatives, its own lines, balls between the rings."""
 
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls
-from fmu_bearing.engine.fidelities.condensed.balls import carried, count_settled, set_angles
+from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles, solve_balls
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
 from fmu_bearing.engine.fidelities.condensed.rows import (
     angles_at,
@@ -139,11 +139,11 @@ def find_places(p, c, lv, theta, speed, near, q, w):
     """
     if near:
         show_balls(lv, L.X, w)
-        if carried(p, c, lv, speed, q, w):
+        if solve_balls(p, c, lv, speed, q, w):
             return
     from_equilibrium(p, lv, theta, w)
     for _ in range(_TRIES):
-        if carried(p, c, lv, speed, q, w):
+        if solve_balls(p, c, lv, speed, q, w):
             return
 
 

@@ -10,10 +10,10 @@ whose parts are accelerations of its free rings (m/s2, rad/s2). Other arguments:
 """
 
 from fmu_bearing.engine.dense import solve_columns
-from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_rings
+from fmu_bearing.engine.fidelities.condensed.dynamic_stiffness import modal_response, ring_dynamic_stiffness
 from fmu_bearing.engine.fidelities.response.bearing import turned
 from fmu_bearing.engine.fidelities.response.lines import STILL, counts_by, line_table
-from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
+from fmu_bearing.engine.fidelities.response.strongest_lines import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, L, P, S, T
@@ -56,7 +56,7 @@ def prepare_matrix(p, s, w, speed, by_mass, by_rate, by_place, to):
     n = members.coordinates(p)
     spare = members.matrix(p)
     shaft_matrix(p, members.set_state(p, s), ws, speed, by_mass, by_rate, by_place, spare)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         wb = members.work(p, w, b)
         for k in range(L.N):
@@ -90,13 +90,13 @@ def set_equations(p, s, w, omega):
     beside = table + SP.LINE_MATRICES * size
     for i in range(2 * n * n):
         ws[beside + i] = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         wb = members.work(p, w, b)
-        answer_at(lv, 0.0, omega, wb)
-        beside_rings(lv, 0.0, omega, wb)
-        add_driven(p, b, wb, T.BESIDE_RE, 1, L.COLUMN, ws, beside)
-        add_driven(p, b, wb, T.BESIDE_IM, 1, L.COLUMN, ws, beside + n * n)
+        modal_response(lv, 0.0, omega, wb)
+        ring_dynamic_stiffness(lv, 0.0, omega, wb)
+        add_driven(p, b, wb, T.FEEDTHROUGH_RE, 1, L.COLUMN, ws, beside)
+        add_driven(p, b, wb, T.FEEDTHROUGH_IM, 1, L.COLUMN, ws, beside + n * n)
     for k in range(n):
         for i in range(n):
             ws[re + k * lanes + i] -= ws[beside + i * n + k]
@@ -109,7 +109,7 @@ def add_drive(p, b, wb, drive, at, ws, side):
     masses = members.row(p, b) + SP.ROW_MASS
     for i in range(L.COLUMN):
         wb[T.D + i] = p[masses + i] * drive[at + i] if i < L.N else 0.0
-    members.pull(p, b, wb, T.D, ws, side)
+    members.project_forces(p, b, wb, T.D, ws, side)
 
 
 @kernel
@@ -120,10 +120,10 @@ def weight_of_set(p, w, omega, x):
     """
     ws = members.set_work(p, w)
     size = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         for part in range(2):
-            members.moved(p, b, ws, x + part * members.padded_size(p), wb, T.D)
+            members.driven_motion(p, b, ws, x + part * members.padded_size(p), wb, T.D)
             for i in range(L.TURN):
                 if not is_angle(i):
                     size += wb[T.D + i] ** 2
@@ -132,7 +132,7 @@ def weight_of_set(p, w, omega, x):
 
 @kernel
 def keep_line(p, s, w, b, a, shaft, rolled, omega):
-    """Keep the answer at ``omega`` (rad/s) to the right side in the work space as a line of bearing ``b``.
+    """Keep the response at ``omega`` (rad/s) to the right side in the work space as a line of bearing ``b``.
 
     ``a``, ``shaft``, ``rolled``: multiples of ball 0's angle, the shaft's and the balls' own turning.
     """
@@ -144,14 +144,14 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     im, table = members.complex_matrix(p)
     if not solve_columns(ws[re:im], ws[im:table], n, lanes):
         return
-    found = members.vector(p, SP.RESIDUAL)  # with the vector behind it
+    solution = members.vector(p, SP.RESIDUAL)  # with the vector behind it
     for i in range(lanes):
-        ws[found + i] = ws[re + n * lanes + i]
-        ws[found + lanes + i] = ws[im + n * lanes + i]
-    weight = weight_of_set(p, w, omega, found)
+        ws[solution + i] = ws[re + n * lanes + i]
+        ws[solution + lanes + i] = ws[im + n * lanes + i]
+    weight = weight_of_set(p, w, omega, solution)
     lines = own[members.lines(p) :]
     size = members.line_size(p)
-    most = L.MOST_LINES * members.count(p)
+    most = L.MOST_LINES * members.bearing_count(p)
     count = int(own[members.march(p) + SP.LINES])
     into = place_for(lines, size, count, most, weight)
     if into < 0:
@@ -163,7 +163,7 @@ def keep_line(p, s, w, b, a, shaft, rolled, omega):
     lines[at + SP.LINE_WEIGHT] = weight
     lines[at + SP.LINE_MEMBER] = b
     for i in range(2 * lanes):
-        lines[at + SP.LINE_REAL + i] = ws[found + i]
+        lines[at + SP.LINE_REAL + i] = ws[solution + i]
     own[members.march(p) + SP.LINES] = counted(lines, size, count, most)
 
 
@@ -186,7 +186,7 @@ def unbalance_line(p, s, w, speed):
 
 
 @kernel
-def answer_lines(p, s, w, speed, first, many):
+def solve_lines(p, s, w, speed, first, many):
     """Renew the lines of the set at ``speed`` (rad/s), when each bearing has found what drives it.
 
     Of what drives the set, ``many`` from number ``first`` on; whether more is left.
@@ -201,7 +201,7 @@ def answer_lines(p, s, w, speed, first, many):
         own[count] = 0.0
         unbalance_line(p, s, w, speed)
     seen = 0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)

@@ -1,22 +1,22 @@
-"""Fidelity `response` while its inputs drift: what is held goes along with them between renewals.
+"""Fidelity `response` while its inputs drift: what is frozen goes along with them between renewals.
 
 The last two renewals give two points of a drift. Where conditions have moved along the line through both, the
 equilibrium, heats and torque move along it, too, and are off by the square of the way alone. Lines stay those
 of the last renewal. So a drift along a line has fewer renewals than other changes: two of them may be as far
-apart as lines, levels and heats allow, which is measured at each (`take_along`). What is held is found for
+apart as lines, levels and heats allow, which is measured at each (`take_along`). What is frozen is found for
 inputs ahead of those of now by half of that way (`aim_inputs`). Where conditions leave the line, or rest,
 renewals are due as without a drift.
 
 Before, a drift was renewed every 0.5 % of viscosity. Arguments: see `spindle.members`; ``dr``: numbers of the
-drift, layout ``DR``; components of a change count in tolerances of `condensed.held.off`, but viscosity, whose
-heats go along and which moves lines little.
+drift, layout ``DR``; components of a change count in tolerances of `condensed.frozen.deviation`, but
+viscosity, whose heats go along and which moves lines little.
 """
 
 import math
 
 from fmu_bearing.engine.fidelities.response.exchange import back_of, front, inputs_of
 from fmu_bearing.engine.fidelities.response.lines import line_table
-from fmu_bearing.engine.fidelities.rings import held
+from fmu_bearing.engine.fidelities.rings import frozen_points
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import DR, SP, C, L, S, U, W
 from fmu_bearing.engine.spindle import members
@@ -55,8 +55,8 @@ def bearing_of(b):
 
 @kernel
 def inputs_at(p):
-    """Place in ``dr`` of the inputs that what is held was found for; their change before follows."""
-    return DR.HEAD + members.count(p) * DR.PER_BEARING
+    """Place in ``dr`` of the inputs that what is frozen was found for; their change before follows."""
+    return DR.HEAD + members.bearing_count(p) * DR.PER_BEARING
 
 
 @kernel
@@ -69,7 +69,7 @@ def relative(now, then):
 def component(p, own, lv, b, c, speed, offset, k):
     """Component ``k`` of how far conditions ``c`` at ``speed`` are from what bearing ``b`` holds, in ``lv``.
 
-    ``offset``: of its inner ring (m), see ``SP.HELD_OFFSET``.
+    ``offset``: of its inner ring (m), see ``SP.FROZEN_OFFSET``.
     """
     h = L.CONDITIONS
     inner, outer = C.RACES, C.RACES + C.RACE_SIZE
@@ -94,13 +94,13 @@ def component(p, own, lv, b, c, speed, offset, k):
         i = (inner if k == 8 else outer) + C.FREE
         return (c[i] - lv[h + i]) / _GEOMETRY
     if k == 10:
-        return (speed - lv[L.FOUND_SPEED]) / (_SPEED * abs(lv[L.FOUND_SPEED]) + 1e-3)
-    return (offset - own[members.per_bearing(p, b) + SP.HELD_OFFSET]) / _OFFSET
+        return (speed - lv[L.FROZEN_SPEED]) / (_SPEED * abs(lv[L.FROZEN_SPEED]) + 1e-3)
+    return (offset - own[members.per_bearing(p, b) + SP.FROZEN_OFFSET]) / _OFFSET
 
 
 @kernel
 def note_away(p, u, s, w, b):
-    """Note how far ``u`` is from what bearing ``b`` holds, after `held.set_inputs`."""
+    """Note how far ``u`` is from what bearing ``b`` holds, after `frozen_points.set_inputs`."""
     own = members.set_state(p, s)
     lv = members.condensed(members.state(p, s, b))
     fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
@@ -112,18 +112,18 @@ def note_away(p, u, s, w, b):
 
 @kernel
 def renewed(p, s, b, k):
-    """Component ``k`` of how far bearing ``b`` as renewed is from as held."""
+    """Component ``k`` of how far bearing ``b`` as renewed is from as frozen."""
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
     lv = members.condensed(members.state(p, s, b))
     new = members.condensed(members.state(p, back_of(p, s), b))
-    offset = of[members.per_bearing(p, b) + SP.HELD_OFFSET]
+    offset = of[members.per_bearing(p, b) + SP.FROZEN_OFFSET]
     conditions = new[L.CONDITIONS : L.CONDITIONS + C.SIZE]
-    return component(p, own, lv, b, conditions, new[L.FOUND_SPEED], offset, k)
+    return component(p, own, lv, b, conditions, new[L.FROZEN_SPEED], offset, k)
 
 
 @kernel
 def go_along(p, s, share):
-    """Let equilibrium, heats and torque be those at ``share`` of the line's way from what is held."""
+    """Let equilibrium, heats and torque be those at ``share`` of the line's way from what is frozen."""
     dr = drift_of(p, s)
     own = members.set_state(p, s)
     by = share - dr[DR.SHARE]
@@ -132,7 +132,7 @@ def go_along(p, s, share):
     change = inputs_at(p) + 2 * inputs(p)
     for i in range(members.coordinates(p)):
         own[mean + i] += by * dr[change + i]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         at = bearing_of(b)
@@ -150,14 +150,14 @@ def place_on_line(p, u, s, w):
     """Share of the line's way where the inputs ``u`` are, and how far aside of it, after `set_inputs`."""
     dr = drift_of(p, s)
     share = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         at = bearing_of(b)
         note_away(p, u, s, w, b)
         for k in range(DR.COMPONENTS):
             share += dr[at + DR.NOW + k] * dr[at + DR.CHANGE + k]
     share = min(max(share / dr[DR.SQUARE], -_BEYOND), _BEYOND)
-    aside = held.loads_apart(p, members.set_state(p, s))
-    for b in range(members.count(p)):
+    aside = frozen_points.largest_load_deviation(p, members.set_state(p, s))
+    for b in range(members.bearing_count(p)):
         at = bearing_of(b)
         for k in range(DR.COMPONENTS):
             aside = max(aside, abs(dr[at + DR.NOW + k] - share * dr[at + DR.CHANGE + k]))
@@ -185,9 +185,9 @@ def begin_line(p, u, s, w):
 
 @kernel
 def follow(p, u, s, w, h, off):
-    """Move what is held along with the inputs ``u`` over a step of ``h`` (s); how far it is off for renewals.
+    """Move what is frozen along with inputs ``u`` over a step of ``h`` (s); how far it is off for renewals.
 
-    ``off``: how far without a drift (`held.off`), just found.
+    ``off``: how far without a drift (`frozen.deviation`), just found.
     """
     dr = drift_of(p, s)
     dr[DR.SINCE] += h
@@ -195,7 +195,7 @@ def follow(p, u, s, w, h, off):
         return off
     share, aside = place_on_line(p, u, s, w)
     by = share - dr[DR.SHARE]
-    if aside > 1.0 or abs(by) * dr[DR.LARGEST] > _JUMP * max(h / held.PIECE, 1.0):
+    if aside > 1.0 or abs(by) * dr[DR.LARGEST] > _JUMP * max(h / frozen_points.PIECE, 1.0):
         dr[DR.KNOWN] = 0.0
         return off
     go_along(p, s, share)
@@ -204,7 +204,7 @@ def follow(p, u, s, w, h, off):
     if dr[DR.STILL] > _SMOOTH:
         dr[DR.RATE] = 0.0
         return off
-    lead = members.set_state(p, s)[members.march(p) + SP.MADE_LAST] * held.PIECE
+    lead = members.set_state(p, s)[members.march(p) + SP.MADE_LAST] * frozen_points.PIECE
     reached = (abs(share) + lead * abs(dr[DR.RATE])) * dr[DR.LARGEST]
     waited = dr[DR.SINCE] > PAUSE * lead and abs(share) * dr[DR.LARGEST] > 1.0
     if share * dr[DR.RATE] > 0.0 and (reached > 0.5 * dr[DR.ALLOWED] or waited):
@@ -224,7 +224,7 @@ def aim_inputs(p, u, s, given):
     if dr[DR.KNOWN] == 0.0:
         return
     rate = dr[DR.RATE]
-    lead = members.set_state(p, s)[members.march(p) + SP.MADE_LAST] * held.PIECE
+    lead = members.set_state(p, s)[members.march(p) + SP.MADE_LAST] * frozen_points.PIECE
     half = min(0.5 * dr[DR.ALLOWED] / dr[DR.LARGEST], 0.5 * PAUSE * lead * abs(rate))
     ahead = lead * rate + math.copysign(half, rate)
     ahead = min(max(ahead, -_BEYOND), _BEYOND)
@@ -259,7 +259,7 @@ def weight_of_lines(p, s, other):
 def losses(p, s):
     """Sum (W) of the heats of all bearings."""
     total = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         for i in range(DR.HEATS):
             total += lv[L.HEAT + i]
@@ -275,14 +275,14 @@ def level_change(p, s):
 
 @kernel
 def take_along(p, s, level):
-    """Find the line of the drift from what is held to what was renewed, before that is taken over.
+    """Find the line of the drift from what is frozen to what was renewed, before that is taken over.
 
     How far the next renewal may be follows from how far heats are from where the last line would have led,
     and from ``level``, see `level_change`.
     """
     dr = drift_of(p, s)
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
-    count = members.count(p)
+    count = members.bearing_count(p)
     known = dr[DR.KNOWN] != 0.0
     square, largest, along = 0.0, 0.0, 0.0
     for b in range(count):
@@ -319,7 +319,7 @@ def take_along(p, s, level):
 
 @kernel
 def note_changes(p, s, dr, b):
-    """Note how bearing ``b`` as renewed differs from as held."""
+    """Note how bearing ``b`` as renewed differs from as frozen."""
     own, of = members.set_state(p, s), members.set_state(p, back_of(p, s))
     sb, kb = members.state(p, s, b), members.state(p, back_of(p, s), b)
     lv, new = members.condensed(sb), members.condensed(kb)
@@ -337,19 +337,19 @@ def note_changes(p, s, dr, b):
 
 @kernel
 def loads_changed(p, own, of):
-    """Whether loads on the set differ between what is held and what was renewed."""
+    """Whether loads on the set differ between what is frozen and what was renewed."""
     at = members.march(p)
-    if own[at + SP.HELD_SPRING] != of[at + SP.HELD_SPRING]:
+    if own[at + SP.FROZEN_SPRING] != of[at + SP.FROZEN_SPRING]:
         return True
     for i in range(SP.PLANE):
-        if own[at + SP.HELD_NOSE + i] != of[at + SP.HELD_NOSE + i]:
+        if own[at + SP.FROZEN_NOSE + i] != of[at + SP.FROZEN_NOSE + i]:
             return True
     return False
 
 
 @kernel
 def begin_drift(p, u, s):
-    """Begin without a drift, held at the inputs ``u``."""
+    """Begin without a drift, frozen at the inputs ``u``."""
     dr = drift_of(p, s)
     first = inputs_at(p)
     for i in range(first + 2 * inputs(p) + members.padded_size(p)):

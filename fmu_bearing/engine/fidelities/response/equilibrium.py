@@ -6,16 +6,16 @@ Arguments: see `spindle.members`.
 from fmu_bearing.engine.fidelities.condensed.rows import keep_balls, show_balls
 from fmu_bearing.engine.fidelities.condensed.shared import flat
 from fmu_bearing.engine.fidelities.response import bearing
-from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
-from fmu_bearing.engine.fidelities.response.lines import KINDS, make_lines
-from fmu_bearing.engine.fidelities.response.sound import (
+from fmu_bearing.engine.fidelities.response.coupled_lines import solve_lines
+from fmu_bearing.engine.fidelities.response.line_sound import (
     add_rings,
     follow_beyond,
     from_lines,
     settle_sound,
     sound_of_balls,
 )
-from fmu_bearing.engine.fidelities.rings import held
+from fmu_bearing.engine.fidelities.response.lines import KINDS, make_lines
+from fmu_bearing.engine.fidelities.rings import frozen_points
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, L, S, W, Y
@@ -28,7 +28,7 @@ _ALL = 1 << 40  # candidates at once
 @kernel
 def show_guess(p, s, w, row):
     """Put the balls' places of row ``row`` of every bearing to its trial rows, on races without waves."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         for i in range(Y.SIZE):
@@ -51,22 +51,22 @@ def rest_from(p, s, w, speed, x, at):
     for i in range(members.padded_size(p)):
         ws[place + i] = x[at + i]
     show_guess(p, s, w, L.EVEN)
-    found = at_rest(p, s, w, speed)
+    at_equilibrium = at_rest(p, s, w, speed)
     for i in range(members.padded_size(p)):
-        own[mean + i] = ws[place + i] if found else x[at + i]
-    for b in range(members.count(p)):
+        own[mean + i] = ws[place + i] if at_equilibrium else x[at + i]
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
-        if found:
+        if at_equilibrium:
             keep_balls(members.work(p, w, b), lv, L.EVEN)
         members.place_rows(p, b, own, own, mean, lv, L.MEAN)
-    return found
+    return at_equilibrium
 
 
 @kernel
 def linearise(p, s, w, speed):
     """Renew derivatives of all bearings, lines and sound at ``speed`` (rad/s); False if there are none."""
     together = members.has_shaft(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb, wb = members.state(p, s, b), members.work(p, w, b)
         pb = members.parameters(p, b)
         if not bearing.linearise(pb, sb, speed, wb):
@@ -74,11 +74,11 @@ def linearise(p, s, w, speed):
         for kind in range(KINDS):
             make_lines(pb, sb, not together, speed, kind, 0, _ALL, wb)
     if together:
-        answer_lines(p, s, w, speed, 0, _ALL)
+        solve_lines(p, s, w, speed, 0, _ALL)
     if from_lines(p):
         add_rings(p, s, w, speed, 0, _ALL)
         follow_beyond(p, s, w, speed)
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             sound_of_balls(p, s, w, b, speed, 0, _ALL)
         settle_sound(p, s, w)
     return True
@@ -90,7 +90,7 @@ def rest_at_inputs(p, s, w, speed):
     own = members.set_state(p, s)
     if not members.has_shaft(p):
         return rest_from(p, s, w, speed, own, members.history(p))
-    held.take_offsets(p, own)
+    frozen_points.take_offsets(p, own)
     if not rest_from(p, s, w, speed, own, members.history(p)):
         rest_from(p, s, w, speed, own, SP.S_HEAD)
     return True
@@ -105,14 +105,14 @@ def renew_from_zero(p, u, s, w, speed):
     (``solver.restarts`` counts it, and a warning says so). Sound is left to the pieces that follow.
     """
     own = members.set_state(p, s)
-    status = held.hold_from_zero(p, u, s, w)
+    status = frozen_points.freeze_from_zero(p, u, s, w)
     if status != OK:
         return status
     rest_from(p, s, w, speed, own, SP.S_HEAD)
     if linearise(p, s, w, speed):
         return OK
     own[members.march(p) + SP.LINES] = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         members.condensed(members.state(p, s, b))[L.COUNT] = 0.0
     s[S.RESTARTS] += 1.0
     return OK

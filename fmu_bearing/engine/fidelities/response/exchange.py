@@ -61,7 +61,7 @@ def swap(one, other, begin, end):
 @kernel
 def set_tail(p):
     """Place in the set's own state behind the lines: their number and the equilibrium, of those before."""
-    return members.lines(p) + L.MOST_LINES * members.count(p) * members.line_size(p)
+    return members.lines(p) + L.MOST_LINES * members.bearing_count(p) * members.line_size(p)
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""Excitation of the rings line by line, and the linear answer to it (fidelity `response`).
+"""Excitation of the rings line by line, and the linear response to it (fidelity `response`).
 
 Held at their equilibrium, the rings feel from a ball at azimuth theta a force f(theta), and by a height h
 under it g(theta) h; what balls and cage do beside that answers to where the height lets the ball rest
@@ -21,7 +21,11 @@ import math
 from fmu_bearing.engine.complex_numbers import complex_at, pair, real_times
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
-from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_places, beside_rings
+from fmu_bearing.engine.fidelities.condensed.dynamic_stiffness import (
+    add_ball_response,
+    modal_response,
+    ring_dynamic_stiffness,
+)
 from fmu_bearing.engine.fidelities.condensed.rows import component
 from fmu_bearing.engine.fidelities.response.ball_orders import form_of, form_orders
 from fmu_bearing.engine.fidelities.response.samples import (
@@ -35,7 +39,7 @@ from fmu_bearing.engine.fidelities.response.samples import (
     signed,
     transform,
 )
-from fmu_bearing.engine.fidelities.response.table import counted, drop_weak, place_for
+from fmu_bearing.engine.fidelities.response.strongest_lines import counted, drop_weak, place_for
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, Q, S, T
@@ -63,12 +67,12 @@ def orders(p):
 def line_matrix(lv, omega, w, re, im):
     """Put the coefficients of the rings' equations at ``omega`` (rad/s), per own inertia, by columns.
 
-    After `beside.answer_at`.
+    After `dynamic_stiffness.modal_response`.
     """
-    beside_rings(lv, 0.0, omega, w)
+    ring_dynamic_stiffness(lv, 0.0, omega, w)
     for at in range(0, T.LINE_SIDE, FOUR):
-        store(re, at, -1.0 * load(lv, L.JX + at) - load(w, T.BESIDE_RE + at))
-        store(im, at, -omega * load(lv, L.JV + at) - load(w, T.BESIDE_IM + at))
+        store(re, at, -1.0 * load(lv, L.JX + at) - load(w, T.FEEDTHROUGH_RE + at))
+        store(im, at, -omega * load(lv, L.JV + at) - load(w, T.FEEDTHROUGH_IM + at))
     for n in range(L.N):
         re[n * L.DIAGONAL] -= omega * omega
         re[n * L.COLUMN + L.N] = 0.0
@@ -77,21 +81,21 @@ def line_matrix(lv, omega, w, re, im):
 
 @kernel
 def line_side(p, lv, w, re, im):
-    """Put ``T.LINE_FORCE`` as accelerations of the rings to the right side, after `beside.answer_at`."""
+    """Put ``T.LINE_FORCE`` as accelerations of the rings to the right side, after `modal_response`."""
     for i in range(L.COLUMN):
         moves = i < L.N and i != L.TURN
         at = T.LINE_FORCE + 2 * component(i)
         per = 1.0 / inertia(p, i) if moves else 0.0
         re[T.LINE_SIDE + i] = w[at] * per if moves else 0.0
         im[T.LINE_SIDE + i] = w[at + 1] * per if moves else 0.0
-    beside_places(p, lv, w, re, im)
+    add_ball_response(p, lv, w, re, im)
     re[T.LINE_SIDE + L.N] = 0.0
     im[T.LINE_SIDE + L.N] = 0.0
 
 
 @kernel
 def keep(p, lv, lines, alone, a, b, m, omega, w):
-    """Keep the answer at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``, ``m``.
+    """Keep the response at ``omega`` (rad/s) to the force ``T.LINE_FORCE`` as line ``a``, ``b``, ``m``.
 
     A bearing that is not ``alone`` keeps what drives its rings (m/s2, rad/s2): the set answers to it.
     """
@@ -99,7 +103,7 @@ def keep(p, lv, lines, alone, a, b, m, omega, w):
         return
     re = w[T.LINE_RE : T.LINE_RE + T.LINE_SIDE + L.COLUMN]
     im = w[T.LINE_IM : T.LINE_IM + T.LINE_SIDE + L.COLUMN]
-    answer_at(lv, 0.0, omega, w)
+    modal_response(lv, 0.0, omega, w)
     line_side(p, lv, w, re, im)
     if alone:
         line_matrix(lv, omega, w, re, im)
@@ -244,10 +248,10 @@ def shaft_lines(p, c, lv, lines, alone, x, orbit, speed, first, many, w):
     if first == 0:
         for i in range(LN.COMPLEX):
             w[T.LINE_FORCE + i] = 0.0
-        push = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
+        unbalance = p[P.INNER_MASS] * c[C.ECCENTRICITY] * speed * speed
         # (0, -sin, cos) of the shaft's angle
-        w[T.LINE_FORCE + 2 * Q.Y + 1] = push
-        w[T.LINE_FORCE + 2 * Q.Z] = push
+        w[T.LINE_FORCE + 2 * Q.Y + 1] = unbalance
+        w[T.LINE_FORCE + 2 * Q.Z] = unbalance
         keep(p, lv, lines, alone, 0.0, 1.0, 0.0, speed, w)
     seen = 1
     for n in range(1, orders(p) + 1):

@@ -1,9 +1,9 @@
-"""Fidelity `response`: the rings' steady linear answer to every excitation, as a sum of lines.
+"""Fidelity `response`: the rings' steady linear response to every excitation, as a sum of lines.
 
 The rings rest at their static equilibrium; mass, damping and stiffness are as in fidelity `rings` there,
 with the balls' stiffness averaged over the orbit. Each line turns with a ball 0's angle + b shaft's angle + m
 times the angle by which the balls have turned in their orbiting axes. a, b and m are whole, so that phases
-run on through changes of speed; amplitudes are renewed with what is ``held`` (speed by 0.5 %, conditions by
+run on through changes of speed; amplitudes are renewed with what is frozen (speed by 0.5 %, conditions by
 0.1 %), in pieces (``renewal``), and blended (``exchange``): the transient of the change is left out.
 
 Between communication points nothing is stepped but these angles, and sound is a sum of lines, too
@@ -17,12 +17,12 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_places, rest_balls
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
-from fmu_bearing.engine.fidelities.full.start import begin_means, sinks
+from fmu_bearing.engine.fidelities.full.start import begin_means, exceeds_pedestal
 from fmu_bearing.engine.fidelities.response import bearing, drift, renewal
 from fmu_bearing.engine.fidelities.response.equilibrium import linearise, rest_from
 from fmu_bearing.engine.fidelities.response.exchange import copy, move_rings, settles
-from fmu_bearing.engine.fidelities.response.sound import follow_lines, from_lines, show_pressures
-from fmu_bearing.engine.fidelities.rings import equations, growth, held
+from fmu_bearing.engine.fidelities.response.line_sound import follow_lines, from_lines, show_pressures
+from fmu_bearing.engine.fidelities.rings import equations, frozen_points, growth
 from fmu_bearing.engine.fidelities.rings.march import emit_shown
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T, U
@@ -38,7 +38,7 @@ def place(p, s, w, ahead, near):
     ``near``: whether the balls' last places are good guesses.
     """
     place_rings(p, s, w, ahead)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing.settle(members.parameters(p, b), members.state(p, s, b), ahead, near, members.work(p, w, b))
 
 
@@ -56,7 +56,7 @@ def keep_ball_loads(p, s, w):
     if not members.has_shaft(p):
         return
     own = members.set_state(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if not knows_balls(p, members.state(p, s, b)):
             continue
         wb = members.work(p, w, b)
@@ -109,18 +109,18 @@ def show(p, s, w, near, every):
     Balls that nobody reads are left as they are and count as unknown, unless ``every`` one is to be shown.
     """
     read = every
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         read = read or members.parameters(p, b)[P.READ_BALLS] != 0.0
     place_rings(p, s, w, 0.0)
     if read:
         step_back(p, s, w)
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
             if every or pb[P.READ_BALLS] != 0.0:
                 bearing.settle(pb, sb, -bearing.BACK, near and knows_balls(p, sb), wb)
                 bearing.keep_back(sb)
         step_on(p, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
         if every or pb[P.READ_BALLS] != 0.0:
             bearing.settle(pb, sb, 0.0, True, wb)
@@ -134,13 +134,13 @@ def show(p, s, w, near, every):
 @kernel
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
-    status = held.start_held(p, u, s, w, t)
+    status = frozen_points.start_frozen(p, u, s, w, t)
     if status != OK:
         return status
     own = members.set_state(p, s)
     speed = u[U.SPEED]
     rest_from(p, s, w, speed, own, SP.S_HEAD)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         for i in range(2 * STRIDE):
             lv[L.X + i] = lv[L.EVEN + i]
@@ -148,10 +148,10 @@ def start_response(p, u, s, w, t):
         return NO_START
     growth.search_at_once(p, s, w)
     renewal.mirror(p, u, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         members.condensed(members.state(p, s, b))[L.KNOWN] = 1.0  # where they rest in the equilibrium
     show(p, s, w, True, True)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         begin_means(members.state(p, s, b))
     for i in range(2):
         own[SP.MEAN_HEAT + i] = 0.0
@@ -163,14 +163,14 @@ def start_response(p, u, s, w, t):
 @kernel
 def turn_all(p, s, h):
     """Turn the balls of all bearings through ``h`` (s)."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         turn_balls(members.state(p, s, b), h)
 
 
 @kernel
 def advance_all(p, s, h):
     """Time, angle, speed and sums of all bearings at the end of the step ``h`` (s)."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         advance(members.state(p, s, b), h)
 
 
@@ -178,18 +178,18 @@ def advance_all(p, s, h):
 def sound_on_the_way(p, s, w, h, speed, near):
     """Go through the communication step ``h`` (s) from state to state, with sound samples between them."""
     longest = bearing.sample_spacing(p, s, speed)
-    for b in range(1, members.count(p)):
+    for b in range(1, members.bearing_count(p)):
         longest = min(longest, bearing.sample_spacing(members.parameters(p, b), s, speed))
     count = math.ceil(h / longest - 1e-9)
     step = h / count
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing.begin_spacing(members.state(p, s, b), step)
     for _ in range(int(count)):
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             lv = members.condensed(members.state(p, s, b))
             move_places(lv, int(members.parameters(p, b)[P.LANES]))
         place(p, s, w, step, near)
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             bearing.follow_balls(
                 members.parameters(p, b), members.state(p, s, b), step, members.work(p, w, b)
             )
@@ -206,22 +206,22 @@ def march_response(p, u, s, w, h):
     own = members.set_state(p, s)
     speed = u[U.SPEED]
     near = True
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         steps.begin_means(sb)
         if not bearing.is_near(sb, speed, h):
             near = False
-    off = held.set_inputs(p, u, s, w, h)
-    if sinks(p, s):
+    off = frozen_points.set_inputs(p, u, s, w, h)
+    if exceeds_pedestal(p, s):
         return TOO_SOFT
     status, fresh = renewal.go_on(p, u, s, w, h, off, drift.follow(p, u, s, w, h, off))
     if status != OK:
         return status
     if fresh:
         # what was renewed is for inputs ahead of these
-        held.set_inputs(p, u, s, w, h)
+        frozen_points.set_inputs(p, u, s, w, h)
         drift.begin_line(p, u, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         own[members.per_bearing(p, b) + SP.OFFSET_RATE] = 0.0
     growth.search(p, s, w, h)
     near = near and not fresh
@@ -232,7 +232,7 @@ def march_response(p, u, s, w, h):
     else:
         turn_all(p, s, h)
         advance_all(p, s, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
         sb[S.SPEED] = speed
@@ -241,6 +241,6 @@ def march_response(p, u, s, w, h):
         show(p, s, w, near, fresh or settles(p, s, h))
     if from_lines(p) and p[P.READ_SOUND] != 0.0:
         follow_lines(p, s, w, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         steps.end_means(members.state(p, s, b), h)
     return OK

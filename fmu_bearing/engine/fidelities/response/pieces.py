@@ -3,13 +3,12 @@
 Each takes 0.1 to 0.4 ms of a processor. ``stage``: of `IDLE` and so on; other arguments: see `renewal`.
 """
 
-from fmu_bearing.engine.fidelities.condensed.shared import hold_operator
+from fmu_bearing.engine.fidelities.condensed.shared import build_operator
 from fmu_bearing.engine.fidelities.response import bearing
-from fmu_bearing.engine.fidelities.response.coupled_lines import answer_lines
+from fmu_bearing.engine.fidelities.response.coupled_lines import solve_lines
 from fmu_bearing.engine.fidelities.response.equilibrium import renew_from_zero, rest_at_inputs
 from fmu_bearing.engine.fidelities.response.exchange import back_of, end_blend, inputs_of
-from fmu_bearing.engine.fidelities.response.lines import KINDS, line_table, make_lines
-from fmu_bearing.engine.fidelities.response.sound import (
+from fmu_bearing.engine.fidelities.response.line_sound import (
     add_rings,
     follow_beyond,
     from_lines,
@@ -17,7 +16,8 @@ from fmu_bearing.engine.fidelities.response.sound import (
     settle_sound,
     sound_of_balls,
 )
-from fmu_bearing.engine.fidelities.rings import held
+from fmu_bearing.engine.fidelities.response.lines import KINDS, line_table, make_lines
+from fmu_bearing.engine.fidelities.rings import frozen_points
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SL, SP, L, W
 from fmu_bearing.engine.readout.motion import sound_block
@@ -31,9 +31,9 @@ ANSWER, RINGS, BEYOND, BALLS, MEANS, COMPLETE = range(8, 14)
 # take 0.2 ms in a pair, which makes three pieces in a step where it is late), of lines that sound: of the
 # rings, of the balls.
 _LINES = 144
-_ANSWERS = 4e5
-_ANSWERS_LEAST = 14  # coordinates: fewer take as long, by what is not cubed
-_ANSWERS_MOST = 63
+_SOLVED = 4e5
+_SOLVED_LEAST = 14  # coordinates: fewer take as long, by what is not cubed
+_SOLVED_MOST = 63
 _RINGS = 192
 _BALLS = 480
 
@@ -55,13 +55,13 @@ def next_member(p, s, stage, then):
     at = members.march(p)
     own = members.set_state(p, s)
     member = own[at + SP.MEMBER] + 1.0
-    enter(p, s, stage if member < members.count(p) else then)
-    if member < members.count(p):
+    enter(p, s, stage if member < members.bearing_count(p) else then)
+    if member < members.bearing_count(p):
         own[at + SP.MEMBER] = member
 
 
 @kernel
-def held_piece(p, s, w):
+def frozen_piece(p, s, w):
     """One piece up to the lines; False where there is no equilibrium near the old one."""
     own = members.set_state(p, s)
     back = back_of(p, s)
@@ -71,26 +71,26 @@ def held_piece(p, s, w):
     pb, sb, wb = members.parameters(p, b), members.state(p, back, b), members.work(p, w, b)
     together = members.has_shaft(p)
     if stage == EXCEED:
-        held.exceed(p, inputs_of(p, s), b, back, w)
+        frozen_points.renew_excess_force(p, inputs_of(p, s), b, back, w)
         next_member(p, s, EXCEED, SETTLE_AGAIN)
     elif stage == SETTLE or stage == SETTLE_AGAIN:
-        if held.rest_set(p, inputs_of(p, s), True, back, w) != OK:
+        if frozen_points.rest_set(p, inputs_of(p, s), True, back, w) != OK:
             return False
         ws = members.set_work(p, w)
-        found = held.start_vector(p, SP.UNKNOWNS)
+        unknowns = frozen_points.start_vector(p, SP.UNKNOWNS)
         for i in range(members.coordinates(p)):
-            members.set_state(p, back)[SP.S_HEAD + i] = ws[found + i]
+            members.set_state(p, back)[SP.S_HEAD + i] = ws[unknowns + i]
         enter(p, s, EXCEED if stage == SETTLE else HOLD)
     elif stage == HOLD:
-        if not together and held.rest_set(p, inputs_of(p, s), True, back, w) != OK:
+        if not together and frozen_points.rest_set(p, inputs_of(p, s), True, back, w) != OK:
             return False
-        if held.hold_point(p, inputs_of(p, s), b, False, back, w) != OK:
+        if frozen_points.freeze_point(p, inputs_of(p, s), b, False, back, w) != OK:
             return False
         next_member(p, s, HOLD, MASSES)
     elif stage == MASSES:
-        hold_operator(pb, sb, wb)
+        build_operator(pb, sb, wb)
         next_member(p, s, MASSES, DERIVE)
-        if b + 1 == members.count(p) and not rest_at_inputs(p, back, w, aim):
+        if b + 1 == members.bearing_count(p) and not rest_at_inputs(p, back, w, aim):
             return False
     elif stage == DERIVE:
         if not bearing.linearise(pb, sb, aim, wb):
@@ -109,13 +109,13 @@ def held_piece(p, s, w):
 
 
 @kernel
-def answer_piece(p, s, w):
+def lines_piece(p, s, w):
     """One piece of a set's lines."""
     own = members.set_state(p, s)
     at = members.march(p)
-    many = max(int(_ANSWERS / (members.coordinates(p) ** 3 + _ANSWERS_LEAST**3)), 4)
-    many = min(many, _ANSWERS_MOST)
-    if answer_lines(p, back_of(p, s), w, own[at + SP.AIM], int(own[at + SP.CURSOR]), many):
+    many = max(int(_SOLVED / (members.coordinates(p) ** 3 + _SOLVED_LEAST**3)), 4)
+    many = min(many, _SOLVED_MOST)
+    if solve_lines(p, back_of(p, s), w, own[at + SP.AIM], int(own[at + SP.CURSOR]), many):
         own[at + SP.CURSOR] += many
     else:
         enter(p, s, RINGS)
@@ -125,7 +125,7 @@ def answer_piece(p, s, w):
 def token_of(p, back, aim):
     """Return a number that two tables of lines hardly have in common unless they are equal."""
     token = aim
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, back, b)
         lv = members.condensed(sb)
         lines = sb[line_table(members.parameters(p, b)) :]
@@ -181,7 +181,7 @@ def sound_once(p, s, w):
     stage, b, cursor = int(own[at + SP.STAGE]), int(own[at + SP.MEMBER]), int(own[at + SP.CURSOR])
     aim = own[at + SP.AIM]
     if stage == RINGS:
-        many = int(_RINGS / (2.0 * members.count(p) - 1.0))
+        many = int(_RINGS / (2.0 * members.bearing_count(p) - 1.0))
         if add_rings(p, back, w, aim, cursor, many):
             own[at + SP.CURSOR] += many
         else:
@@ -208,8 +208,8 @@ def piece(p, s, w):
     if stage >= RINGS:
         sound_piece(p, s, w)
     elif stage == ANSWER:
-        answer_piece(p, s, w)
-    elif not held_piece(p, s, w):
+        lines_piece(p, s, w)
+    elif not frozen_piece(p, s, w):
         end_blend(p, s)
         status = renew_from_zero(p, inputs_of(p, s), back_of(p, s), w, own[at + SP.AIM])
         if status != OK:

@@ -6,8 +6,8 @@ height under it and slope across its track. See `lines` for what they are for.
 
 from fmu_bearing.engine.complex_numbers import complex_at
 from fmu_bearing.engine.constants import PI
-from fmu_bearing.engine.fidelities.condensed.balls import carried, set_angles
-from fmu_bearing.engine.fidelities.condensed.drives import moved_load
+from fmu_bearing.engine.fidelities.condensed.balls import set_angles, solve_balls
+from fmu_bearing.engine.fidelities.condensed.drives import load_after_move
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, LN, STRIDE, C, L, P, T, W, Y
@@ -48,7 +48,7 @@ def sample_orbit(p, c, lv, speed, x, w):
     for part in range(parts):
         set_angles(p, c, lv, 2.0 * PI * part / (balls * parts), 0.0, 0.0, 0.0, 0.0, w)
         for kind in range(kinds):
-            changed = T.LEAN + (kind - LN.BY_LEAN) * STRIDE
+            changed = T.FORM_SLOPE + (kind - LN.BY_LEAN) * STRIDE
             step = _LEAN
             if kind < LN.BY_LEAN:
                 changed = T.INNER + (kind - LN.BY_HEIGHT) * STRIDE
@@ -56,8 +56,8 @@ def sample_orbit(p, c, lv, speed, x, w):
             if kind != LN.FORCE:
                 for j in range(lanes):
                     w[changed + j] = step
-            carried(p, c, lv, speed, q, w)
-            carried(p, c, lv, speed, q, w)
+            solve_balls(p, c, lv, speed, q, w)
+            solve_balls(p, c, lv, speed, q, w)
             show_away(lv, lanes, w)
             if kind != LN.FORCE:
                 for j in range(lanes):
@@ -84,18 +84,18 @@ def store_patterns(at, places, co, si, w):
 
 @kernel
 def show_away(lv, lanes, w):
-    """Put how far balls between races rest from the held point, by patterns, to ``T.AWAY``: `L.AWAYS`."""
+    """Put how far balls between races rest from the frozen point, by patterns, to ``T.AWAY``: `L.AWAYS`."""
     for j in range(0, lanes, FOUR):
-        held = min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * load(w, T.HELD + j))
-        x = held * (load(w, T.X + j) - lv[L.AT_BALL])
-        r = held * (load(w, T.R + j) - lv[L.AT_BALL + 1])
+        loaded = min(1.0, lv[L.PRESS + L.PRESS_WHOLE] * load(w, T.LOADED + j))
+        x = loaded * (load(w, T.X + j) - lv[L.AT_BALL])
+        r = loaded * (load(w, T.R + j) - lv[L.AT_BALL + 1])
         co, si = load(w, T.COS + j), load(w, T.SIN + j)
         store_patterns(T.AWAY + j, x, co, si, w)
         store_patterns(T.AWAY + STRIDE + j, r, co, si, w)
         for race in range(2):
             at, row = L.PRESS + race * L.PRESS_SIZE, T.CONTACT if race == 0 else T.CONTACT_OUTER
-            pressed = lv[at + L.PRESS_SOFT] * (moved_load(w, row, j) - lv[at + L.PRESS_LOAD])
-            store_patterns(T.AWAY + (2 + race) * STRIDE + j, held * pressed, co, si, w)
+            pressed = lv[at + L.PRESS_SOFT] * (load_after_move(w, row, j) - lv[at + L.PRESS_LOAD])
+            store_patterns(T.AWAY + (2 + race) * STRIDE + j, loaded * pressed, co, si, w)
 
 
 @kernel

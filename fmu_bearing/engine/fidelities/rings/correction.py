@@ -73,11 +73,11 @@ def displace(p, own, ws, vectors, n, lanes, h):
     d = members.vector_at(lanes, SP.INCREMENT)
     place = members.vector_at(lanes, SP.PLACE)
     squares = members.squares_at(vectors, lanes)
-    equations.answer(p, own, ws, squares, d, turned)
+    equations.multiply(p, own, ws, squares, d, turned)
     predictor.displaced(ws, d, turned, place, lanes, h)
     if equations.bends(p):
         again = members.vector_at(lanes, SP.RATE)
-        equations.answer(p, own, ws, squares, turned, again)
+        equations.multiply(p, own, ws, squares, turned, again)
         for i in range(n):
             ws[place + i] += equations.THIRD * h**6 * ws[again + i]
 
@@ -91,7 +91,7 @@ def predict(p, s, w, own, ws, vectors, n, lanes, h):
         members.vector_at(lanes, SP.NEWMARK),
     )  # fmt: skip
     displace(p, own, ws, vectors, n, lanes, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -136,7 +136,7 @@ def residual_of(p, s, w, own, ws, vectors, n, lanes, h):
         moving = members.vector_at(lanes, SP.RATE)
         shaft_forces(p, own, ws, place, moving, angle, speed, rate, ws, residual)
         members.add_product(p, members.table(p, SP.AT_MASS), -1.0, ws, acc, ws, residual)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
@@ -161,7 +161,7 @@ def correct_once(p, s, w, own, ws, vectors, n, lanes, h):
     acc = members.vector_at(lanes, SP.ACCELERATION)
     newmark = members.vector_at(lanes, SP.NEWMARK)
     residual = members.vector_at(lanes, SP.RESIDUAL)
-    equations.answer(p, own, ws, members.inverse_at(vectors, n, lanes), residual, d)
+    equations.multiply(p, own, ws, members.inverse_at(vectors, n, lanes), residual, d)
     if not members.has_shaft(p) and p[P.RIGID] != 0.0:
         ws[d + Q.X] = ws[residual + Q.X]
     for i in range(0, lanes, FOUR):
@@ -171,9 +171,9 @@ def correct_once(p, s, w, own, ws, vectors, n, lanes, h):
     displace(p, own, ws, vectors, n, lanes, h)
     known = own[vectors - SP.MARCHED + H.KNOWN]
     counts = 0.0 if equations.bends(p) and known >= 1.0 else predictor.last_counts(known)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
-        members.moved(p, b, ws, d, wb, T.D)
+        members.driven_motion(p, b, ws, d, wb, T.D)
         correct_patterns(members.condensed(members.state(p, s, b)), h, counts, wb)
     return 0.5 * h * size_of(own, vectors + H.LEVERS * lanes, n, ws, d)
 

@@ -53,12 +53,12 @@ def show_rings(p, s):
     """Put places, rates and accelerations of all rings to where the set's coordinates are."""
     own = members.set_state(p, s)
     lanes = members.padded_size(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         bearing_at = members.per_bearing(p, b)
         members.place_rows(p, b, own, own, SP.S_HEAD, lv, L.Q0)
-        members.moved(p, b, own, SP.S_HEAD + lanes, lv, L.V0)
-        members.moved(p, b, own, SP.S_HEAD + 2 * lanes, lv, L.A0)
+        members.driven_motion(p, b, own, SP.S_HEAD + lanes, lv, L.V0)
+        members.driven_motion(p, b, own, SP.S_HEAD + 2 * lanes, lv, L.A0)
         lv[L.V0] += own[bearing_at + SP.OFFSET_RATE]
 
 
@@ -67,7 +67,7 @@ def share_march(p, s):
     """Copy the spacing of the march and the number of known steps to all bearings."""
     own = members.set_state(p, s)
     numbers = members.march(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         lv[L.SPACING] = own[numbers + H.SPACING]
         lv[L.KNOWN] = own[numbers + H.KNOWN]
@@ -83,7 +83,7 @@ def publish_all(p, s, w):
 @kernel
 def publish_rings(p, s):
     """Write the states of all bearings that outputs are made of, with the rings as they are shown."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         y = sb[S.Y : S.Y + Y.SIZE]
@@ -105,7 +105,7 @@ def copy_trial(ws, w):
 def rings_residual(p, w, ws, residual):
     """Put what is out of balance at the rings of a single bearing to ``ws[residual:]``, as `pull_rings`.
 
-    A rigidly held inner ring keeps its place.
+    A rigidly fixed inner ring keeps its place.
     """
     for i in range(L.N):
         ws[residual + i] = w[W.F + F.BODY + i] - w[T.A + i]
@@ -123,10 +123,10 @@ def follow_trial(p, b, own, ws, wb, lanes, ahead):
     if not members.has_shaft(p):
         copy_trial(ws, wb)
         return
-    members.moved(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
-    members.moved(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
-    members.moved(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
-    members.lean(p, b, wb, W.STAGE + Y.Q0)
+    members.driven_motion(p, b, ws, members.vector_at(lanes, SP.PLACE), wb, W.STAGE + Y.Q0)
+    members.driven_motion(p, b, ws, members.vector_at(lanes, SP.RATE), wb, W.STAGE + Y.V0)
+    members.driven_motion(p, b, ws, members.vector_at(lanes, SP.ACCELERATION), wb, T.A)
+    members.add_seat_tilt(p, b, wb, W.STAGE + Y.Q0)
     bearing_at = members.per_bearing(p, b)
     wb[W.STAGE + Y.Q0] += own[bearing_at + SP.OFFSET] + ahead * own[bearing_at + SP.OFFSET_RATE]
     wb[W.STAGE + Y.V0] += own[bearing_at + SP.OFFSET_RATE]
@@ -142,7 +142,7 @@ def pull_rings(p, b, wb, ws, residual):
     for i in range(L.N):
         wb[T.D + i] = p[masses + i] * (wb[W.F + F.BODY + i] - wb[T.A + i])
     wb[T.D + L.N] = 0.0
-    members.pull(p, b, wb, T.D, ws, residual)
+    members.project_forces(p, b, wb, T.D, ws, residual)
 
 
 @kernel
@@ -152,7 +152,7 @@ def keep_loads(p, s, w):
         return
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         masses = members.row(p, b) + SP.ROW_MASS
         at = members.scratch(p, b)
@@ -162,7 +162,7 @@ def keep_loads(p, s, w):
 
 
 @kernel
-def answer(p, own, ws, matrix, x, out):
+def multiply(p, own, ws, matrix, x, out):
     """``ws[out:] = matrix ws[x:]``, the matrix of the coordinates' size in the set's own state."""
     if not members.has_shaft(p):
         times(own, matrix, ws, x, ws, out)
@@ -177,7 +177,7 @@ def answer(p, own, ws, matrix, x, out):
 def stiffness_matrix(p, s, own, ws, at):
     """Put the derivatives of the set's forces by places to ``ws[at:]``, by rows."""
     shaft_matrix(p, own, ws, s[S.SPEED], 0.0, 0.0, -1.0, at)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         add_driven(p, b, lv, L.JX, 1, L.COLUMN, ws, at)
 
@@ -246,7 +246,7 @@ def highest_mode(p, own, ws):
         ws[d + i] = 1.0 + 0.1 * i
     size = 0.0
     for _ in range(40):
-        answer(p, own, ws, members.squares(p), d, a)
+        multiply(p, own, ws, members.squares(p), d, a)
         total = 0.0
         before = 0.0
         for i in range(n):
@@ -298,11 +298,11 @@ def renew(p, s, w):
     ws = members.set_work(p, w)
     show(p, s)
     at = members.matrix(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if not differentiate(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)):
             return False
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, 0.0, 0.0, at)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         step_matrix(members.condensed(members.state(p, s, b)), 0.0, 0.0, wb)
         add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, at)
@@ -337,14 +337,14 @@ def factor_step(p, s, w, h):
     by_place = h * h / 12.0
     beyond = h**4 / 240.0
     shaft_matrix(p, own, ws, s[S.SPEED], 1.0, 0.5 * h, by_place, at)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         step_matrix(members.condensed(members.state(p, s, b)), 0.5 * h, by_place, wb)
         add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, at)
     first = at + n * n
     second = first + n * n
     shaft_matrix(p, own, ws, s[S.SPEED], 0.0, 0.0, -1.0, second)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         within_step(members.condensed(members.state(p, s, b)), wb)
         add_driven(p, b, wb, T.MATRIX, L.N, 1, ws, second)
@@ -368,11 +368,11 @@ def restart_march(p, s, w):
     ws = members.set_work(p, w)
     lanes = members.padded_size(p)
     residual = members.vector(p, SP.RESIDUAL)
-    found = members.vector(p, SP.ACCELERATION)
+    acceleration = members.vector(p, SP.ACCELERATION)
     shaft_forces(
         p, own, own, SP.S_HEAD, SP.S_HEAD + lanes, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], ws, residual
     )  # fmt: skip
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         if not present_forces(members.parameters(p, b), sb, wb):
@@ -380,12 +380,12 @@ def restart_march(p, s, w):
         for i in range(L.COLUMN):
             wb[T.A + i] = 0.0
         pull_rings(p, b, wb, ws, residual)
-    answer(p, own, ws, members.inverse(p), residual, found)
+    multiply(p, own, ws, members.inverse(p), residual, acceleration)
     if not members.has_shaft(p) and p[P.RIGID] != 0.0:
-        ws[found + Q.X] = 0.0
+        ws[acceleration + Q.X] = 0.0
     for i in range(lanes):
-        own[members.history(p) + H.A0 * lanes + i] = ws[found + i]
-    for b in range(members.count(p)):
-        members.moved(p, b, ws, found, members.work(p, w, b), T.A)
+        own[members.history(p) + H.A0 * lanes + i] = ws[acceleration + i]
+    for b in range(members.bearing_count(p)):
+        members.driven_motion(p, b, ws, acceleration, members.work(p, w, b), T.A)
     keep_loads(p, s, w)
     return True

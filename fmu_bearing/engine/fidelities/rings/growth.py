@@ -1,14 +1,14 @@
-"""The motion of rings and shaft that grows most by itself, with balls and cage as they are held.
+"""The motion of rings and shaft that grows most by itself, with balls and cage frozen.
 
-About the held point all move as q exp(s t), where the dynamic stiffness D(s) q is zero: that of shaft,
+About the frozen point all move as q exp(s t), where the dynamic stiffness D(s) q is zero: that of shaft,
 housing and rings, of balls at rest, and of what balls and cage do beside these (`condensed.operator`).
 Newton's method for q and s together (Ruhe 1973, SIAM J. Numer. Anal. 10, 674) goes on from starts that grow:
 motions that decay are farther from them. A first round leaves s, so that the nearest motion comes forward. Of
 1,920 scenes, the catalogue's and drawn ones, 257 have a motion of the rings that grows by 3 1/s and more by
 the eigenvalues of the whole matrix (`modal.equations.quick`), and the search finds it in all but one.
 
-The search follows each renewal of what is held, one round after the other, beside the march; what it finds is
-``solver.growth``. Arguments: see `spindle.members`.
+The search follows each renewal of what is frozen, one round after the other, beside the march; what it finds
+is ``solver.growth``. Arguments: see `spindle.members`.
 """
 
 import math
@@ -16,7 +16,7 @@ import math
 from fmu_bearing.engine.complex_numbers import complex_at, real_times, square
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.dense import solve_columns
-from fmu_bearing.engine.fidelities.condensed.beside import answer_at, beside_rings
+from fmu_bearing.engine.fidelities.condensed.dynamic_stiffness import modal_response, ring_dynamic_stiffness
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, H, L, P, Q, S, T
 from fmu_bearing.engine.spindle import members
@@ -34,17 +34,17 @@ _DIFFERENCE = 1e-5  # of the rate: the step of the slope of D
 _SETTLED = 1e-5  # of the rate: a smaller change ends the rounds
 _STEP = 0.3  # of the rate: the longest change
 _DAMPED = 0.5  # of the rate: what decays or grows faster does not swing
-_ACROSS = 0.5  # of the load along the axis, chosen: with more across it the held point is not where rings are
+_ACROSS = 0.5  # of the load along the axis, chosen: with more across it rings are not at the frozen point
 # of the orbits' speed, chosen: balls that drift along their orbits with the cage move no ring
 _BESIDE = 0.02
 
 
 @kernel
-def rests_as_held(p, s, b):
-    """Whether bearing ``b`` carries about what it is held with, along its axis alone.
+def rests_as_frozen(p, s, b):
+    """Whether bearing ``b`` carries about what it was frozen with, along its axis alone.
 
     Else balls at rest count as they press where the rings are: a ring on a soft pedestal that a load sinks
-    by a millimetre decays there, while it would grow by 151 1/s at the held point.
+    by a millimetre decays there, while it would grow by 151 1/s at the frozen point.
     """
     if not members.has_shaft(p):
         c = L.CONDITIONS
@@ -63,22 +63,22 @@ def put_stiffness(p, s, w, growth, omega):
     n = members.coordinates(p)
     lanes = members.padded_size(p)
     im, spare = members.complex_matrix(p)
-    speed = members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]
-    for b in range(members.count(p)):
+    speed = members.condensed(members.state(p, s, 0))[L.FROZEN_SPEED]
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
-        answer_at(lv, growth, omega, members.work(p, w, b))
-        beside_rings(lv, growth, omega, members.work(p, w, b))
+        modal_response(lv, growth, omega, members.work(p, w, b))
+        ring_dynamic_stiffness(lv, growth, omega, members.work(p, w, b))
     for part in range(2):
         by_mass = growth * growth - omega * omega if part == 0 else 2.0 * growth * omega
         by_rate = growth if part == 0 else omega
         by_place = 1.0 - part
-        beside = T.BESIDE_RE if part == 0 else T.BESIDE_IM
+        beside = T.FEEDTHROUGH_RE if part == 0 else T.FEEDTHROUGH_IM
         shaft_matrix(p, own, ws, speed, by_mass, by_rate, by_place, spare)
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             lv = members.condensed(members.state(p, s, b))
             wb = members.work(p, w, b)
-            held = rests_as_held(p, s, b)
-            place, rate = (L.HELD_PLACE, L.HELD_RATE) if held else (L.JX, L.JV)
+            frozen = rests_as_frozen(p, s, b)
+            place, rate = (L.FROZEN_JX, L.FROZEN_JV) if frozen else (L.JX, L.JV)
             for k in range(L.N):
                 for i in range(L.N):
                     at = i + L.COLUMN * k
@@ -180,7 +180,7 @@ def begin_from(p, s, start):
     elif start == 2.0:
         lv = members.condensed(members.state(p, s, 0))
         own[at + SP.RATE_NOW] = 0.0
-        own[at + SP.RATE_NOW + 1] = _ORBIT * abs(lv[L.RATIO] * lv[L.FOUND_SPEED])
+        own[at + SP.RATE_NOW + 1] = _ORBIT * abs(lv[L.RATIO] * lv[L.FROZEN_SPEED])
     else:
         share = (start - 3.0) / (_STARTS - 1.0)
         omega = _LOWEST * math.exp(share * math.log(_HIGHEST / _LOWEST))
@@ -201,9 +201,9 @@ def swings(p, s, growth, omega):
     """Whether a rate is that of a motion in which rings swing."""
     if omega < _SLOWEST or abs(growth) > _DAMPED * omega:
         return False
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
-        orbit = abs(lv[L.RATIO] * lv[L.FOUND_SPEED])
+        orbit = abs(lv[L.RATIO] * lv[L.FROZEN_SPEED])
         if abs(omega - orbit) < _BESIDE * orbit:
             return False
     return True

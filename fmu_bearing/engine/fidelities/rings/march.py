@@ -18,8 +18,8 @@ from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
 from fmu_bearing.engine.fidelities.condensed.patterns import keep_patterns, prepare_step
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
-from fmu_bearing.engine.fidelities.condensed.shared import advance, hold_operator, keep_end, show_end
-from fmu_bearing.engine.fidelities.rings import equations, growth, held, predictor
+from fmu_bearing.engine.fidelities.condensed.shared import advance, build_operator, keep_end, show_end
+from fmu_bearing.engine.fidelities.rings import equations, frozen_points, growth, predictor
 from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
@@ -27,7 +27,7 @@ from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import grow
-from fmu_bearing.engine.spindle.sound import emit
+from fmu_bearing.engine.spindle.sound_sum import emit
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
 _LONGEST = 2e-5  # s
@@ -45,7 +45,7 @@ _TRUNCATION = 1.0
 _GROW = 1.0 / 40  # of the allowed error: twice the step makes 16 times the error
 FIRST = 1.0 / 16  # of the longest step: the first one
 _PATIENCE = 8  # steps before a longer one is tried
-_HURRY = 3.0  # of what is held; what it jumps by at a renewal moves the rings
+_HURRY = 3.0  # of what is frozen; what it jumps by at a renewal moves the rings
 
 
 @kernel
@@ -62,7 +62,7 @@ def longest_of_all(p, own, speed):
     # a shaft that bends has modes far above those that matter: see `displace`
     highest = 0.0 if equations.bends(p) else own[members.march(p) + H.HIGHEST]
     longest = longest_step(members.parameters(p, 0), highest, speed)
-    for b in range(1, members.count(p)):
+    for b in range(1, members.bearing_count(p)):
         longest = min(longest, longest_step(members.parameters(p, b), highest, speed))
     return longest
 
@@ -100,7 +100,7 @@ def try_step(p, s, w, h, tolerance):
             and not equations.renew(p, s, w)
         ):
             return -1.0
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             prepare_step(members.condensed(members.state(p, s, b)), h, members.work(p, w, b))
         if abs(h - own[numbers + H.FACTOR_STEP]) > 0.05 * h:
             if not equations.factor_step(p, s, w, h):
@@ -128,10 +128,10 @@ def emit_rings(p, s, w, h):
 @kernel
 def emit_shown(p, s, w, h):
     """Sound samples of the step ``h`` (s) to the rings as they are shown; publish its end."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         show_end(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b), h)
     emit(p, s, w, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         keep_end(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
 
 
@@ -149,35 +149,35 @@ def accept(p, s, w, h):
     own[numbers + H.KNOWN] += 1.0
     own[numbers + H.CALM] += 1.0
     own[numbers + H.FRESH] = 0.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         accept_balls(members.parameters(p, b), members.state(p, s, b), h, members.work(p, w, b))
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
     equations.share_march(p, s)
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         advance(members.state(p, s, b), h)
 
 
 @kernel
 def take_inputs(p, u, s, w, h):
-    """Set conditions, loads and ramps; renew what is held where it is out of date. Status code.
+    """Set conditions, loads and ramps; renew what is frozen where it is out of date. Status code.
 
-    In pieces, one per `held.PIECE` of simulated time (`make_piece`). Between them the march goes on with the
-    operators of before. A search for what uneven balls add waits.
+    In pieces, one per `frozen_points.PIECE` of simulated time (`make_piece`). Between them the march goes on
+    with the operators of before. A search for what uneven balls add waits.
     """
     own = members.set_state(p, s)
     at = members.march(p)
-    off = held.set_inputs(p, u, s, w, h)
+    off = frozen_points.set_inputs(p, u, s, w, h)
     if members.has_shaft(p):
         # the steady forces were found at a speed before that of the points
         aim = own[at + SP.AIM]
         off = max(off, abs(u[U.SPEED] - aim) / (0.01 * abs(aim) + 1e-3))
-    renewed = held.due(p, s, off, _HURRY, False, h)
-    due = held.pieces_due(p, s, h)
-    if held.apart_by_far(u[U.SPEED], members.condensed(members.state(p, s, 0))[L.FOUND_SPEED]):
-        due = held.MOST
+    renewed = frozen_points.due(p, s, off, _HURRY, False, h)
+    due = frozen_points.pieces_due(p, s, h)
+    if frozen_points.speeds_differ(u[U.SPEED], members.condensed(members.state(p, s, 0))[L.FROZEN_SPEED]):
+        due = frozen_points.MOST
     while due >= 1.0:
         due -= 1.0
         if own[at + SP.STAGE] == 0.0 and renewed:
@@ -187,8 +187,8 @@ def take_inputs(p, u, s, w, h):
             if not make_piece(p, u, s, w):
                 own[at + SP.STAGE] = 0.0
                 return NOT_CONVERGED
-        elif held.searching(p, s):
-            renewed = held.searched(p, s, w)
+        elif frozen_points.searching(p, s):
+            renewed = frozen_points.search_piece(p, s, w)
         else:
             break
     growth.search(p, s, w, h)
@@ -198,7 +198,7 @@ def take_inputs(p, u, s, w, h):
 @kernel
 def count_pieces(p):
     """Return how many pieces a renewal has."""
-    count = members.count(p)
+    count = members.bearing_count(p)
     return 2 + 2 * count if members.has_shaft(p) else 2
 
 
@@ -217,26 +217,26 @@ def make_piece(p, u, s, w):
     if piece + 1 == pieces:
         own[at + SP.STAGE] = 0.0
         own[at + SP.NEW] = 1.0
-        held.pause(p, s, pieces)
-    b = piece + members.count(p) - pieces  # whose operator is due; none: negative
+        frozen_points.pause(p, s, pieces)
+    b = piece + members.bearing_count(p) - pieces  # whose operator is due; none: negative
     if b >= 0:
-        hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+        build_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
         return restart_here(p, s, w)
     if b == -1:
-        return held.hold_points(p, u, True, False, s, w) == OK
+        return frozen_points.freeze_points(p, u, True, False, s, w) == OK
     if piece == 0:
-        return held.rest_set(p, u, True, s, w) == OK
-    held.exceed(p, u, piece - 1, s, w)
+        return frozen_points.rest_set(p, u, True, s, w) == OK
+    frozen_points.renew_excess_force(p, u, piece - 1, s, w)
     return True
 
 
 @kernel
 def restart_here(p, s, w):
-    """Let the march begin with what is held now; False where balls find no rest."""
+    """Let the march begin with what is frozen now; False where balls find no rest."""
     own = members.set_state(p, s)
     own[members.march(p) + H.KNOWN] = 0.0
     equations.share_march(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         for i in range(Y.SIZE):
             wb[W.STAGE + i] = 0.0

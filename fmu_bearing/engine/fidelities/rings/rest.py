@@ -6,7 +6,7 @@ Arguments: see `spindle.members`.
 import math
 
 from fmu_bearing.engine.fidelities.condensed.linearised import derivatives
-from fmu_bearing.engine.fidelities.rings.equations import answer, follow_trial, pull_rings, stiffness_matrix
+from fmu_bearing.engine.fidelities.rings.equations import follow_trial, multiply, pull_rings, stiffness_matrix
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, H, L, P, S, W, Y
 from fmu_bearing.engine.newton.jacobian import is_angle
@@ -31,7 +31,7 @@ def find_levers(p, own):
     nose = members.table(p, SP.AT_NOSE)
     for k in range(members.coordinates(p)):
         most = 0.0
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             t = int(p[members.row(p, b) + SP.ROW_AT_T]) + k * SP.LANES
             pitch = members.parameters(p, b)[P.PITCH_RADIUS]
             for i in range(L.N):
@@ -48,7 +48,7 @@ def diagonal_mass(p, k):
     if not members.has_shaft(p):
         return 1.0
     total = p[members.table(p, SP.AT_MASS) + k * members.padded_size(p) + k]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         r = members.row(p, b)
         t = int(p[r + SP.ROW_AT_T]) + k * SP.LANES
         for i in range(int(p[r + SP.ROW_DRIVEN])):
@@ -67,7 +67,7 @@ def forces_at_rest(p, s, w, speed):
         ws[rate + i] = 0.0
         ws[members.vector(p, SP.ACCELERATION) + i] = 0.0
     shaft_forces(p, own, ws, place, rate, 0.0, 0.0, 0.0, ws, members.vector(p, SP.RESIDUAL))
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         wb = members.work(p, w, b)
         lv = members.condensed(sb)
@@ -95,17 +95,17 @@ def rest_once(p, s, w, speed):
             ws[at + i * n + k] = floor - ws[at + i * n + k]
     if not invert_set(p, own, ws):
         return -1.0
-    found = members.vector(p, SP.INCREMENT)
-    answer(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), found)
+    increment = members.vector(p, SP.INCREMENT)
+    multiply(p, own, ws, members.inverse(p), members.vector(p, SP.RESIDUAL), increment)
     levers = members.history(p) + H.LEVERS * members.padded_size(p)
     longest = 0.0
     for i in range(n):
-        longest = max(longest, own[levers + i] * abs(ws[found + i]))
+        longest = max(longest, own[levers + i] * abs(ws[increment + i]))
     if not (longest < 1e3):
         return -1.0
     share = min(1.0, _LONGEST / (longest + 1e-300))
     for i in range(n):
-        ws[members.vector(p, SP.PLACE) + i] += share * ws[found + i]
+        ws[members.vector(p, SP.PLACE) + i] += share * ws[increment + i]
     return longest
 
 
@@ -117,17 +117,17 @@ def at_rest(p, s, w, speed):
     places in their trial rows.
     """
     ws = members.set_work(p, w)
-    found = False
-    for b in range(members.count(p)):
+    converged = False
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         ws[members.scratch(p, b) + SP.START_ECCENTRICITY] = sb[S.C + C.ECCENTRICITY]
         sb[S.C + C.ECCENTRICITY] = 0.0
     for _ in range(_ROUNDS):
         longest = rest_once(p, s, w, speed)
         if longest < 1e-12:
-            found = longest >= 0.0
+            converged = longest >= 0.0
             break
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         sb[S.C + C.ECCENTRICITY] = ws[members.scratch(p, b) + SP.START_ECCENTRICITY]
-    return found
+    return converged

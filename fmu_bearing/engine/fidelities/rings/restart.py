@@ -12,8 +12,8 @@ from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import forget_balls
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
-from fmu_bearing.engine.fidelities.full.start import sinks
-from fmu_bearing.engine.fidelities.rings import equations, held, predictor
+from fmu_bearing.engine.fidelities.full.start import exceeds_pedestal
+from fmu_bearing.engine.fidelities.rings import equations, frozen_points, predictor
 from fmu_bearing.engine.fidelities.rings.march import emit_rings, go_on, take_inputs
 from fmu_bearing.engine.fidelities.rings.start import begin_at_rest
 from fmu_bearing.engine.jit import kernel
@@ -28,12 +28,12 @@ _TRIES = 3  # times to begin again within a communication step, before the rings
 def begin_again(p, u, s, w):
     """Put shaft, housing, rings and balls to rest at the inputs ``u`` and the clock reached; status code."""
     own = members.set_state(p, s)
-    status = held.hold_from_zero(p, u, s, w)
+    status = frozen_points.freeze_from_zero(p, u, s, w)
     if status != OK:
         return status
     predictor.forget(own, members.march(p), members.history(p), members.padded_size(p))
     equations.share_march(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         for i in range(L.MODES_NOW, L.MODES_STAY):
             lv[i] = 0.0
@@ -45,22 +45,22 @@ def begin_again(p, u, s, w):
 @kernel
 def wait(p, s, w, h):
     """Let the time ``h`` (s) pass with shaft, housing and rings at rest."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         turn_balls(members.state(p, s, b), h)
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         advance(members.state(p, s, b), h)
 
 
 @kernel
 def march_rings(p, u, s, w, h):
     """Advance the state of a set by the communication step ``h`` (s); status code."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         steps.begin_means(members.state(p, s, b))
     end = s[S.TIME] + h
     status = take_inputs(p, u, s, w, h)
-    if sinks(p, s):
+    if exceeds_pedestal(p, s):
         return TOO_SOFT
     if status == OK:
         status = go_on(p, u, s, w, h, h, end)
@@ -76,12 +76,12 @@ def march_rings(p, u, s, w, h):
         else:
             wait(p, s, w, end - s[S.TIME])
             begin_again(p, u, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         sb[S.TIME] = end
         sb[S.SPEED] = u[U.SPEED]
     equations.keep_loads(p, s, w)
     equations.publish_all(p, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         steps.end_means(members.state(p, s, b), h)
     return OK

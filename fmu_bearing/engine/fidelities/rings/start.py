@@ -6,7 +6,7 @@ Arguments: see `spindle.members`.
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
 from fmu_bearing.engine.fidelities.full.start import begin_means
-from fmu_bearing.engine.fidelities.rings import equations, growth, held
+from fmu_bearing.engine.fidelities.rings import equations, frozen_points, growth
 from fmu_bearing.engine.fidelities.rings.march import FIRST, longest_of_all
 from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
@@ -24,11 +24,11 @@ def place_on_waves(p, s, w, speed):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     place = members.vector(p, SP.PLACE)
-    found = False
+    converged = False
     for again in range(2):
         for i in range(members.padded_size(p)):
             ws[place + i] = own[SP.S_HEAD + i]
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             sb = members.state(p, s, b)
             wb = members.work(p, w, b)
             for i in range(Y.SIZE):
@@ -39,8 +39,8 @@ def place_on_waves(p, s, w, speed):
             c = sb[S.C : S.C + C.SIZE]
             set_angles(pb, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], 0.0, speed, wb)
         if again == 0:
-            found = at_rest(p, s, w, speed)
-        if found:
+            converged = at_rest(p, s, w, speed)
+        if converged:
             break
 
 
@@ -56,34 +56,34 @@ def begin_at_rest(p, s, w):
     place_on_waves(p, s, w, s[S.SPEED])
     for i in range(members.padded_size(p)):
         own[members.history(p) + i] = ws[members.vector(p, SP.PLACE) + i]
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         for row in (L.X, L.X1, L.X2):
             keep_balls(members.work(p, w, b), lv, row)
-    found = equations.restart_march(p, s, w)
-    if not found:
+    converged = equations.restart_march(p, s, w)
+    if not converged:
         own[members.march(p) + H.CONTRACTION] = 1.0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         for _ in range(L.HISTORY):
             count_settled(lv, int(members.parameters(p, b)[P.LANES]), members.work(p, w, b))
     # nothing is known of the rate of acceleration yet, which Newmark's velocity contains: begin finely
     s[S.STEP] = FIRST * longest_of_all(p, own, s[S.SPEED])
     equations.publish_all(p, s, w)
-    return found
+    return converged
 
 
 @kernel
 def start_rings(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
-    status = held.start_held(p, u, s, w, t)
+    status = frozen_points.start_frozen(p, u, s, w, t)
     if status != OK:
         return status
     own = members.set_state(p, s)
     if not begin_at_rest(p, s, w):
         return NO_START
     growth.search_at_once(p, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         begin_means(members.state(p, s, b))
     for i in range(2):
         own[SP.MEAN_HEAT + i] = 0.0

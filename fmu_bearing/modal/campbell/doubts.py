@@ -71,14 +71,14 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None, radiation_mod
         return f"fidelity {model}: {UNSTEADY}"
     if whirls := whirl(scene, inputs):
         return f"fidelity {model}: {whirls}"
-    if far := departs(scene, model, inputs):
-        why = struck(scene, model, inputs) or weakly_damped(scene, inputs)
+    if far := rings_depart(scene, model, inputs):
+        why = pockets_struck(scene, model, inputs) or weakly_damped(scene, inputs)
         reason = ", and ".join(filter(None, (far, why)))
         what = f"{_LEVELS} and velocities"
         if moves_far_more(scene, model, inputs):
             what = "contact loads, levels and velocities"
         return f"{what} of fidelity {model} are in doubt here: {reason}; take fidelity full"
-    reason = struck(scene, model, inputs) or loud_cage(scene, inputs, radiation_model)
+    reason = pockets_struck(scene, model, inputs) or loud_cage(scene, inputs, radiation_model)
     if not reason and (reason := weakly_damped(scene, inputs)):
         reason += ", and a small error of damping or frequency is one of several dB"
     return reason and f"{_LEVELS} of fidelity {model} are in doubt here: {reason}; take fidelity full"
@@ -96,8 +96,8 @@ def is_of_motion(text: str) -> bool:
 
 def unsteady(scene: Scene, inputs: Mapping[str, float] | None = None) -> bool:
     """Whether there is an equilibrium but no steady state: then no growth is judged."""
-    found = _at(scene, inputs)
-    return found is not None and not found.linearised.steady
+    modes = _at(scene, inputs)
+    return modes is not None and not modes.linearised.steady
 
 
 def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
@@ -106,8 +106,8 @@ def whirl(scene: Scene, inputs: Mapping[str, float] | None = None) -> str:
     Empty where no motion of rings and cage grows (`modes.growth`), and where there is no equilibrium: runs
     report that themselves. Rings are rigid.
     """
-    found = _whirls(scene, inputs)
-    return "" if found is None else whirl_words(*found, scene)
+    whirls = _whirls(scene, inputs)
+    return "" if whirls is None else whirl_words(*whirls, scene)
 
 
 def whirl_words(frequency: float, growth: float, scene: Scene) -> str:
@@ -125,7 +125,7 @@ def whirl_words(frequency: float, growth: float, scene: Scene) -> str:
     )
 
 
-def weakness(
+def reason_for_doubt(
     scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None
 ) -> str:
     """Return why fidelities rings and response cannot be trusted with a level, or "".
@@ -134,21 +134,21 @@ def weakness(
     pockets of a cage, the cage is loud, or a mode is weakly damped. Where there is no equilibrium the result
     is empty: runs report that themselves. ``radiation_model``: of the levels, in the place of the scene's.
     """
-    if (found := _at(scene, inputs)) is None:
+    if (modes := _at(scene, inputs)) is None:
         return ""
     if (whirls := _whirls(scene, inputs)) is not None:
-        return f"the {found.body} whirls by itself at {whirls[0]:.0f} Hz (growth {whirls[1]:.0f} 1/s)"
+        return f"the {modes.body} whirls by itself at {whirls[0]:.0f} Hz (growth {whirls[1]:.0f} 1/s)"
     own = scene.fidelity.model
     model = own if own in ("rings", "response") else "response"
     return (
-        departs(scene, model, inputs)
-        or struck(scene, model, inputs)
+        rings_depart(scene, model, inputs)
+        or pockets_struck(scene, model, inputs)
         or loud_cage(scene, inputs, radiation_model)
         or weakly_damped(scene, inputs)
     )
 
 
-def departs(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> str:
+def rings_depart(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> str:
     """Return how far rings of fidelity rings or response depart from full in a short run, or ""."""
     run = _beside(*_key(scene, inputs, flaws=True), model)
     if run is None or 1.0 / FAR < run.ratio < FAR:
@@ -162,7 +162,7 @@ def moves_far_more(scene: Scene, model: str, inputs: Mapping[str, float] | None 
     return run is not None and run.ratio > LOUD
 
 
-def struck(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> str:
+def pockets_struck(scene: Scene, model: str, inputs: Mapping[str, float] | None = None) -> str:
     """Return that balls strike the pockets of a cage in a short run, which rings and response leave out."""
     run = _beside(*_key(scene, inputs, flaws=True), model)
     if run is None or max(run.play) <= PLAY:
@@ -203,16 +203,16 @@ def weakly_damped(scene: Scene, inputs: Mapping[str, float] | None = None) -> st
     at half power. Of a set growth alone counts: its modes are modes of the shaft, mostly with damping ratios
     about these bounds, and were not compared.
     """
-    found = _at(scene, inputs)
-    if found is None or found.on_shaft:
+    modes = _at(scene, inputs)
+    if modes is None or modes.on_shaft:
         return ""
-    own = [mode for mode in found.modes if mode.frequency <= HIGHEST and is_of_rings(mode)]
+    own = [mode for mode in modes.modes if mode.frequency <= HIGHEST and is_of_rings(mode)]
     weakest = min(own, key=lambda mode: mode.damping, default=None)
     if weakest is None:
         return ""
     if weakest.damping < LEAST:
         return _words(weakest, f"damping ratio {weakest.damping:.4f}, below {LEAST:g}")
-    system = found.linearised
+    system = modes.linearised
     at = rates(
         np.array([system.speed]), np.array([system.orbit]), np.array([system.spin]),
         scene.bearing.ball_count,
@@ -230,8 +230,8 @@ def weakly_damped(scene: Scene, inputs: Mapping[str, float] | None = None) -> st
 
 def _whirls(scene: Scene, inputs: Mapping[str, float] | None) -> tuple[float, float] | None:
     """Return frequency and growth of what grows by itself; None where nothing does or no state is steady."""
-    found = _at(scene, inputs)
-    return None if found is None or not found.linearised.steady else _growth(*_key(scene, inputs))
+    modes = _at(scene, inputs)
+    return None if modes is None or not modes.linearised.steady else _growth(*_key(scene, inputs))
 
 
 def _at(scene: Scene, inputs: Mapping[str, float] | None) -> Modes | None:
@@ -261,9 +261,9 @@ def _known(scene: Scene, inputs: Mapping[str, float] | None) -> tuple[tuple[str,
 @lru_cache(maxsize=64)
 def _growth(text: str, inputs: tuple[tuple[str, float], ...]) -> tuple[float, float] | None:
     """Return what grows by itself, once for each text and inputs, as `_modes`."""
-    found = _modes(text, inputs)
-    assert found is not None
-    return self_excitation(read_scene_text(text), found, dict(inputs))
+    modes = _modes(text, inputs)
+    assert modes is not None
+    return self_excitation(read_scene_text(text), modes, dict(inputs))
 
 
 @lru_cache(maxsize=64)

@@ -35,7 +35,7 @@ def copy_live(p, s, kept):
 @kernel
 def _copy_front(p, s, kept):
     """Copy what steps go on from."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, kb = members.parameters(p, b), members.state(p, s, b), members.state(p, kept, b)
         copy(sb, kb, 0, S.JAC)
         if p[P.FIDELITY] == FULL:

@@ -21,7 +21,7 @@ def emit(p, s, w, h):
         return
     whole = int(sound_block(p)[SD.H_FORM]) != VECTORS
     while sample_due(s, h):
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             pb = members.parameters(p, b)
             sb = members.state(p, s, b)
             wb = members.work(p, w, b)
@@ -38,7 +38,7 @@ def finish(p, s, w):
     if p[P.SOUND_SIZE] == 0.0 or sound_block(p)[SD.H_LINES] != 0.0:
         return
     batch = 0
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         ps = sound_block(members.parameters(p, b))
         ss = members.state(p, s, b)[S.SOUND :]
         ws = members.work(p, w, b)[W.SOUND :]
@@ -46,12 +46,12 @@ def finish(p, s, w):
         meter.gather(ps, ss, ws, batch)
     for k in range(batch):
         meter_alone(p, s, w, k)
-    for b in range(1, members.count(p)):
+    for b in range(1, members.bearing_count(p)):
         ps = sound_block(members.parameters(p, b))
         meter.add(sound_block(p), w[W.SOUND :], ps, members.work(p, w, b)[W.SOUND :], batch)
     for k in range(batch):
         meter.follow(sound_block(p), s[S.SOUND :], w[W.SOUND :], k, p[P.TIME_WEIGHTING], p[P.METERING_START])
-        for b in range(members.count(p)):
+        for b in range(members.bearing_count(p)):
             members.state(p, s, b)[S.SOUND + SD.SS_COUNT] += 1.0
 
 
@@ -63,7 +63,7 @@ def meter_alone(p, s, w, k):
         return
     own = members.set_state(p, s)
     fraction = meter.fraction_of(p[P.TIME_WEIGHTING])
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         ps = sound_block(members.parameters(p, b))
         ws = members.work(p, w, b)[W.SOUND :]
         at = members.alone(p, b)
@@ -76,7 +76,7 @@ def levels_of_set(p, s, z):
     """Write what the microphones read of the sum, then the level of each bearing alone."""
     if p[P.SOUND_SIZE] == 0.0 or p[P.READ_SOUND] == 0.0:
         return
-    bearings = members.count(p)
+    bearings = members.bearing_count(p)
     mics = int(p[P.MICS])
     meter.levels(sound_block(p), s[S.SOUND :], z, members.z_mics(p))
     own = members.set_state(p, s)

@@ -5,15 +5,20 @@ Arguments: see `spindle.members`.
 
 import math
 
-from fmu_bearing.engine.fidelities.condensed.held import held_speed, hold_at, move_mount, off
+from fmu_bearing.engine.fidelities.condensed.frozen import (
+    apply_rigid_preload,
+    deviation,
+    freeze_at,
+    frozen_conditions,
+)
 from fmu_bearing.engine.fidelities.condensed.shared import (
+    build_operator,
     even_spacing,
-    hold_operator,
 )
 from fmu_bearing.engine.fidelities.condensed.uneven import (
     begin_uneven,
+    freeze_uneven,
     go_on_uneven,
-    hold_uneven,
     uneven_out_of_date,
 )
 from fmu_bearing.engine.fidelities.full.start import start
@@ -38,7 +43,7 @@ from fmu_bearing.engine.spindle.rest import (
     start_vector,
 )
 from fmu_bearing.engine.spindle.steady import (
-    place_held,
+    place_at_rest,
     renew_excess,
     rest_as_known,
     rest_steadily,
@@ -51,9 +56,9 @@ from fmu_bearing.engine.steady.even import BOTH, NONE, OUTER
 
 PIECE = 1e-3  # s of simulated time per piece of a renewal
 MOST = 1000.0  # pieces in a communication step: more than any renewal with all its searches has
-FAR = 0.2  # of the speed: where it is that far from what is held, all pieces are made at once
-# Renewals in a drift of the inputs pause for this many times the pieces of the last one, unless what is held
-# is off by so many times its tolerance that it cannot wait (``hurry``). At rest it is within it.
+FAR = 0.2  # of the speed: where it is that far from what is frozen, all pieces are made at once
+# Renewals in a drift of the inputs pause for this many times the pieces of the last one, unless what is
+# frozen is off by so many times its tolerance that it cannot wait (``hurry``). At rest it is within it.
 PAUSE = 4.0
 _NEAR = 1e-3  # of a load
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
@@ -62,76 +67,76 @@ _GROWN = 5e-9
 
 
 @kernel
-def note_loads(p, own):
+def store_loads(p, own):
     """Store the loads on the set at which its bearings' quasi-static points were found."""
     at = members.march(p)
     for i in range(SP.PLANE):
-        own[at + SP.HELD_NOSE + i] = own[SP.NOSE + i]
-    own[at + SP.HELD_SPRING] = own[SP.SPRING]
-    own[at + SP.HELD_FEET] = own[SP.FEET + Q.Y]
+        own[at + SP.FROZEN_NOSE + i] = own[SP.NOSE + i]
+    own[at + SP.FROZEN_SPRING] = own[SP.SPRING]
+    own[at + SP.FROZEN_PEDESTAL] = own[SP.PEDESTAL_STIFFNESS + Q.Y]
 
 
 @kernel
-def apart(value, noted):
+def load_deviation(value, noted):
     """How far a load is from the stored one; 1: as far as it may be at rest."""
     return abs(value - noted) / (_NEAR * abs(noted) + 1e-12)
 
 
 @kernel
-def loads_apart(p, own):
-    """How far the loads on the set are from the stored ones, see `apart`."""
+def largest_load_deviation(p, own):
+    """How far the loads on the set are from the stored ones, see `load_deviation`."""
     at = members.march(p)
-    most = apart(own[SP.SPRING], own[at + SP.HELD_SPRING])
-    most = max(most, apart(own[SP.FEET + Q.Y], own[at + SP.HELD_FEET]))
+    most = load_deviation(own[SP.SPRING], own[at + SP.FROZEN_SPRING])
+    most = max(most, load_deviation(own[SP.PEDESTAL_STIFFNESS + Q.Y], own[at + SP.FROZEN_PEDESTAL]))
     for i in range(SP.PLANE):
-        most = max(most, apart(own[SP.NOSE + i], own[at + SP.HELD_NOSE + i]))
+        most = max(most, load_deviation(own[SP.NOSE + i], own[at + SP.FROZEN_NOSE + i]))
     return most
 
 
 @kernel
-def exchange_offsets(p, own):
-    """Exchange the offsets with the ones that the inputs ask for, which ``SP.HELD_OFFSET`` holds."""
-    for b in range(members.count(p)):
+def swap_offsets(p, own):
+    """Exchange the offsets with the ones that the inputs ask for, which ``SP.FROZEN_OFFSET`` holds."""
+    for b in range(members.bearing_count(p)):
         bearing_at = members.per_bearing(p, b)
         now = own[bearing_at + SP.OFFSET]
-        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.HELD_OFFSET]
-        own[bearing_at + SP.HELD_OFFSET] = now
+        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.FROZEN_OFFSET]
+        own[bearing_at + SP.FROZEN_OFFSET] = now
 
 
 @kernel
 def take_offsets(p, own):
     """Put the inner rings where temperatures hold them, without a ramp."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         bearing_at = members.per_bearing(p, b)
-        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.HELD_OFFSET]
+        own[bearing_at + SP.OFFSET] = own[bearing_at + SP.FROZEN_OFFSET]
         own[bearing_at + SP.OFFSET_RATE] = 0.0
 
 
 @kernel
-def hold_all(p, u, at_once, s, w):
+def freeze_all(p, u, at_once, s, w):
     """Renew what all bearings hold, of a set where it rests at the inputs ``u``; status code.
 
-    ``at_once``: see `uneven.hold_uneven`.
+    ``at_once``: see `uneven.freeze_uneven`.
     """
-    status = hold_points(p, u, False, at_once, s, w)
+    status = freeze_points(p, u, False, at_once, s, w)
     if status == OK:
-        for b in range(members.count(p)):
-            hold_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
+        for b in range(members.bearing_count(p)):
+            build_operator(members.parameters(p, b), members.state(p, s, b), members.work(p, w, b))
     return status
 
 
 @kernel
-def hold_points(p, u, known, at_once, s, w):
-    """As `hold_all`, but leave the operators (`hold_operator`) as they are; ``known``: see `rest_set`."""
+def freeze_points(p, u, known, at_once, s, w):
+    """As `freeze_all`, but leave the operators (`build_operator`) as they are; ``known``: see `rest_set`."""
     status = rest_set(p, u, known, s, w)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if status == OK:
-            status = hold_point(p, u, b, at_once, s, w)
+            status = freeze_point(p, u, b, at_once, s, w)
     return status
 
 
 @kernel
-def hold_point(p, u, b, at_once, s, w):
+def freeze_point(p, u, b, at_once, s, w):
     """Renew what bearing ``b`` holds but its operator, where `rest_set` has found it at rest."""
     pb = members.parameters(p, b)
     sb = members.state(p, s, b)
@@ -151,11 +156,11 @@ def hold_point(p, u, b, at_once, s, w):
     carried = max(-ws[at + SP.START_FORCE], TOUCHING)
     if together:
         given[U.PRELOAD] = carried
-    turning = held_speed(pb, given, speed, lv, c)
+    turning = frozen_conditions(pb, given, speed, lv, c)
     if rigid:
         # the mount gives the load that the present sizes and speed ask for
         c[C.PRELOAD] = carried
-    axial = wb[W.STILL_FOUND : W.STILL_END]
+    axial = wb[W.STILL_EQUILIBRIUM : W.STILL_END]
     status = quasistatic(pb, c, turning, axial)
     if status == OK:
         status = upright_point(pb, c, turning, axial[ST.AXIAL_SHIFT], ws[at + SP.START_OUTER], y, wb)
@@ -163,26 +168,26 @@ def hold_point(p, u, b, at_once, s, w):
         if rigid:
             y[Y.Q0] = sb[S.PLACE]
             own[members.history(p) + Q.X] = sb[S.PLACE]
-        hold_at(pb, speed, turning, OUTER if together else NONE, sb, wb)
+        freeze_at(pb, speed, turning, OUTER if together else NONE, sb, wb)
         if together:
             # what the shaft puts across the axis counts as this bearing's load
             force = at + SP.START_FORCE
             c[C.LOAD_Y], c[C.LOAD_Z] = ws[force + Q.Y], ws[force + Q.Z]
         if uneven_out_of_date(lv, c, speed):
             first = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
-            place_held(p, b, turning, first, s, w)
+            place_at_rest(p, b, turning, first, s, w)
             begin_uneven(c, speed, turning, BOTH if together else NONE, sb, wb)
             neutral_aside(p, b, lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE], w)
         c[C.LOAD_Y], c[C.LOAD_Z] = given[U.LOAD_Y], given[U.LOAD_Z]
-        hold_uneven(pb, speed, at_once, sb, wb)
+        freeze_uneven(pb, speed, at_once, sb, wb)
         bearing_at = members.per_bearing(p, b)
-        own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
+        own[bearing_at + SP.FROZEN_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     c[C.PRELOAD] = given[U.PRELOAD]
     return status
 
 
 @kernel
-def exceed(p, u, b, s, w):
+def renew_excess_force(p, u, b, s, w):
     """Renew the steady force of bearing ``b`` where `rest_set` has found it at rest."""
     renew_excess(p, b, u[U.SPEED], s, w)
     members.set_state(p, s)[members.march(p) + SP.AIM] = u[U.SPEED]
@@ -192,27 +197,27 @@ def exceed(p, u, b, s, w):
 def rest_set(p, u, known, s, w):
     """Find where all rests at the inputs ``u``, with perfect bearings; status code.
 
-    ``known``: with the excess of its bearings' steady forces as it is known, see `exceed`. The coordinates
-    there are left among the set's own work space's vectors, see ``SP.UNKNOWNS``.
+    ``known``: with the excess of its bearings' steady forces as it is known, see `renew_excess_force`. The
+    coordinates there are left among the set's own work space's vectors, see ``SP.UNKNOWNS``.
     """
     own = members.set_state(p, s)
     if p[P.RIGID] != 0.0 and u[U.PRELOAD] != members.condensed(s)[L.CONDITIONS + C.PRELOAD]:
-        move_mount(p, u, s, w)
-    for b in range(members.count(p)):
+        apply_rigid_preload(p, u, s, w)
+    for b in range(members.bearing_count(p)):
         bearing_at = members.per_bearing(p, b)
-        own[bearing_at + SP.HELD_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
-    exchange_offsets(p, own)
+        own[bearing_at + SP.FROZEN_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
+    swap_offsets(p, own)
     begin_rest(p, s, w, u[U.SPEED])
     if known:
         status = rest_as_known(p, s, w, u[U.SPEED])
     else:
         status = rest_steadily(p, s, w, u[U.SPEED], False)
         own[members.march(p) + SP.AIM] = u[U.SPEED]
-    exchange_offsets(p, own)
+    swap_offsets(p, own)
     if status != OK:
         return status
     keep_stiffness(p, s, w)
-    note_loads(p, own)
+    store_loads(p, own)
     return OK
 
 
@@ -222,12 +227,12 @@ def settle_all(p, u, s, w):
     own = members.set_state(p, s)
     ws = members.set_work(p, w)
     z = start_vector(p, SP.UNKNOWNS)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         wb = members.work(p, w, b)
         settle_bearing(p, s, w, b, u[U.SPEED], 0.0, z, start_vector(p, SP.TRIAL_FORCES))
         y = wb[W.STAGE : W.STAGE + Y.SIZE]
         put_rings_in_state(p, b, y, ws)
-        place_balls(members.parameters(p, b), y, wb[W.FOUND : W.FOUND + EQ.SIZE])
+        place_balls(members.parameters(p, b), y, wb[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE])
         lv = members.condensed(members.state(p, s, b))
         for j in range(STRIDE):
             lv[L.EVEN + j] = y[Y.X + j]
@@ -237,15 +242,15 @@ def settle_all(p, u, s, w):
 
 
 @kernel
-def hold_from_zero(p, u, s, w):
-    """As `hold_all`, but search the rest from zero coordinates, and put all there; status code.
+def freeze_from_zero(p, u, s, w):
+    """As `freeze_all`, but search the rest from zero coordinates, and put all there; status code.
 
     The balls' places, ball 0 at angle 0, go to ``L.EVEN``.
     """
     own = members.set_state(p, s)
     for i in range(3 * members.padded_size(p)):
         own[SP.S_HEAD + i] = 0.0
-    status = hold_all(p, u, False, s, w)
+    status = freeze_all(p, u, False, s, w)
     if status != OK:
         return status
     take_offsets(p, own)
@@ -254,8 +259,8 @@ def hold_from_zero(p, u, s, w):
 
 
 @kernel
-def start_held(p, u, s, w, t):
-    """Start of fidelities rings and response: that of fidelity full, then what is held; status code.
+def start_frozen(p, u, s, w, t):
+    """Start of fidelities rings and response: that of fidelity full, then what is frozen; status code.
 
     The balls' places at rest on even races, ball 0 at angle 0, go to ``L.EVEN``.
     """
@@ -263,27 +268,27 @@ def start_held(p, u, s, w, t):
     if status != OK:
         return status
     find_levers(p, members.set_state(p, s))
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         even_spacing(members.parameters(p, b), lv)
         for j in range(STRIDE):
             lv[L.EVEN + j] = sb[S.Y + Y.X + j]
             lv[L.EVEN_R + j] = sb[S.Y + Y.R + j]
-    return hold_all(p, u, True, s, w)
+    return freeze_all(p, u, True, s, w)
 
 
 @kernel
 def set_inputs(p, u, s, w, h):
-    """Set conditions, loads and ramps; how far what is held is `off` from them."""
+    """Set conditions, loads and ramps; the `deviation` of what is frozen."""
     own = members.set_state(p, s)
     speed = u[U.SPEED]
     rate = (speed - s[S.SPEED]) / h
     middle = 0.5 * (s[S.SPEED] + speed)
     if loads_differ(p, u, own):
         take_loads(p, u, own)
-    most = loads_apart(p, own)
-    for b in range(members.count(p)):
+    most = largest_load_deviation(p, own)
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         fresh = members.work(p, w, b)[W.CONDITIONS : W.CONDITIONS + C.SIZE]
         lv = members.condensed(sb)
@@ -296,14 +301,14 @@ def set_inputs(p, u, s, w, h):
         if members.has_shaft(p):
             # the load follows from the set's rest, see above
             fresh[C.PRELOAD] = lv[L.CONDITIONS + C.PRELOAD]
-        grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.HELD_OFFSET]
-        most = max(most, off(lv, fresh, speed), abs(grown) / _GROWN)
+        grown = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b) - own[bearing_at + SP.FROZEN_OFFSET]
+        most = max(most, deviation(lv, fresh, speed), abs(grown) / _GROWN)
     return most
 
 
 @kernel
 def due(p, s, off, hurry, patient, h):
-    """Whether a renewal may begin in a step of ``h`` (s), what is held being ``off`` (see `condensed.held`).
+    """Whether a renewal may begin in a step of ``h`` (s); ``off``: see `condensed.frozen`.
 
     What a search has found is taken as soon as it has come to its end, or if ``patient`` with the next
     renewal.
@@ -311,7 +316,7 @@ def due(p, s, off, hurry, patient, h):
     own = members.set_state(p, s)
     at = members.march(p) + SP.PAUSE
     own[at] = max(own[at] - h / PIECE, 0.0)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if not patient and members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.ENDED:
             return True
     return off > hurry or (off > 1.0 and own[at] <= 0.0)
@@ -335,24 +340,24 @@ def pieces_due(p, s, h):
 
 
 @kernel
-def apart_by_far(one, other):
-    """Whether two speeds (rad/s) are so far apart that what is held at one does not serve the other."""
+def speeds_differ(one, other):
+    """Whether two speeds (rad/s) are so far apart that what is frozen at one does not serve the other."""
     return abs(one - other) > FAR * max(abs(one), abs(other)) + 1.0
 
 
 @kernel
 def searching(p, s):
     """Whether a search for what uneven balls add is going."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         if members.condensed(members.state(p, s, b))[L.SEARCH_STATE] == L.GOING:
             return True
     return False
 
 
 @kernel
-def searched(p, s, w):
+def search_piece(p, s, w):
     """Make one piece of a search in the first bearing that waits for one; whether it came to its end."""
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         sb = members.state(p, s, b)
         lv = members.condensed(sb)
         if lv[L.SEARCH_STATE] == L.GOING:

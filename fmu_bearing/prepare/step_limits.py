@@ -17,8 +17,8 @@ def turn_rate(scene: Scene, silent: bool) -> float:
     of this sum at most). 0: something else asks for short steps, or the method is not the default.
     """
     wavy = any(race.amplitudes.any() for race in race_harmonics(scene)) or ball_waves(scene)[0].size > 0
-    held = scene.bearing.cage is not None or scene.bearing.ball_springs is not None
-    if not silent or wavy or held or scene.fidelity.method != "esdirk4":
+    guided = scene.bearing.cage is not None or scene.bearing.ball_springs is not None
+    if not silent or wavy or guided or scene.fidelity.method != "esdirk4":
         return 0.0
     rates = frequencies(scene, 2.0 * math.pi)  # at one turn per second
     return 2.0 * float(rates.f_b + rates.f_c)
@@ -28,7 +28,7 @@ def longest_internal_step(scene: Scene) -> float:
     """Longest internal step (s) at the scene's own speed, where waves and bending rings do not bound it."""
     given = si(scene.fidelity).max_internal_step
     changed = abs(given - USUAL_STEP) > _ROUNDING * USUAL_STEP
-    rates = [turn_rate(one.scene, scene.sound is None) for one in scene.bearings()]
+    rates = [turn_rate(bearing.scene, scene.sound is None) for bearing in scene.bearings()]
     if changed or scene.fidelity.model != "full" or scene.on_other_shaft or min(rates) == 0.0:
         return given
     rate = max(rates)

@@ -136,20 +136,20 @@ def sound_blocks(scene: Scene, *, lines: bool | None = None) -> list[NDArray[np.
 
 def silenced(block: NDArray[np.float64], component: str) -> NDArray[np.float64]:
     """Return a copy of a sound block for samples in which one of ``SD.COMPONENTS`` makes no sound."""
-    found = block.copy()
+    silent = block.copy()
     if not block.size:
-        return found
-    kinds = found[int(found[SD.H_AT_SOURCES]) :][: 2 * int(found[SD.H_SOURCES])].reshape(-1, 2)
-    outputs = found[int(found[SD.H_AT_OUTPUTS]) :][: int(found[SD.H_OUTPUTS])].astype(int)
+        return silent
+    kinds = silent[int(silent[SD.H_AT_SOURCES]) :][: 2 * int(silent[SD.H_SOURCES])].reshape(-1, 2)
+    outputs = silent[int(silent[SD.H_AT_OUTPUTS]) :][: int(silent[SD.H_OUTPUTS])].astype(int)
     quiet = kinds[outputs, 0] == SD.COMPONENTS.index(component)
-    for group in range(int(found[SD.H_GROUPS])):
-        row = found[int(found[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group :][: SD.GROUP_SIZE]
+    for group in range(int(silent[SD.H_GROUPS])):
+        row = silent[int(silent[SD.H_AT_GROUPS]) + SD.GROUP_SIZE * group :][: SD.GROUP_SIZE]
         first, count, mics, weights = (
             int(row[k]) for k in (SD.GROUP_FIRST, SD.GROUP_COUNT, SD.GROUP_MICS, SD.GROUP_AT_WEIGHTS)
         )
-        table = found[weights : weights + count * mics].reshape(count, mics)
+        table = silent[weights : weights + count * mics].reshape(count, mics)
         table[quiet[first : first + count]] = 0.0
-    return found
+    return silent
 
 
 class Sounds:

@@ -15,7 +15,7 @@ from fmu_bearing.engine.choices import CONTACTS
 from fmu_bearing.engine.fidelities.response import ball_sound
 from fmu_bearing.engine.fidelities.response.coupled_lines import frequency
 from fmu_bearing.engine.fidelities.response.lines import STILL, line_table, orders
-from fmu_bearing.engine.fidelities.response.table import counted, place_for
+from fmu_bearing.engine.fidelities.response.strongest_lines import counted, place_for
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import LN, SD, SL, SP, C, L, P, Q, S, T, W
 from fmu_bearing.engine.readout.motion import sound_block
@@ -119,13 +119,13 @@ def sound_of_rings(p, s, w, line, lines, at, omega, speed):
     ps = sound_block(p)
     first = members.work(p, w, 0)[W.SOUND :]
     lanes = members.padded_size(p)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
         block = sound_block(pb)
         if block[SD.H_SOURCES] == 0.0:
             continue
-        members.moved(p, b, lines, at, wb, T.D)
-        members.moved(p, b, lines, at + lanes, wb, T.A)
+        members.driven_motion(p, b, lines, at, wb, T.D)
+        members.driven_motion(p, b, lines, at + lanes, wb, T.A)
         ws = wb[W.SOUND :]
         set_rings(pb, members.condensed(sb), scratch_of(sb), block, ws, wb, T.D, T.A, omega, speed)
         if radiate(block, ws, omega):
@@ -266,7 +266,7 @@ def follow_beyond(p, s, w, speed):
     together = members.has_shaft(p)
     lanes = members.padded_size(p)
     lines, size, values, count = ring_lines(p, s)
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
         block, lv, x = sound_block(pb), members.condensed(sb), scratch_of(sb)
         balls = int(pb[P.BALLS])
@@ -280,8 +280,8 @@ def follow_beyond(p, s, w, speed):
                 continue
             ball, shaft, rolled = lines[at + L.LINE_BALL], lines[at + L.LINE_SHAFT], lines[at + L.LINE_ROLLED]
             omega = frequency(lv, lines, at, speed)
-            members.moved(p, b, lines, at + values, wb, T.D)
-            members.moved(p, b, lines, at + values + lanes, wb, T.A)
+            members.driven_motion(p, b, lines, at + values, wb, T.D)
+            members.driven_motion(p, b, lines, at + values + lanes, wb, T.A)
             for shift in range(-1, 2, 2):
                 turned = omega + shift * balls * lv[L.RATIO] * speed
                 if not in_band(turned):
@@ -307,7 +307,7 @@ def settle_sound(p, s, w):
 def write_angles(p, s, ps, ws, ahead):
     """Angles of all bearings at ``ahead`` (s) from the present time."""
     travelled = ahead * (s[S.SPEED] + 0.5 * ahead * s[S.SPEED_RATE])
-    for b in range(members.count(p)):
+    for b in range(members.bearing_count(p)):
         lv = members.condensed(members.state(p, s, b))
         at = int(ps[SD.H_W_ANGLES]) + b * SL.ANGLES
         ws[at + SL.ANGLE_BALL] = lv[L.THETA] + lv[L.RATIO] * travelled

@@ -23,7 +23,7 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
 
     What is left on has the same bits.
     """
-    found = p.copy()
+    parameters = p.copy()
     read = {variable.index for variable in shown if variable.array == "z"}
     bands, mics = int(p[P.BANDS]), int(p[P.MICS])
     together, parts = SP.has_shaft(p), parts_of(p)
@@ -32,15 +32,15 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
     first = own + SP.z_mics(len(parts)) if together else Z.mics(int(p[P.BALLS]))
     octaves = first + Z.PER_MIC * mics
     alone = octaves + bands * mics
-    heard = range(first, alone + (len(parts) * mics if together else 0))
+    microphone_places = range(first, alone + (len(parts) * mics if together else 0))
     for b, (part, _) in enumerate(parts):
-        of, at = found[part], b * each if together else 0
+        of, at = parameters[part], b * each if together else 0
         balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(p[P.BALLS]))))}
         if together:
             forces = own + SP.Z_FORCES + b * SP.Z_FORCE
             balls |= set(range(forces, forces + SP.Z_FORCE))
         of[P.READ_BALLS] = not read.isdisjoint(balls)
-        of[P.READ_SOUND] = not read.isdisjoint(heard)
+        of[P.READ_SOUND] = not read.isdisjoint(microphone_places)
         block = int(of[P.AT_SOUND])
         if block == 0:
             continue
@@ -49,5 +49,5 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
             of[block + SD.H_DETAILS] = 0.0
         if read.isdisjoint(range(octaves, alone)):
             of[block + SD.H_BANDS] = 0.0
-    found.setflags(write=False)
-    return found
+    parameters.setflags(write=False)
+    return parameters

@@ -14,8 +14,8 @@ from fmu_bearing.engine.layout import FOUR, LN, L, P, T
 
 
 @kernel
-def answer_at(lv, growth, omega, w):
-    """Put 1 / (growth + i omega - lambda) of all modes to ``T.ANSWER``, then those at minus ``omega``.
+def modal_response(lv, growth, omega, w):
+    """Put 1 / (growth + i omega - lambda) of all modes to ``T.MODAL_RESPONSE``, then at minus ``omega``.
 
     ``growth``: 1/s, ``omega``: rad/s.
     """
@@ -25,7 +25,7 @@ def answer_at(lv, growth, omega, w):
         value = L.FAMILY + family * L.FAMILY_SIZE + L.VALUE
         for whirl in range(2):
             turning = omega if whirl == 0 else -omega
-            into = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
+            into = T.MODAL_RESPONSE + whirl * L.BOTH + family * L.COMPLEX
             for m in range(0, groups(lv, family), FOUR):
                 re = growth - load(lv, value + m)
                 im = turning - load(lv, value + L.MODES + m)
@@ -40,7 +40,7 @@ def drive_modes(lv, family, whirl, by_place, by_rate, growth, omega, w, to):
 
     By a place through the row ``lv[by_place:]`` and its rate through ``lv[by_rate:]``.
     """
-    at = T.ANSWER + whirl * L.BOTH + family * L.COMPLEX
+    at = T.MODAL_RESPONSE + whirl * L.BOTH + family * L.COMPLEX
     for m in range(0, groups(lv, family), FOUR):
         vr, vi = load(lv, by_rate + m), load(lv, by_rate + L.MODES + m)
         xr = load(lv, by_place + m) - omega * vi + growth * vr
@@ -51,7 +51,7 @@ def drive_modes(lv, family, whirl, by_place, by_rate, growth, omega, w, to):
 
 
 @kernel
-def by_modes(lv, family, out, driven, x):
+def modes_on_rings(lv, family, out, driven, x):
     """Return what modes of a family at ``x[driven:]`` do, by the row ``lv[out:]``; complex."""
     re, im = splat(0.0), splat(0.0)
     for m in range(0, groups(lv, family), FOUR):
@@ -69,20 +69,20 @@ def both_whirls(forward, backward):
 @kernel
 def add_beside(w, i, k, sign, z):
     """Add ``sign`` times a complex number to what coordinate ``i`` of the rings does by coordinate ``k``."""
-    w[T.BESIDE_RE + i + L.COLUMN * k] += sign * z.real
-    w[T.BESIDE_IM + i + L.COLUMN * k] += sign * z.imag
+    w[T.FEEDTHROUGH_RE + i + L.COLUMN * k] += sign * z.real
+    w[T.FEEDTHROUGH_IM + i + L.COLUMN * k] += sign * z.imag
 
 
 @kernel
-def beside_rings(lv, growth, omega, w):
-    """Put accelerations by the rings' displacements to ``T.BESIDE_RE``, ``_IM``, by columns.
+def ring_dynamic_stiffness(lv, growth, omega, w):
+    """Put accelerations by the rings' displacements to ``T.FEEDTHROUGH_RE``, ``_IM``, by columns.
 
-    At ``growth`` (1/s) and ``omega`` (rad/s), after `answer_at`.
+    At ``growth`` (1/s) and ``omega`` (rad/s), after `modal_response`.
     """
     for at in range(0, L.MATRIX, FOUR):
-        rate = load(lv, L.BESIDE_RATE + at)
-        store(w, T.BESIDE_RE + at, load(lv, L.BESIDE_PLACE + at) + growth * rate)
-        store(w, T.BESIDE_IM + at, omega * rate)
+        rate = load(lv, L.FEEDTHROUGH_RATE + at)
+        store(w, T.FEEDTHROUGH_RE + at, load(lv, L.FEEDTHROUGH_PLACE + at) + growth * rate)
+        store(w, T.FEEDTHROUGH_IM + at, omega * rate)
     if not active(lv):
         return
     for family in range(2):
@@ -95,8 +95,8 @@ def beside_rings(lv, growth, omega, w):
         for a in range(family_size(family)):
             out = f + L.OUT + a * L.COMPLEX
             for b in range(family_size(family)):
-                forward = by_modes(lv, family, out, T.DRIVEN + b * L.COMPLEX, w)
-                backward = by_modes(lv, family, out, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX, w)
+                forward = modes_on_rings(lv, family, out, T.DRIVEN + b * L.COMPLEX, w)
+                backward = modes_on_rings(lv, family, out, T.DRIVEN + (L.FAMILY_RINGS + b) * L.COMPLEX, w)
                 own, turned = both_whirls(forward, backward)
                 for plane in range(planes(family)):
                     sign = side(plane, a) * side(plane, b)
@@ -109,7 +109,7 @@ def beside_rings(lv, growth, omega, w):
 
 
 @kernel
-def beside_places(p, lv, w, re, im):
+def add_ball_response(p, lv, w, re, im):
     """Add accelerations by the balls' places of rest in ``T.LINE_FORCE`` to the right side, see `lines`."""
     if not active(lv):
         return
@@ -126,12 +126,12 @@ def beside_places(p, lv, w, re, im):
             out = f + L.OUT + a * L.COMPLEX
             i, j = T.LINE_SIDE + member(family, 0, a), T.LINE_SIDE + member(1, 1, a)
             for k in range(L.AWAYS):
-                forward = by_modes(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
-                backward = by_modes(lv, family, out, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX, w)
+                forward = modes_on_rings(lv, family, out, T.DRIVEN + k * L.COMPLEX, w)
+                backward = modes_on_rings(lv, family, out, T.DRIVEN + (L.AWAYS + k) * L.COMPLEX, w)
                 own, turned = both_whirls(forward, backward)
                 # contacts with balls at rest have pushed already
-                push = pair(lv, f + L.PUSH + 2 * (L.AWAYS * a + k))
-                own, turned = own - push.real, turned - complex(0.0, push.imag)
+                coupling = pair(lv, f + L.COUPLING + 2 * (L.AWAYS * a + k))
+                own, turned = own - coupling.real, turned - complex(0.0, coupling.imag)
                 x = real_times(per, away[L.AWAYS * family + k])
                 first = own * x
                 if family == 1:

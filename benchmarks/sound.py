@@ -5,7 +5,7 @@ import time
 import numpy as np
 
 from benchmarks.cases import GATES
-from fmu_bearing.acoustics.filters.design import build, radiation_of
+from fmu_bearing.acoustics.filters.design import block_of, radiation_of
 from fmu_bearing.acoustics.registry import Radiation
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import MO, SD, Z
@@ -67,7 +67,7 @@ def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
         for radiation_model in models:
             made = Radiation(radiation_model, given.radiators, given.air, given.harmonics)
             block, direct = (
-                build(radiation_model, made.radiators, made.air, points, made.harmonics, lengths=lengths)
+                block_of(made, points, details=True, thirds=False, lengths=lengths)
                 for lengths in (None, ())
             )
             here = cost(block, repeats)

@@ -67,8 +67,7 @@ def rows(name: str, models: tuple[str, ...], repeats: int) -> list[list[str]]:
         for radiation_model in models:
             made = Radiation(radiation_model, given.radiators, given.air, given.harmonics)
             block, direct = (
-                block_of(made, points, details=True, thirds=False, lengths=lengths)
-                for lengths in (None, ())
+                block_of(made, points, details=True, thirds=False, lengths=lengths) for lengths in (None, ())
             )
             here = cost(block, repeats)
             one.setdefault(radiation_model, here)

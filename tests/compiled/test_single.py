@@ -12,7 +12,7 @@ _CALLS = """
 from fmu_bearing.compiled import single
 single.install()
 from fmu_bearing.engine.spindle import inputs, members
-print(members.count.py_func(None), inputs.loads_differ.py_func(None, None, None))
+print(members.bearing_count.py_func(None), inputs.loads_differ.py_func(None, None, None))
 try:
     single.install()
     print("again")

@@ -130,7 +130,7 @@ def test_a_sweep_as_a_file(tmp_path):
             "window_s = 0.0 is refused: Input should be greater",
         ),
         ('scene = "a"\n[axes]\nspeed = 3\n', "axes.speed is refused: an array of values"),
-        ("scene = \n", "cannot be read"),
+        ("scene = \n", "not valid TOML"),
     ],
 )
 def test_a_file_that_is_refused(tmp_path, text, reported):

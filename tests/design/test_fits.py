@@ -306,9 +306,8 @@ def test_a_preload_that_warmth_takes_away_takes_no_other_column():
     found = fits(warm)
     one = found.columns[0].bearings[0]
     # N: rounding of a place that is held over a stiffness
-    assert one.preloads["warm"] == pytest.approx(0.0, abs=1e-9) and one.preloads["running"] == pytest.approx(
-        26.8, rel=0.02
-    )
+    assert one.preloads["warm"] == pytest.approx(0.0, abs=1e-9)
+    assert one.preloads["running"] == pytest.approx(26.8, rel=0.02)
     # held at 20 degC under 258 N; 60 K of both rings and their fits move the touching place by this much
     assert one.gaps == {"warm": pytest.approx(3.7e-6, abs=0.05e-6)}
     assert ["balls loose by, um, warm", *5 * ["3.7"]] in fit_rows(found, 1)

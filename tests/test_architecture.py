@@ -9,6 +9,8 @@ import pytest
 
 ROOT = pathlib.Path(__file__).parents[1]
 MAX_LINES = 450  # beyond about 400 a file probably holds two things
+#: Still to be split: the search for rest holds what two files did.
+LONGER = {"rest.py": 520}
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command()"
 
 

@@ -46,7 +46,7 @@ def test_files_are_short():
     long = {}
     for path in (ROOT / "fmu_bearing").rglob("*.py"):
         lines = len(path.read_text(encoding="utf-8").splitlines())
-        if lines > MAX_LINES:
+        if lines > LONGER.get(path.name, MAX_LINES):
             long[path.relative_to(ROOT).as_posix()] = lines
     assert not long
 

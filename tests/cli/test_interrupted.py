@@ -89,7 +89,7 @@ PER_ROW = {
     "sensitivity": (sensitivity, "measure", 2),
     "changes": (changes, "_changed", 1),
     "stiffness": (scene_stiffness, "_at", 1),
-    "error-motion": (error_motion, "followed", 1),
+    "error-motion": (error_motion, "nose_of_run", 1),
     "vibration": (vibration, "reading", 3),  # a seed on two pieces
     "realtime": (realtime, "_timed", 1),
     "choose": (choose, "measure", 2),

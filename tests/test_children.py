@@ -75,6 +75,7 @@ def test_the_traps_work(trapped):
         trapped(sys.executable, "-c", "import json")
 
 
+@pytest.mark.heavy
 def test_validate(trapped, fmu):
     ran = trapped(*PROGRAM, "validate", fmu)
     assert ran.returncode == 0, ran.stdout + ran.stderr

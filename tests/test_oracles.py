@@ -220,7 +220,15 @@ SPEED_TABLE = [
 ]
 
 
-@pytest.mark.parametrize("row", SPEED_TABLE, ids=lambda row: f"{row[0].ball_count}-balls-{row[1]:.0f}")
+@pytest.mark.parametrize(
+    "row",
+    [
+        pytest.param(
+            row, id=f"{row[0].ball_count}-balls-{row[1]:.0f}", marks=[pytest.mark.heavy] * (k % 3 > 0)
+        )
+        for k, row in enumerate(SPEED_TABLE)
+    ],
+)
 def test_axial_load_at_speed(row):
     bearing, rpm, inner_load, outer_load, inner_angle, outer_angle, axial = row
     state = JonesHarris(bearing).solve((PRELOAD[bearing], 0.0, 0.0), kinematics.rad_s(rpm))

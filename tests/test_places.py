@@ -6,6 +6,8 @@ import itertools
 import pathlib
 import textwrap
 
+import pytest
+
 from fmu_bearing.engine.layout import T, W
 
 ENGINE = pathlib.Path(__file__).parents[1] / "fmu_bearing" / "engine"
@@ -100,6 +102,7 @@ OTHERS = [
 ]
 
 
+@pytest.mark.lint
 def test_no_place_is_counted_by_hand():
     lines = {
         f"{short(path)}:{one.lineno} {function.name}: {one.value}"

@@ -295,6 +295,7 @@ def test_without_levels_life_and_torque_remain(spindle, monkeypatch, values, wor
     assert math.isnan(found.changes[0].level) and found.table()[0] == ["change", "life", "torque", "stiff."]
 
 
+@pytest.mark.heavy
 def test_no_life_for_ceramic_rings_and_open_grooves(scene, spindle, monkeypatch):
     only(
         monkeypatch,
@@ -340,6 +341,7 @@ def test_a_weakly_damped_bearing_is_judged_by_full(spindle, example, monkeypatch
     assert received[:2] == ["full", "response"] and set(received[1:]) == {"response"}
 
 
+@pytest.mark.heavy
 def test_a_loud_cage_is_judged_by_full(spindle, monkeypatch):
     """Levels of full decide: 6 dB above, with the cage's sound, neither of the others is taken."""
     only(monkeypatch)

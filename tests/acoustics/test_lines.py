@@ -169,6 +169,7 @@ def test_steps_do_not_matter_to_meters(block):
     np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-9 * found[0].max())
 
 
+@pytest.mark.heavy
 def test_lines_beyond_the_reach_do_not_beat(block):
     write(block, [1000.0, 1000.0 + 1.01 * SL.REACH / (2 * np.pi)], np.ones((2, int(block[1][SD.H_MICS]))))
     beats.settle_lines(*block[1:])

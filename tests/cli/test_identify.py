@@ -76,6 +76,7 @@ def test_it_finds_writes_and_goes_on(run, scene_of, measured, output):
     assert again.data["runs"] == 0 and again.data["values"] == result.data["values"]
 
 
+@pytest.mark.heavy
 def test_tables_on_the_terminal(run, scene_of, measured, output):
     result = run("identify", scene_of, measured, "--free", KEY, *SETTINGS, "-o", output, "--force")
     assert result.exit_code == 0, result.output

@@ -94,6 +94,7 @@ def a_set(name, force, **keys):
     return set_scene(rpm=keys.pop("rpm", 8e3), positions=(40.0, 40.0 + 3.0 * width), changes=warm, **keys)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["NSK-7003C", "NSK-7010C", "NSK-7914AC"])
 @pytest.mark.parametrize("preload", ["extra light", "light", "medium", "heavy"])
 def test_one_of_a_set_is_judged_as_a_loose_bearing(name, preload):

@@ -131,6 +131,7 @@ def test_lives_that_say_no_more_are_capped(hybrid, hours, text):
     assert changed.shown_hours(hours) == shown
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("angle", [12.0, 18.0, 20.0, 30.0, 40.0])
 def test_no_figure_vanishes_at_other_contact_angles(steel, angle):
     """P and P0 have factors from 14 deg on: below, what needs them says so, and life stays judged."""

@@ -153,6 +153,7 @@ def run_up(scene, fidelity, duration, rpm=4e4, step=1e-3):
 RESIDUAL = {"full": 1e-4, "rings": 1e-9, "response": 1e-9}
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("duration", [0.2, 0.7])
 @pytest.mark.parametrize(
     ("fidelity", "mode"), [*((one, "force") for one in FIDELITIES), ("full", "rigid"), ("response", "rigid")]

@@ -15,6 +15,7 @@ from tests.engine.quasistatic import Bearing
 from tests.extremes.bearings import MOST_BALLS, edited
 from tests.extremes.cases import Case
 from tests.extremes.checks import balanced
+from tests.marks import heavy_but
 from tests.oracles import Bearing as Geometry
 from tests.oracles.jones_harris import JonesHarris
 
@@ -69,7 +70,7 @@ def test_no_row_reaches_into_the_next(many):
     assert np.isnan(rows[:, lanes:]).all()
 
 
-@pytest.mark.parametrize("rpm", [0.0, 12e3])
+@pytest.mark.parametrize("rpm", heavy_but([0.0, 12e3], 1))
 def test_against_the_independent_solution(many, rpm):
     found = Bearing(many).solve(rpm, (500, 0, 0, 0, 0))
     theory = JonesHarris(geometry(many)).solve((500.0, 0.0, 0.0), rpm * RPM)

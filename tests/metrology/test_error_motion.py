@@ -132,6 +132,7 @@ def test_table_lines_and_parts(found):
     assert any("nearer to a whole order than 1/20" in line for line in found.remarks())
 
 
+@pytest.mark.heavy
 def test_files(found, tmp_path):
     files = found.save(tmp_path / "out")
     assert [file.name for file in files] == [

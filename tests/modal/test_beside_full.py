@@ -41,6 +41,7 @@ def play(scene):
 
 
 # (N across, share of the room): levels of rings are 1, 1, 9 and 21 dB(A) low at the worst microphone
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("load", "low", "high"), [(0.0, 0.0, 0.01), (100.0, 0.0, 0.1), (200.0, 0.3, 0.7), (386.0, 0.98, 1.02)]
 )
@@ -75,6 +76,7 @@ def test_inputs_count_and_a_bearing_without_a_cage_has_no_pockets(scene):
 
 
 # rms velocity of the inner ring along y, over full, of a longer run than that of the remark
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("bearing", "rpm", "preload", "kind", "expected"),
     [

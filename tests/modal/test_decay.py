@@ -38,6 +38,7 @@ def test_free_decay_has_the_frequencies_the_damping_and_the_direction_of_the_mod
     assert compare(found, axial(scene, rpm), 0) == 3
 
 
+@pytest.mark.heavy
 def test_decay_of_a_bearing_that_turns_backwards(gate):
     scene = gate("7003C-bare")
     found = modes(scene, {"shaft_speed": -10_000 * RPM})

@@ -7,6 +7,7 @@ from fmu_bearing.modal.campbell import doubts
 from fmu_bearing.modal.campbell.doubts import LEAST, doubt, reason_for_doubt
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES
+from tests.marks import heavy_but
 
 
 def at(name, rpm):
@@ -17,8 +18,11 @@ def at(name, rpm):
 # levels of rings and response are 18, 15 and 6 dB(A) off there
 @pytest.mark.parametrize(
     ("name", "rpm", "mode"),
-    [("7003C-impact", 8000, "inner tilt"), ("7003C-impact", 22000, "inner tilt"),
-     ("7009C-steel", 11000, "inner tilt")],
+    heavy_but(
+        [("7003C-impact", 8000, "inner tilt"), ("7003C-impact", 22000, "inner tilt"),
+         ("7009C-steel", 11000, "inner tilt")],
+        0,
+    ),
 )  # fmt: skip
 def test_a_dry_or_steel_bearing_is_named(name, rpm, mode):
     scene = at(name, rpm)
@@ -37,6 +41,7 @@ def test_well_damped_bearings_are_not(name, rpm):
     assert reason_for_doubt(at(name, rpm)) == ""
 
 
+@pytest.mark.heavy
 def test_a_line_on_a_narrow_mode_counts(monkeypatch):
     """With a wider bound f_i - f_r lies within the peak of the spindle's radial mode (damping ratio 0.02)."""
     monkeypatch.setattr(doubts, "NARROW", 0.02)

@@ -108,6 +108,7 @@ def test_runs_recordings_and_comparisons_know_it(made):
     assert both.b.excitation_end == pytest.approx(excitation_end(slow, 3_000.0 * RPM), rel=1e-9)
 
 
+@pytest.mark.heavy
 def test_reports_mark_it_and_name_no_source_beyond(made):
     subject = Subject(made, made.radiation_model)
     recorded, end = at_microphones(subject), made.excitation_end

@@ -63,6 +63,7 @@ def test_of_two_recordings(both):
     assert both.summary()["b"]["radiation_model"] == "compact"
 
 
+@pytest.mark.heavy
 def test_of_a_recording_and_itself(both):
     found = replace(both, b=both.a).finding(seeds=1)
     assert found.measured == 0.0 and found.drawn == (0.0,) and found.is_finding is False

@@ -170,6 +170,7 @@ def test_every_result_is_saved_and_read_back_with_units(roots, tmp_path):
                     assert unit or Quantity(key).unit or key in BESIDE, (kind, key)
 
 
+@pytest.mark.heavy
 def test_netcdf_holds_rows_with_their_units(roots, tmp_path):
     xarray = pytest.importorskip("xarray")
     (found,) = (one for one in roots if hasattr(one, "statics"))

@@ -92,6 +92,7 @@ def test_three_accuracies_three_fidelities(loose, between, tight):
         )
 
 
+@pytest.mark.heavy
 def test_the_table_has_a_row_for_each_condition(between):
     rows = [dict(zip(choosing.COLUMNS, row, strict=True)) for row in between.cells()]
     assert len(rows) == 3 * len(between.probes)

@@ -9,12 +9,10 @@ import pytest
 from fmu_bearing import simulate
 from fmu_bearing.run.simulate import duration
 from fmu_bearing.scene.read import with_fidelity
-from tests.marks import heavy_but
 
 
-@pytest.mark.parametrize(
-    ("step", "stop", "points"), heavy_but([(1e-9, 1e6, "1e\\+15"), (1e-3, 1e9, "1e\\+12")], 1)
-)
+@pytest.mark.heavy
+@pytest.mark.parametrize(("step", "stop", "points"), [(1e-9, 1e6, "1e\\+15"), (1e-3, 1e9, "1e\\+12")])
 def test_it_is_reported_with_the_time_it_would_take(silent, step, stop, points):
     rings = with_fidelity(silent, model="rings")
     timer = threading.Timer(2.5, signal.raise_signal, (signal.SIGINT,))

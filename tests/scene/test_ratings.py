@@ -44,6 +44,7 @@ def test_balls_follow_from_printed_ratings(name):
     assert iso76.static_rating(*size) == pytest.approx(static, rel=0.005)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("size", sizes().values(), ids=lambda size: size.name)
 def test_balls_of_the_catalogue_are_those_of_its_ratings(size):
     """They were derived from f0, too: ratings of other balls within 0.5 % are as likely, and named."""

@@ -145,6 +145,7 @@ def test_loads_of_the_shaft_are_of_sets():
             statics(GATES / "7003C-bare.toml", **load)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("section", [[1.0, 17.0, 0.0], [0.0, "wide", -1.0]])
 def test_very_many_sections_are_counted_not_checked(section):
     """0.6 s of a core of an AMD EPYC; checked one by one, those of the second kind take 4 s."""

@@ -70,6 +70,7 @@ def test_at_standstill_both_are_the_same_rest(name):
     assert forces < 2e-4
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", HELD | TILTING)
 def test_at_speed_they_differ_by_the_traction_that_quasi_static_balls_assume(name):
     """Balls share their gyroscopic moments by what rolls where, here by an assumption."""

@@ -136,7 +136,7 @@ def offsets(run):
 
 
 @pytest.mark.parametrize("shaft", SHAFTS.values(), ids=SHAFTS)
-@pytest.mark.parametrize("seat", heavy_but(SEATS, "pedestal", "sliding in housing"))
+@pytest.mark.parametrize("seat", heavy_but(SEATS, "sliding in housing"))
 def test_runs_are_those_of_the_oracle(seat, shaft):
     given = loaded(seat, **{"fidelity.tolerance": 1e-6})
     follows_the_oracle(given, None if shaft is None else shaft(given))

@@ -240,6 +240,7 @@ def test_lands_push_both_rings_or_one():
     assert whole == pytest.approx(0.0, abs=1e-12) and half > 0.01
 
 
+@pytest.mark.heavy
 def test_printed_traction_is_a_shadow_of_the_load():
     """Sliding of 5 % of entrainment gives T/Q of some 1e-5: eta V S / h at ambient viscosity."""
     system = equations(ALONE, Corrections.all())
@@ -271,6 +272,7 @@ def test_what_grows_about_the_steady_state(name, least, most):
     assert least <= rate <= most
 
 
+@pytest.mark.heavy
 def test_nothing_grows_in_the_corrected_equations():
     assert growth(ALONE, Corrections.all()) == (0.0, 0.0)
 

@@ -142,6 +142,7 @@ def test_the_compiler(trapped):
     assert ran.stdout == "0\n", ran.stderr
 
 
+@pytest.mark.heavy
 def test_the_program_itself_once_it_runs(trapped):
     """`python -m` looks into the current folder until the program begins, and no longer."""
     ran = trapped(sys.executable, "-m", "fmu_bearing", "info", SCENE, without=EARLY)

@@ -114,6 +114,7 @@ def test_no_place_is_counted_by_hand():
     assert not lines
 
 
+@pytest.mark.lint
 def test_no_star_imports():
     imports = [
         (path, node) for path in FILES for node in ast.walk(parsed(path)) if isinstance(node, ast.ImportFrom)

@@ -319,6 +319,7 @@ def test_example_scenes_have_sound_blocks(scene):
     assert radiators_of(spindle).housing.centre == pytest.approx(-5e-3 - 15.5e-3 + 80e-3)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("model", ["compact", "paper"])
 def test_filters_are_made_once_per_distance(model):
     """What a sample costs grows with the filters; seconds are the benchmark's business."""

@@ -320,6 +320,7 @@ def test_help_of_the_command_alone_is_no_error(run):
     assert done.exit_code in (0, 2) and "Commands" in done.output and "error:" not in done.output
 
 
+@pytest.mark.heavy
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
 @pytest.mark.parametrize(
     "words", heavy_but(["info one.toml", "scene show one.toml", "scene catalogue --json"], 2)

@@ -154,6 +154,7 @@ def test_info_at_another_point_has_the_librarys_figures():
     assert found["friction_torque_N_m"] > 0.0
 
 
+@pytest.mark.heavy
 def test_what_is_computed_of_a_scene_is_of_what_was_set(run, rings_file, tmp_path, monkeypatch):
     """Each command hands the scene with the values set to the library; the library is not run here."""
     expected = with_fidelity(

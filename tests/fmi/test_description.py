@@ -91,6 +91,7 @@ def test_fmpy_finds_nothing(fmu):
     assert validate_fmu(str(fmu)) == []
 
 
+@pytest.mark.heavy
 def test_fmutool_finds_nothing(fmu, caplog):
     checker = pytest.importorskip("fmu_manipulation_toolbox.checker")
     operations = pytest.importorskip("fmu_manipulation_toolbox.operations")

@@ -141,6 +141,7 @@ def test_files(found, tmp_path):
     assert all(file.stat().st_size > 50 for file in files)
 
 
+@pytest.mark.heavy
 def test_against_ground_holds_what_the_outer_ring_does(bare, found):
     ground = error_motion(bare, revolutions=FEW, against="ground")
     assert (found.against, ground.against) == ("outer ring", "ground")

@@ -119,6 +119,7 @@ def test_a_campbell_diagram_says_what_it_does_not_draw():
     assert not any("whirls" in line for line in calm.cautions())
 
 
+@pytest.mark.heavy
 def test_inputs_count():
     scene = with_fidelity(scene_at("NSK-7008AC", 8000, 150, support=None), model="response")
     assert "levels" in doubt(scene) and "whirls by itself" not in doubt(scene)  # its tilt is weakly damped

@@ -60,6 +60,7 @@ def narrow(compiler, tmp_path_factory):
     return load(compile_library(tmp_path_factory.mktemp("narrow"), *options, compiler=(compiler,)))
 
 
+@pytest.mark.heavy
 def test_library_with_one_instruction_set_takes_it_or_says_why_not(narrow, resources, monkeypatch):
     monkeypatch.setenv("FMU_BEARING_ISA", "v2")
     best = best_level()

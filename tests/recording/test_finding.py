@@ -69,6 +69,7 @@ def test_of_a_recording_and_itself(both):
     assert found.measured == 0.0 and found.drawn == (0.0,) and found.is_finding is False
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("change", "words"),
     [

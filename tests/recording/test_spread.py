@@ -88,6 +88,7 @@ def test_draws_of_a_surface_take_the_place_of_the_assumed_law(bare):
         spread(explicit, ["P1"], surface=surface)
 
 
+@pytest.mark.heavy
 def test_amplitude_counts_in_proportion(found):
     # surfaces make nearly all of it, and the answer is linear but for the outer race's order 2, which also
     # changes the stiffness: a factor of 4 is 12 dB

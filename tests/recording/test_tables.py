@@ -70,6 +70,7 @@ def test_recordings_without_microphones(mute):
     assert "friction_torque" in mute._repr_html_()
 
 
+@pytest.mark.heavy
 def test_picture(recorded):
     (ax,) = recorded.plot(["P1", "P4"], highest=5000.0, title="two").axes
     assert [line.get_label() for line in ax.lines[:2]] == ["P1", "P4"]

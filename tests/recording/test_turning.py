@@ -54,6 +54,7 @@ def test_kinematics_are_those_of_the_run(run, steel):
     assert made.kinematics(speed=1000.0).f_i == pytest.approx(found.f_i * 1000.0 / made.speed.mean())
 
 
+@pytest.mark.heavy
 def test_lines_have_the_names_of_what_passes(run):
     made, _ = run
     pressure = made.pressure([made.microphones[0][0]])[0]

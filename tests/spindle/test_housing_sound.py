@@ -165,6 +165,7 @@ def test_the_housing_is_heard_by_the_motion_of_its_middle():
     assert max(abs(one - other) for one, other in zip(levels, level(given, moved, False), strict=True)) > 0.5
 
 
+@pytest.mark.heavy
 def test_what_stands_inside_makes_no_sound_of_its_own():
     """The rear bearing bare but muted, in the place of its block: every pressure to the last bit."""
     given = housed()

@@ -153,7 +153,7 @@ def _study() -> dict[str, Callable[..., Any]]:
 
     rhs = equations.right_hand_side
     rk4, rows = explicit.runge_kutta, explicit.ROWS
-    sound, at_displacement, conditions = playback.play, statics.held, oil.conditions
+    sound, at_displacement, conditions = playback.play, statics.forces_at_displacement, oil.conditions
     speed, tilts, newton_of_set = U.SPEED, W.TILT, full.solve_at_state
     first, first_jacobian = rates.first_order, rates.first_order_jacobian
 

@@ -402,5 +402,5 @@ def _sections(
         except KeyboardInterrupt:
             sections.append(Section(key, title, (), CUT))
             stopped = True
-    left += [one.key for one in sections if one.missing == CUT]
+    left += [section.key for section in sections if section.missing == CUT]
     return sections, microphones

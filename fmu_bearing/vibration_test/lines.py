@@ -98,9 +98,9 @@ def waves(scene: Scene, rates: KinematicFrequencies, source: str) -> list[Origin
     top = bands(scene)[BANDS[-1]][1] / rates.f_r
     lobes = BENDING[-1] if scene.bends else 1
     origins = bearing_origins(rates, top, sidebands=lobes, ball_sidebands=lobes)
-    origins = [one for one in origins if _SOURCES[one.source] == source]
+    origins = [origin for origin in origins if _SOURCES[origin.source] == source]
     if source == _SOURCES[OUTER]:
-        return [one for one in origins if one.beside == 0]  # the load is the same all round
+        return [origin for origin in origins if origin.beside == 0]  # the load is the same all round
     if source == _SOURCES[INNER]:  # waves that turn with the shaft bend the outer ring
         origins += [replace(one, source=INNER, wave=one.terms) for one in shaft_origins(lobes)]
     return sorted(origins, key=lambda one: one.order)

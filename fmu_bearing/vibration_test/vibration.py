@@ -137,19 +137,19 @@ class Vibration(Result):
         bands = self.bands
         rows = []
         for piece in PIECES:
-            of = [getattr(one, piece) for one in bands]
+            of = [getattr(band, piece) for band in bands]
             mean = f", mean of {len(self.seeds)} seeds" if several else ""
             rows.append(row(f"{piece} piece{mean}", [float(values.mean()) for values in of]))
             if several:
                 ranges = [
-                    f"{digits(values.min() / scale[one.name])} to {digits(values.max() / scale[one.name])}"
-                    for one, values in zip(bands, of, strict=True)
+                    f"{digits(values.min() / scale[band.name])} to {digits(values.max() / scale[band.name])}"
+                    for band, values in zip(bands, of, strict=True)
                 ]
                 rows.append([f"{piece} piece, range", *ranges])
         if self.limits:
-            rows.append(row("limit", [one.limit for one in bands]))
-        rows += [row(f"{source} alone", [one.alone[source] for one in bands]) for source in self.alone]
-        return [unit, *(f"{one.name}, {one.low:g} to {one.high:g} Hz" for one in bands)], rows
+            rows.append(row("limit", [band.limit for band in bands]))
+        rows += [row(f"{source} alone", [band.alone[source] for band in bands]) for source in self.alone]
+        return [unit, *(f"{band.name}, {band.low:g} to {band.high:g} Hz" for band in bands)], rows
 
     def lines_table(self, count: int = _LINES) -> Table:
         """Return columns and rows for people: the strongest lines of each band, ``count`` at most."""

@@ -9,7 +9,7 @@ from fmu_bearing import read_scene, statics
 from fmu_bearing.elastic.shaft import shaft_model
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.layout import SP, F, P, Q, S, U
-from fmu_bearing.engine.spindle.rest import start_vector
+from fmu_bearing.engine.spindle.rest_unknowns import start_vector
 from fmu_bearing.engine.status import NO_START, OK, OTHER_FIDELITY, TOO_SOFT
 from fmu_bearing.engine.steady.point import REST
 from fmu_bearing.instance import EngineError, Instance

@@ -176,7 +176,7 @@ LEDGER: tuple[Area, ...] = (
     # the last stage of ACC: the sound samples of a step and the new state are taken from it, by any method
     Area("LAST", LAST, _F.SIZE, frozenset({"step", "solve", "sample"})),
     Area("VEL", VEL, STAGES * _F.SIZE, frozenset({"step", "solve"})),
-    Area("FOUND", EQUILIBRIUM, _EQ.SIZE, frozenset({"start"})),
+    Area("EQUILIBRIUM", EQUILIBRIUM, _EQ.SIZE, frozenset({"start"})),
     Area("FIRST_PLACES", FIRST_PLACES, 2 * STRIDE, frozenset({"start", "evaluation", "jacobian", "factor"})),
     Area("factor", FORCE, FACTOR_END - FORCE, frozenset({"factor"})),
     Area("solve", FORCE, SOLVE_END - FORCE, frozenset({"solve"})),

@@ -16,10 +16,11 @@ from fmu_bearing.engine.layout import EQ, PT, SP, STRIDE, C, F, P, Q, S, W, Y
 from fmu_bearing.engine.mechanics.bodies import land_forces
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.rest import put_rings_in_state, rest, show_ring_forces
+from fmu_bearing.engine.spindle.rest import rest, show_ring_forces
+from fmu_bearing.engine.spindle.rest_unknowns import put_rings_in_state
 from fmu_bearing.engine.spindle.shaft import weighs
 from fmu_bearing.engine.statics.place import place_balls, place_cage, upright_point
-from fmu_bearing.engine.statics.quasistatic import held
+from fmu_bearing.engine.statics.quasistatic import forces_at_displacement
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, equalise_balls, settle_evenly
 from fmu_bearing.engine.steady.point import REST, settle_at_rest
@@ -43,7 +44,7 @@ def place_at_rest(p, b, speed, y, s, w):
     force = wb[W.LOAD : W.LOAD + EQ.FREEDOMS]
     ring = ws[at + SP.START_RING : at + SP.START_RING + SP.PLANE]
     tilt = ws[at + SP.START_TILT : at + SP.START_TILT + 2]
-    held(pb, c, speed, ring, tilt, 0.0, force, eq, wb)
+    forces_at_displacement(pb, c, speed, ring, tilt, 0.0, force, eq, wb)
     for i in range(Y.SIZE):
         y[i] = 0.0
     put_rings_in_state(p, b, y, ws)

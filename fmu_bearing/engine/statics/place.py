@@ -5,7 +5,7 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, C, P, Q, W, Y
-from fmu_bearing.engine.statics.quasistatic import held
+from fmu_bearing.engine.statics.quasistatic import forces_at_displacement
 from fmu_bearing.engine.status import OK
 
 _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, series in it, lose a micrometre
@@ -126,7 +126,7 @@ def upright_point(p, c, speed, shift, outer, y, w):
     for i in range(2):
         tilt[i] = 0.0
     eq = w[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
-    status = held(p, c, speed, ring, tilt, 0.0, w[W.LOAD : W.LOAD + EQ.FREEDOMS], eq, w)
+    status = forces_at_displacement(p, c, speed, ring, tilt, 0.0, w[W.LOAD : W.LOAD + EQ.FREEDOMS], eq, w)
     if status != OK:
         return status
     for i in range(Y.SIZE):

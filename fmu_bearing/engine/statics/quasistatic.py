@@ -1,6 +1,6 @@
 """A bearing whose rings are held: forces, stiffness, balls (Jones 1960; Harris 2006, ch. 3 and 5).
 
-``held(p, c, speed, ring, tilt, share, force, out, w) -> status``
+``forces_at_displacement(p, c, speed, ring, tilt, share, force, out, w) -> status``
 
 * ``p``, ``c``: parameters and conditions; ``speed`` of the inner ring (rad/s).
 * ``ring``: x y z by bz (m, rad) of the inner ring against the outer one, ``tilt``: y z (rad) of the outer.
@@ -120,7 +120,7 @@ def settle_balls(p, c, speed, offset, ring, v, g):
 
 @kernel
 def outer_moment(p, c, speed, offset, found, v):
-    """Moments y, z (N m) of the balls on the outer ring about its centre as `held` has ``found`` it."""
+    """Moments y, z (N m) of the balls on the outer ring about its centre, ``found`` as above."""
     radius = c[C.BALL_RADIUS]
     ring = found[EQ.SHIFT : EQ.SHIFT + EQ.FREEDOMS]
     my = 0.0
@@ -167,7 +167,7 @@ def write_equilibrium(p, c, speed, offset, v, out):
 
 
 @kernel
-def held(p, c, speed, ring, tilt, share, force, out, w):
+def forces_at_displacement(p, c, speed, ring, tilt, share, force, out, w):
     """Settle all balls between held rings, see the module; status code.
 
     Nothing is kept from call to call: every ball starts on the line of the groove centres.

@@ -115,7 +115,9 @@ class Diagram(Result):
         crossings = self._all_crossings
         if in_scene:
             largest = max((crossing.velocity for crossing in crossings), default=0.0)
-            return [one for one in crossings if one.velocity > largest * 10.0 ** (-WITHIN / 20.0)]
+            return [
+                crossing for crossing in crossings if crossing.velocity > largest * 10.0 ** (-WITHIN / 20.0)
+            ]
         return list(crossings)
 
     @cached_property

@@ -23,16 +23,12 @@ from fmu_bearing.engine.spindle.inputs import (
     take_loads,
 )
 from fmu_bearing.engine.spindle.port import begin_motion, has_port
-from fmu_bearing.engine.spindle.rest import (
-    begin_rest,
+from fmu_bearing.engine.spindle.rest import begin_rest, keep_stiffness, rest, settle_bearing, weights
+from fmu_bearing.engine.spindle.rest_unknowns import (
     free_rows,
-    keep_stiffness,
     neutral_aside,
     put_rings_in_state,
-    rest,
-    settle_bearing,
     start_vector,
-    weights,
 )
 from fmu_bearing.engine.spindle.steady import place_at_rest, rest_steadily
 from fmu_bearing.engine.statics.place import (

@@ -34,14 +34,8 @@ from fmu_bearing.engine.spindle.inputs import (
     offset_change,
     take_loads,
 )
-from fmu_bearing.engine.spindle.rest import (
-    begin_rest,
-    keep_stiffness,
-    neutral_aside,
-    put_rings_in_state,
-    settle_bearing,
-    start_vector,
-)
+from fmu_bearing.engine.spindle.rest import begin_rest, keep_stiffness, settle_bearing
+from fmu_bearing.engine.spindle.rest_unknowns import neutral_aside, put_rings_in_state, start_vector
 from fmu_bearing.engine.spindle.steady import (
     place_at_rest,
     renew_excess,

@@ -54,7 +54,7 @@ import sys
 from fmu_bearing.acoustics.radiation.bem.meridian import cylinder
 from fmu_bearing.acoustics.radiation.bem.solver import inner_points
 from fmu_bearing.cli import app
-from fmu_bearing.prepare.sound import Block, sound_parameters
+from fmu_bearing.prepare.sound_block import Block, sound_parameters
 from fmu_bearing.scene import read_scene
 
 app({["simulate", str(rings_file), "-t", "0.001", "-o", str(tmp_path / "run.csv")]}, standalone_mode=False)

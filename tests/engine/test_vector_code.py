@@ -27,9 +27,9 @@ def test_the_solution_is_vector_code_on_every_processor():
 
 #: Multiplications that the formulas have at least, counted in the text of the kernel for one group of balls.
 KERNELS = {
-    ("race", "normal", "aaaiia"): 45,
+    ("race", "normal_contact", "aaaiia"): 45,
     ("race", "traction", "aiia"): 12,
-    ("cage", "pockets", "aaaida"): 60,
+    ("cage", "pocket_forces", "aaaida"): 60,
 }
 
 

@@ -188,6 +188,9 @@ def test_the_start_is_an_equilibrium_on_any_pedestal(request, scene, fidelity, m
     if stiffness == 1e4 and scene == "7003C-spindle" and fidelity != "full":
         reason = "2 kg of housing sink by 2 mm there; the condensed fidelities' balls do not follow"
         request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
+    if stiffness == 1e4 and scene == "7009C-full-ceramic" and fidelity == "rings":
+        reason = "its ring moves by 35 mm there, to which the balls on their circle do not follow"
+        request.applymarker(pytest.mark.xfail(reason=reason, strict=True))
     loads = []
     for spring in (1e8, stiffness):
         run = bearing(scene, PERFECT, {"rpm": 2e4, "pedestal_stiffness": spring}, fidelity, method)

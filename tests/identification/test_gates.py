@@ -1,4 +1,4 @@
-"""Honest values and uncertainties: six machines with a known truth, each measured with noise.
+"""Honest values and uncertainties: ten machines with a known truth, each measured with noise.
 
 Each machine has surfaces of its own (another seed than any the search averages over). 28 levels at four
 speeds and 7 lines carry 2 dB of noise; a fifth speed is checked. The search starts at other values, up to a
@@ -26,7 +26,7 @@ PLACES = (
     (0.0, 105.0, 0.0), (0.0, 150.0, 0.0), (0.0, 0.0, 105.0), (-100.5, 0.0, 0.0), (0.0, 0.0, 200.0),
     (0.0, 120.0, 90.0), (60.0, 140.0, 0.0),
 )  # fmt: skip
-NOISE, DRAWS = 2.0, 6
+NOISE, DRAWS = 2.0, 10
 LENGTHS = {"duration": 0.055, "settle": 0.01}  # s: eight turns of the shaft at 9,000 r/min
 
 
@@ -65,6 +65,6 @@ def test_values_are_known_as_well_as_they_say(scene, tmp_path):
         checked.append(found.rms(fit=False))
     table_of = np.array(scores)
     print(np.round(table_of, 2), np.round(checked, 2))
-    assert (np.abs(table_of) < 2.0).sum(axis=0).min() >= 5
+    assert (np.abs(table_of) < 2.0).sum(axis=0).min() >= 8
     assert 0.6 < np.mean(table_of**2) < 1.6  # neither blind nor boastful
     assert np.sqrt(np.mean(np.square(checked))) < 1.5 * NOISE

@@ -132,6 +132,17 @@ def show(p, s, w, near, every):
 
 
 @kernel
+def linearise_at_rest(p, s, w, speed):
+    """Find the rest from the coordinates in ``SP.S_HEAD``, and lines about it; False if there are none."""
+    rest_from(p, s, w, speed, members.set_state(p, s), SP.S_HEAD)
+    for b in range(members.bearing_count(p)):
+        lv = members.condensed(members.state(p, s, b))
+        for i in range(2 * STRIDE):
+            lv[L.X + i] = lv[L.EVEN + i]
+    return linearise(p, s, w, speed)
+
+
+@kernel
 def start_response(p, u, s, w, t):
     """Fill the state ``s`` for the inputs ``u`` at time ``t`` (s); status code."""
     status = frozen_points.start_frozen(p, u, s, w, t)
@@ -139,13 +150,13 @@ def start_response(p, u, s, w, t):
         return status
     own = members.set_state(p, s)
     speed = u[U.SPEED]
-    rest_from(p, s, w, speed, own, SP.S_HEAD)
-    for b in range(members.bearing_count(p)):
-        lv = members.condensed(members.state(p, s, b))
-        for i in range(2 * STRIDE):
-            lv[L.X + i] = lv[L.EVEN + i]
-    if not linearise(p, s, w, speed):
-        return NO_START
+    if not linearise_at_rest(p, s, w, speed):
+        # balls that hardly touch may rest at the quasi-static place alone, not where `full` starts
+        status = frozen_points.freeze_from_zero(p, u, s, w)
+        if status == OK and not linearise_at_rest(p, s, w, speed):
+            status = NO_START
+        if status != OK:
+            return status
     growth.search_at_once(p, s, w)
     renewal.mirror(p, u, s)
     for b in range(members.bearing_count(p)):

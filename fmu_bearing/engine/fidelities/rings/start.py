@@ -81,7 +81,12 @@ def start_rings(p, u, s, w, t):
         return status
     own = members.set_state(p, s)
     if not begin_at_rest(p, s, w):
-        return NO_START
+        # see `start_response`
+        status = frozen_points.freeze_from_zero(p, u, s, w)
+        if status == OK and not begin_at_rest(p, s, w):
+            status = NO_START
+        if status != OK:
+            return status
     growth.search_at_once(p, s, w)
     for b in range(members.bearing_count(p)):
         begin_means(members.state(p, s, b))

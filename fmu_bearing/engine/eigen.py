@@ -5,10 +5,9 @@ substitution (Golub and Van Loan, Matrix Computations, 7.4 to 7.6). Matrices are
 Callers scale them: rows and columns of like size.
 """
 
-import cmath
 import math
 
-from fmu_bearing.engine.complex_numbers import over, real_times, square
+from fmu_bearing.engine.complex_numbers import over, real_times, root, square
 from fmu_bearing.engine.jit import kernel
 
 _ROUNDS = 60  # per eigenvalue; 2 to 4 are needed
@@ -77,12 +76,12 @@ def shift_of(a, n, k):
     at = (k - 2) * n + k - 2
     last = a[at + n + 1]
     half, both = 0.5 * (a[at] - last), a[at + 1] * a[at + n]
-    root = cmath.sqrt(half * half + both)
-    if half.real * root.real + half.imag * root.imag < 0.0:
-        root = -root
-    if half + root == 0.0:
+    along = root(half * half + both)
+    if half.real * along.real + half.imag * along.imag < 0.0:
+        along = -along
+    if half + along == 0.0:
         return last
-    return last - over(both, half + root)
+    return last - over(both, half + along)
 
 
 @kernel

@@ -246,7 +246,7 @@ def _hysteresis(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 
 def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     film = scene.fidelity.terms.land_film and scene.lubricant.land_viscosity_Pa_s != 0.0
-    if scene.bearing.cage is None or not film:
+    if scene.bearing.cage is None or p[P.LAND] == 0.0 or not film:
         return None
     half = _within(Cage, "land_clearance_mm", CLEARANCE * 1e3 * float(p[P.LAND_CLEARANCE]))
     return (

@@ -33,6 +33,11 @@ RaceControl = Literal["shared", "outer", "inner"]
 RACE_CONTROLS: tuple[RaceControl, ...] = get_args(RaceControl)
 SHARED_CONTROL, OUTER_CONTROL, INNER_CONTROL = range(len(RACE_CONTROLS))
 
+#: What carries a cage: lands on a ring, or spherical pockets that ride on the balls.
+Guidance = Literal["inner", "outer", "balls"]
+GUIDANCES: tuple[Guidance, ...] = get_args(Guidance)
+INNER_GUIDED, OUTER_GUIDED, BALL_GUIDED = range(len(GUIDANCES))
+
 #: How the engine forms the channels of the sound filters, with its number in the sound block:
 #: the multi-source paper's magnitudes, accelerations, normal velocities at the contact points.
 ChannelForm = Literal["scalars", "vectors", "contacts"]

@@ -161,13 +161,14 @@ def _fits(scene: Scene) -> list[Variable]:
 def _cage_whirl(scene: Scene) -> list[Variable]:
     if scene.bearing.cage is None:
         return []
-    radius = "Distance of the cage's centre from the inner ring's"
+    ring = "outer" if scene.bearing.cage.guidance == "outer" else "inner"
+    radius = f"Distance of the cage's centre from the {ring} ring's"
     return [
         read("cage.whirl_radius", "local", radius, "m", display_unit="um", min=0.0, nominal=1e-5),
         read(
             "cage.whirl_speed",
             "local",
-            "Angular velocity of the cage's centre about the inner ring's",
+            f"Angular velocity of the cage's centre about the {ring} ring's",
             "rad/s",
             display_unit="r/min",
         ),

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from scipy.special import roots_jacobi
 
 from fmu_bearing.elastic.modes import ring_modes
-from fmu_bearing.elastic.section import INNER, ring_section
-from fmu_bearing.engine.choices import FIDELITIES, METHODS, RACE_CONTROLS
+from fmu_bearing.elastic.section import INNER, OUTER, ring_section
+from fmu_bearing.engine.choices import FIDELITIES, GUIDANCES, METHODS, RACE_CONTROLS
 from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
@@ -292,28 +292,38 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
 
 
 def land_clearance(scene: Scene, cage: Cage) -> float:
-    """Radial clearance (m) between the cage's bore and its lands: the scene's, or what the bore leaves.
+    """Radial clearance (m) between a cage and the lands that guide it: the scene's, or what the cage leaves.
 
-    The lands are the inner ring's shoulders, which are where the grooved ring has the mass that its
-    effective diameter gives it (`elastic.section`): as good as that diameter is.
+    The lands are a ring's shoulders, which are where the grooved ring has the mass that its effective
+    diameter gives it (`elastic.section`): as good as that diameter is. A cage guided by the balls has none: 0.
 
     Raises
     ------
     SceneError
-        Where the scene gives none and the bore leaves none that a cage can have.
+        Where the scene gives none and the cage leaves none that it can have.
     """
+    if cage.guidance == "balls":
+        return 0.0
     if cage.land_clearance_mm is not None:
         return float(si(cage).land_clearance)
     absent = f"{scene.name}: bearing.cage.land_clearance_mm is absent, and"
+    inside = cage.guidance == "inner"
     try:
-        shoulder = ring_section(scene, INNER).high
+        section = ring_section(scene, INNER if inside else OUTER)
     except ValueError as problem:
         raise SceneError(f"{absent} {problem}, or give land_clearance_mm") from None
-    clearance = cage.bore_mm / 2e3 - shoulder
+    if inside:
+        key, ring, shoulder = "bore_mm", "above the inner", section.high
+        own, effective = cage.bore_mm, "inner_ring_outer_diameter_mm"
+        clearance = own / 2e3 - shoulder
+    else:
+        key, ring, shoulder = "outside_diameter_mm", "below the outer", section.low
+        own, effective = cage.outside_diameter_mm, "outer_ring_inner_diameter_mm"
+        clearance = shoulder - own / 2e3
     if not _NARROWEST <= clearance <= _WIDEST:
         raise SceneError(
-            f"{absent} bore_mm = {cage.bore_mm:g} leaves {1e3 * clearance:.3f} mm above the inner ring's "
-            f"shoulders of {2e3 * shoulder:.2f} mm (from inner_ring_outer_diameter_mm and the groove), not "
+            f"{absent} {key} = {own:g} leaves {1e3 * clearance:.3f} mm {ring} ring's "
+            f"shoulders of {2e3 * shoulder:.2f} mm (from {effective} and the groove), not "
             f"{1e3 * _NARROWEST:g} to {1e3 * _WIDEST:g}: give land_clearance_mm, or correct a diameter"
         )
     return clearance
@@ -330,15 +340,20 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
     modulus = effective_modulus(
         cage.youngs_modulus, cage.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio
     )
-    # ball in a radial bore: closely conforming around the bore, a plain ball along it
+    # ball in a radial bore: closely conforming around the bore, a plain ball along it; in a sphere both ways
     across = 1.0 / (2.0 / b.ball_diameter - 2.0 / c.pocket_diameter)
-    p[P.POCKET_STIFFNESS] = point_contact(b.ball_diameter / 2, across, modulus).stiffness
+    along = across if c.guidance == "balls" else b.ball_diameter / 2
+    p[P.POCKET_STIFFNESS] = point_contact(along, across, modulus).stiffness
     p[P.POCKET_DAMPING] = _POCKET_DAMPING
     p[P.POCKET_FRICTION] = c.pocket_friction if scene.fidelity.terms.pocket_friction else 0.0
     p[P.POCKET_SLIP] = _POCKET_SLIP
     p[P.POCKET_FILM] = c.pocket_damping
+    p[P.GUIDANCE] = GUIDANCES.index(c.guidance)
+    if c.guidance == "balls":
+        p[P.LAND] = 0.0
+        return
     p[P.LAND_CLEARANCE] = clearance = land_clearance(scene, cage_table)
-    p[P.LAND_RADIUS] = c.bore / 2 - clearance
+    p[P.LAND_RADIUS] = c.bore / 2 - clearance if c.guidance == "inner" else c.outside_diameter / 2
     p[P.LAND_LENGTH] = (c.width - c.pocket_diameter) / 2
     p[P.LAND_OFFSET] = (c.width + c.pocket_diameter) / 4
     if scene.fidelity.terms.land_film:
@@ -346,7 +361,8 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
         p[P.LAND_VISCOSITY] = viscosity or 0.0
         if viscosity is None:  # the cage turns with the balls, which roll without slip
             gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
-            p[P.LAND_SLIDE] = 0.5 * (1.0 + gamma) * p[P.LAND_RADIUS]
+            sliding = 1.0 + gamma if c.guidance == "inner" else 1.0 - gamma
+            p[P.LAND_SLIDE] = 0.5 * sliding * p[P.LAND_RADIUS]
     p[P.LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
     p[P.LAND_STOP_FRACTION] = _STOP_FRACTION
     p[P.LAND_STOP_FRICTION] = _STOP_FRICTION

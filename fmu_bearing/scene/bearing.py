@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
+from fmu_bearing.engine.choices import Guidance
 from fmu_bearing.formulas import iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
 
@@ -14,8 +15,13 @@ _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMU
 
 
 class Cage(Part):
-    """A cage with round radial pockets, guided by the inner ring's shoulders on two lands."""
+    """A cage with round pockets, guided on two lands by the shoulders of a ring, or by the balls."""
 
+    guidance: Guidance = Field(
+        default="inner", examples=["inner"],
+        description="What carries the cage: lands on the shoulders of the inner or the outer ring, with radial "
+        "bores as pockets, or the balls, in spherical pockets without lands.",
+    )  # fmt: skip
     outside_diameter_mm: float = Field(
         ge=2, le=1000, examples=[27.6], description="Outside diameter of the cage, mm."
     )
@@ -24,8 +30,8 @@ class Cage(Part):
     pocket_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.6], description="Diameter of a pocket, mm.")
     land_clearance_mm: float | None = Field(
         default=None, ge=0.005, le=2, examples=[0.04],
-        description="Radial clearance between cage bore and lands; absent: what the bore leaves above the "
-        "inner ring's shoulders, mm.",
+        description="Radial clearance between cage and lands of the ring that guides it; absent: what the "
+        "cage leaves to that ring's shoulders, mm.",
     )  # fmt: skip
     mass_eccentricity_um: float = Field(
         default=5.0, ge=0, le=1000, examples=[5.0],
@@ -42,6 +48,12 @@ class Cage(Part):
         """Yield dimensions that leave no wall or no land."""
         yield from below(self, "bore_mm", "outside_diameter_mm")
         yield from below(self, "pocket_diameter_mm", "width_mm")
+        if self.guidance == "balls" and self.land_clearance_mm is not None:
+            yield Conflict(
+                "land_clearance_mm",
+                'is of lands, which a cage with guidance = "balls" does not have: leave it out, or write '
+                'guidance = "inner" or "outer"',
+            )
 
 
 class BallSprings(Part):
@@ -158,17 +170,17 @@ class Bearing(Part):
             )
 
     def _cage_conflicts(self, cage: Cage) -> Iterator[Conflict]:
-        land = self.inner_ring_outer_diameter_mm + 2.0 * (cage.land_clearance_mm or 0.0)
-        if cage.bore_mm <= land:
-            and_clearance = "" if cage.land_clearance_mm is None else " and twice the land's clearance"
-            yield Conflict(
-                "cage.bore_mm", f"must exceed {land:g}: inner_ring_outer_diameter_mm{and_clearance}"
-            )
-        if cage.outside_diameter_mm >= self.outer_ring_inner_diameter_mm:
-            limit = self.outer_ring_inner_diameter_mm
-            yield Conflict(
-                "cage.outside_diameter_mm", f"must be below outer_ring_inner_diameter_mm = {limit:g}"
-            )
+        room = 2.0 * (cage.land_clearance_mm or 0.0)
+        inside, outside = (room if cage.guidance == ring else 0.0 for ring in ("inner", "outer"))
+        least = self.inner_ring_outer_diameter_mm + inside
+        if cage.bore_mm <= least:
+            more = " and twice the land's clearance" if inside else ""
+            yield Conflict("cage.bore_mm", f"must exceed {least:g}: inner_ring_outer_diameter_mm{more}")
+        most = self.outer_ring_inner_diameter_mm - outside
+        if cage.outside_diameter_mm >= most:
+            limit = "outer_ring_inner_diameter_mm"
+            limit += f" less twice the land's clearance, {most:g}" if outside else f" = {most:g}"
+            yield Conflict("cage.outside_diameter_mm", f"must be below {limit}")
         if not cage.bore_mm < self.pitch_diameter_mm < cage.outside_diameter_mm:
             yield Conflict(
                 "pitch_diameter_mm",

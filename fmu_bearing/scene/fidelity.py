@@ -49,7 +49,7 @@ class Terms(Part):
     )
     land_film: bool = Field(
         default=True,
-        description="Film between the cage's lands and the inner ring; the dry stop stays.",
+        description="Film between the cage and the lands of the ring that guides it; the dry stop stays.",
         examples=[True],
     )
     gyroscopic: bool = Field(default=True, description="Gyroscopic moments of the balls.", examples=[True])

@@ -4,14 +4,15 @@ Quasi-static start, then micrometres of approach, slip of a few per cent, tilts,
 lifted off both races and one pressed into its pocket.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 from fmu_bearing.compiled import call
-from fmu_bearing.engine.layout import STRIDE, C, F, P, S, U, W, Y
+from fmu_bearing.engine.choices import GUIDANCES, OUTER_GUIDED
+from fmu_bearing.engine.layout import STRIDE, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from tests.engine.helpers import Run, ball_amplitudes
 from tests.oracles import cartesian as oracle
@@ -66,6 +67,14 @@ class Case:
 
     def oracle(self):
         return oracle.equations(self.setup, self.state, SPEED_RATE)
+
+
+def guided(scene, guidance):
+    """Return the 7003C with another guidance of its cage; on the outer ring with a wider one."""
+    changes = {"bearing.cage.guidance": guidance, "bearing.cage.land_clearance_mm": None}
+    if guidance == "outer":
+        changes |= {"bearing.cage.land_clearance_mm": 0.04, "bearing.cage.outside_diameter_mm": 28.6}
+    return scene.replace(changes)
 
 
 def spline(table):
@@ -132,16 +141,21 @@ def pick(kind, p, prefix, names):
 def cage_parts(p):
     if not p[P.CAGE]:
         return None, None
+    guidance = GUIDANCES[int(p[P.GUIDANCE])]
     pocket = pick(
         oracle.Pocket,
         p,
         "POCKET_",
         {name: name.upper() for name in ("clearance", "stiffness", "damping", "friction", "slip", "film")},
     )
+    pocket = replace(pocket, spherical=guidance == "balls")
     names = {name: name.upper() for name in ("radius", "length", "offset", "clearance", "viscosity")}
     stops = {"stop": "STIFFNESS", "fraction": "FRACTION", "friction": "FRICTION", "slip": "SLIP"}
     names |= {name: "STOP_" + place for name, place in stops.items()}
-    return pocket, pick(oracle.Land, p, "LAND_", names) if p[P.LAND] else None
+    if not p[P.LAND]:
+        return pocket, None
+    land = pick(oracle.Land, p, "LAND_", names)
+    return pocket, replace(land, ring=oracle.OUTER if guidance == "outer" else oracle.INNER)
 
 
 def setup(p, c, mounting, wave=spline):
@@ -221,8 +235,11 @@ def shake(y, run, rng, tilt, cage_offset, afloat):
     room = p[P.POCKET_CLEARANCE] / p[P.PITCH_RADIUS]
     q[14] = 0.7 - 0.3 * room
     way = rng.uniform(0, 2 * np.pi)
-    q[11] = q[0] + afloat
-    q[12:14] = q[1:3] + cage_offset * p[P.LAND_CLEARANCE] * np.array([np.cos(way), np.sin(way)])
+    ring = Q.OUTER if p[P.GUIDANCE] == OUTER_GUIDED else Q.INNER
+    q[11] = q[ring] + afloat
+    # without lands in the room of its pockets
+    free = p[P.LAND_CLEARANCE] or p[P.POCKET_CLEARANCE]
+    q[12:14] = q[ring + 1 : ring + 3] + cage_offset * free * np.array([np.cos(way), np.sin(way)])
     v[:] = 0.01 * rng.uniform(-1, 1, 17)
     v[8] = 2.0
     v[[3, 4, 9, 10, 15, 16]] *= 30

@@ -41,6 +41,24 @@ def pulls(case, found):
     return np.array(rate), np.array(outside), np.array(centre)
 
 
+def moments(case, found):
+    """Rates of the moments of momentum about the origin, and moments from outside, of balls and bodies."""
+    setup, state = case.setup, case.state
+    rate, outside, centre = pulls(case, found)
+    turning, given = np.cross(centre, rate), np.cross(centre, outside)
+    for j, (ball, a) in enumerate(zip(state.balls, found.balls, strict=True)):
+        spin = a[3:] + np.cross([ball[5], 0.0, 0.0], ball[6:])
+        turning[j] += setup.ball_inertia * (spin @ np.array(oracle.directions(ball[2])))
+    for k, mass in enumerate(setup.masses):
+        spin, tilting = state.rates[k, 3], state.rates[k, 4:]
+        gyroscopic = mass.polar * spin * np.array([tilting[1], -tilting[0]])
+        turning[case.n + k, 0] += mass.polar * found.bodies[k, 3]
+        turning[case.n + k, 1:] += mass.transverse * found.bodies[k, 4:] + gyroscopic
+        given[case.n + k] -= (setup.springs[k] @ state.bodies[k] + setup.dampers[k] @ state.rates[k])[3:]
+    given[case.n, 0] += found.torque
+    return turning, given
+
+
 @pytest.mark.parametrize("cage_offset", [0.5, 1.02])
 @pytest.mark.parametrize("tilt", [0.0, 1e-3])
 def test_linear_momentum(case, tilt, cage_offset):
@@ -58,19 +76,7 @@ def test_angular_momentum(case, cage_offset, eccentricity):
     About X alone where the cage has a heavy spot, whose axial motion is left out.
     """
     one = case(SCENES[0], tilt=0.0, cage_offset=cage_offset, afloat=0.0, CAGE_ECCENTRICITY=eccentricity)
-    setup, state, found = one.setup, one.state, one.engine()
-    rate, outside, centre = pulls(one, found)
-    turning, given = np.cross(centre, rate), np.cross(centre, outside)
-    for j, (ball, a) in enumerate(zip(state.balls, found.balls, strict=True)):
-        spin = a[3:] + np.cross([ball[5], 0.0, 0.0], ball[6:])
-        turning[j] += setup.ball_inertia * (spin @ np.array(oracle.directions(ball[2])))
-    for k, mass in enumerate(setup.masses):
-        spin, tilting = state.rates[k, 3], state.rates[k, 4:]
-        gyroscopic = mass.polar * spin * np.array([tilting[1], -tilting[0]])
-        turning[one.n + k, 0] += mass.polar * found.bodies[k, 3]
-        turning[one.n + k, 1:] += mass.transverse * found.bodies[k, 4:] + gyroscopic
-        given[one.n + k] -= (setup.springs[k] @ state.bodies[k] + setup.dampers[k] @ state.rates[k])[3:]
-    given[one.n, 0] += found.torque
+    turning, given = moments(one, one.engine())
     axes = slice(0, 1 if eccentricity else 3)
     assert off(turning.sum(0)[axes], given.sum(0)[axes], turning[:, axes]) <= 1e-11
 

@@ -15,7 +15,7 @@ from fmu_bearing.engine.choices import TRACTION_LAWS
 from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
 from tests.engine.helpers import Run
-from tests.engine.states import shake
+from tests.engine.states import guided, shake
 
 ANGLES = (3, 4, 8, 9, 10, 14, 15, 16)  # among the bodies' coordinates
 # steps of the differences: their error goes with the fourth power, of 1e-3 of the contacts' approach and of
@@ -238,6 +238,12 @@ def test_lands_in_the_oil_of_a_jet(scene):
 
 def test_cage_on_its_dry_stop(scene):
     agree(shaken(scene("7003C-spindle"), cage_offset=1.02, WAVINESS=0.0))
+
+
+@pytest.mark.parametrize(("guidance", "cage_offset"), [("outer", 0.5), ("outer", 1.02), ("balls", 0.5)])
+def test_cage_guided_by_the_outer_ring_or_the_balls(scene, guidance, cage_offset):
+    """In the film of the outer ring's lands and on the dry stop; in spherical pockets."""
+    agree(shaken(guided(scene("7003C-spindle"), guidance), cage_offset=cage_offset, WAVINESS=0.0))
 
 
 @pytest.mark.parametrize("eccentricity", [5e-6, 1e-3])

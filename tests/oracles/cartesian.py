@@ -193,7 +193,8 @@ def stored_energy(setup: Setup, state: State):
     if setup.land is not None:
         for side in (1.0, -1.0):
             reach = [
-                state.bodies[k, :3] + side * setup.land.offset * axis(state.bodies[k]) for k in (INNER, CAGE)
+                state.bodies[k, :3] + side * setup.land.offset * axis(state.bodies[k])
+                for k in (setup.land.ring, CAGE)
             ]
             apart = (reach[1] - reach[0]) * [0, 1, 1]
             push = np.sqrt(apart @ apart) - setup.land.fraction * setup.land.clearance

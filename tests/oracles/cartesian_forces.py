@@ -55,7 +55,7 @@ class Race:
 
 @dataclass(frozen=True)
 class Pocket:
-    """Pocket of the cage (SI)."""
+    """Pocket of the cage (SI): a radial bore, or a sphere about a point of the pitch circle."""
 
     clearance: float
     stiffness: float
@@ -63,11 +63,12 @@ class Pocket:
     friction: float
     slip: float
     film: float
+    spherical: bool = False
 
 
 @dataclass(frozen=True)
 class Land:
-    """Lands of the cage on the inner ring (SI)."""
+    """Lands of the cage on a ring (SI), the inner one or the outer one; ``radius``: of the journal."""
 
     radius: float
     length: float
@@ -78,6 +79,7 @@ class Land:
     fraction: float
     friction: float
     slip: float
+    ring: int = INNER
 
 
 @dataclass(frozen=True)
@@ -273,9 +275,14 @@ def pocket_axis(state: State, j: int) -> np.ndarray:
 
 
 def in_pocket(setup: Setup, state: State, j: int) -> np.ndarray:
-    """Vector (m) from the bore's axis of pocket j, which goes through the cage's centre, to ball j."""
+    """Vector (m) to ball j from the bore's axis of its pocket, which goes through the cage's centre.
+
+    From the middle of a spherical pocket.
+    """
     bore = pocket_axis(state, j)
     from_centre = ball_centre(setup, state.balls[j]) - state.bodies[CAGE, :3]
+    if setup.pocket.spherical:
+        return from_centre - setup.pitch * bore
     return from_centre - (from_centre @ bore) * bore
 
 
@@ -361,7 +368,7 @@ def between_balls(loads: Loads) -> float:
 
 
 def on_cage(loads: Loads, j: int) -> float:
-    """Load ball j and its pocket, a bore whose wall is everywhere as far from its axis; heat (W)."""
+    """Load ball j and its pocket, whose wall is everywhere as far from its axis or middle; heat (W)."""
     setup, state, pocket = loads.setup, loads.state, loads.setup.pocket
     cage = loads.row(CAGE)
     bore = pocket_axis(state, j)
@@ -369,7 +376,8 @@ def on_cage(loads: Loads, j: int) -> float:
     apart = np.linalg.norm(offset)
     centre = loads.centre(j)
     sliding = loads.velocity(j, centre) - loads.velocity(cage, centre)
-    power = loads.act(j, cage, centre, -pocket.film * (sliding - (sliding @ bore) * bore))
+    filmed = sliding if pocket.spherical else sliding - (sliding @ bore) * bore
+    power = loads.act(j, cage, centre, -pocket.film * filmed)
     push = apart - pocket.clearance
     if push <= 0.0:
         return -power
@@ -402,37 +410,38 @@ def film_push(land: Land, journal, velocity, journal_speed: float, sleeve_speed:
 
 
 def on_land(loads: Loads, side: float) -> float:
-    """Load inner ring and cage at one land; heat (W)."""
+    """Load ring and cage at one land, the inner one of them as the journal; heat (W)."""
     bodies, rates, land = loads.state.bodies, loads.state.rates, loads.setup.land
-    ring, cage = loads.row(INNER), loads.row(CAGE)
+    journal, sleeve = (INNER, CAGE) if land.ring == INNER else (CAGE, OUTER)
+    inside, around = loads.row(journal), loads.row(sleeve)
     plane = [
-        loads.centre(row) + side * land.offset * axis(bodies[k]) for row, k in ((ring, INNER), (cage, CAGE))
+        loads.centre(row) + side * land.offset * axis(bodies[k])
+        for row, k in ((inside, journal), (around, sleeve))
     ]
     apart = (plane[1] - plane[0]) * [0, 1, 1]
-    moving = (loads.velocity(cage, plane[1]) - loads.velocity(ring, plane[0])) * [0, 1, 1]
+    moving = (loads.velocity(around, plane[1]) - loads.velocity(inside, plane[0])) * [0, 1, 1]
     distance = np.linalg.norm(apart)
     e = apart / distance
     t = cross(EX, e)
     limit = land.fraction * land.clearance
     wet = min(distance, limit)
     whirl = moving @ t / distance
-    speeds = rates[INNER, 3], rates[CAGE, 3]
-    on_ring = film_push(land, -wet * e[1:], -(moving @ e * e + wet * whirl * t)[1:], *speeds)
-    film = np.array([0.0, *on_ring])
+    speeds = rates[journal, 3], rates[sleeve, 3]
+    on_journal = film_push(land, -wet * e[1:], -(moving @ e * e + wet * whirl * t)[1:], *speeds)
+    film = np.array([0.0, *on_journal])
     gap = land.clearance + wet * np.cos(np.arange(2000) * np.pi / 1000)
     shear = (
         land.viscosity * (speeds[0] - speeds[1]) * land.radius**3 * land.length * np.mean(2.0 * np.pi / gap)
     )
-    power = loads.push(ring, plane[0] + apart / 2.0, film, -shear * EX)
-    power += loads.push(cage, plane[1] - apart / 2.0, -film, shear * EX)
+    power = loads.push(inside, plane[0] + apart / 2.0, film, -shear * EX)
+    power += loads.push(around, plane[1] - apart / 2.0, -film, shear * EX)
     if distance <= limit:
         return -power
     stop = land.stop * (distance - limit)
     # the bore rubs where it has come down on the journal, on the far side of the offset
     touching = [plane[0] - land.radius * e, plane[1] - (land.radius + distance) * e]
-    rub = (loads.velocity(cage, touching[1]) - loads.velocity(ring, touching[0])) @ t
+    rub = (loads.velocity(around, touching[1]) - loads.velocity(inside, touching[0])) @ t
     force = -stop * e - land.friction * stop * rub / np.hypot(rub, land.slip) * t
-    power += loads.push(ring, touching[0], -force, np.zeros(3)) + loads.push(
-        cage, touching[1], force, np.zeros(3)
-    )
+    power += loads.push(inside, touching[0], -force, np.zeros(3))
+    power += loads.push(around, touching[1], force, np.zeros(3))
     return -power - stop * (moving @ e)

@@ -106,13 +106,14 @@ PEDESTAL_DAMPING_YZ = _at()
 MISALIGNMENT_Y = _at()  # rad, of the outer ring's seat against the shaft
 MISALIGNMENT_Z = _at()  # rad
 # cage, or springs in its place
+GUIDANCE = _at()  # of the cage: see choices.GUIDANCES
 POCKET_CLEARANCE = _at()  # m
 POCKET_STIFFNESS = _at()  # N/m^1.5
 POCKET_DAMPING = _at()  # s/m: Hunt-Crossley
 POCKET_FRICTION = _at()
 POCKET_SLIP = _at()  # m/s
 POCKET_FILM = _at()  # N s/m
-LAND_RADIUS = _at()  # m
+LAND_RADIUS = _at()  # m: of the journal, which is the inner ring or a cage in the outer one
 LAND_LENGTH = _at()  # m
 LAND_OFFSET = _at()  # m
 LAND_CLEARANCE = _at()  # m

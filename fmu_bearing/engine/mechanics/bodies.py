@@ -2,30 +2,62 @@
 
 import math
 
+from fmu_bearing.engine.choices import OUTER_GUIDED
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, W, Y
-from fmu_bearing.engine.mechanics.cage import land_contact
+from fmu_bearing.engine.mechanics.cage import guiding_land
+
+
+@kernel
+def guiding_ring(p):
+    """First coordinate of the ring that guides the cage, and that of its tilts.
+
+    The inner ring for a cage that the balls guide: it has no land.
+    """
+    if p[P.GUIDANCE] == OUTER_GUIDED:
+        return Q.OUTER, Q.OUTER + Q.BY
+    return Q.INNER, Q.INNER + Q.INNER_BY
+
+
+@kernel
+def ring_spin(ring, y, speed):
+    """Spin (rad/s) of the ring that guides the cage; ``speed``: of the inner one."""
+    return y[Y.V0 + Q.OUTER + Q.TURN] if ring == Q.OUTER else speed
+
+
+@kernel
+def cage_at_land(y, x, ring, tilt):
+    """Place (m) and velocity (m/s) in y and z of the cage, at ``x`` (m) of its axis, against its ring.
+
+    ``ring``, ``tilt``: see `guiding_ring`.
+    """
+    k = Y.Q0 + Q.CAGE
+    vk = Y.V0 + Q.CAGE
+    i = Y.Q0 + ring
+    vi = Y.V0 + ring
+    return (
+        y[k + Q.Y] - y[i + Q.Y] + x * (y[k + Q.BZ] - y[Y.Q0 + tilt + 1]),
+        y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[Y.Q0 + tilt]),
+        y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[Y.V0 + tilt + 1]),
+        y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[Y.V0 + tilt]),
+    )
 
 
 @kernel
 def land_forces(p, c, y, speed, f, w):
     """Add both lands' forces to the body rows of ``f``, their loss to the oil, their energy to ``w``."""
-    i = Y.Q0
-    k = Y.Q0 + Q.CAGE
-    vi = Y.V0
-    vk = Y.V0 + Q.CAGE
-    gi = F.BODY
+    ring, tilt = guiding_ring(p)
+    spin = ring_spin(ring, y, speed)
+    gi = F.BODY + ring
+    gt = F.BODY + tilt
     gk = F.BODY + Q.CAGE
     w[W.LANDS_ENERGY] = 0.0
     for side in range(2):
         x = p[P.LAND_OFFSET] if side == 0 else -p[P.LAND_OFFSET]
-        dy = y[k + Q.Y] - y[i + Q.Y] + x * (y[k + Q.BZ] - y[i + Q.INNER_BZ])
-        dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
-        vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
-        vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-        fy, fz, on_inner, on_cage, stored, lost = land_contact(
-            p, c[C.LAND_VISCOSITY], dy, dz, vy, vz, speed, y[vk + Q.TURN]
+        dy, dz, vy, vz = cage_at_land(y, x, ring, tilt)
+        fy, fz, on_ring, on_cage, stored, lost = guiding_land(
+            p, c[C.LAND_VISCOSITY], dy, dz, vy, vz, spin, y[Y.V0 + Q.CAGE + Q.TURN]
         )
         f[gk + Q.Y] += fy
         f[gk + Q.Z] += fz
@@ -34,9 +66,12 @@ def land_forces(p, c, y, speed, f, w):
         f[gk + Q.BZ] += x * fy
         f[gi + Q.Y] -= fy
         f[gi + Q.Z] -= fz
-        f[gi + Q.INNER_BY] += x * fz
-        f[gi + Q.INNER_BZ] -= x * fy
-        f[F.TORQUE] -= on_inner
+        f[gt] += x * fz
+        f[gt + 1] -= x * fy
+        if ring == Q.OUTER:
+            f[gi + Q.TURN] += on_ring
+        else:
+            f[F.TORQUE] -= on_ring
         f[F.HEAT_OIL] += lost
         w[W.LANDS_ENERGY] += stored
 

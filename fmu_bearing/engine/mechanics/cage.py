@@ -1,7 +1,12 @@
-"""The cage: pockets that drive and retain the balls, and lands that ride on the inner ring."""
+"""The cage: pockets that drive and retain the balls, and lands on either ring that carry it.
+
+A cage guided by a ring has radial bores as pockets and two lands, short journal bearings: the inner ring runs
+in the cage, or the cage in the outer ring. A cage guided by the balls has spherical pockets and no lands.
+"""
 
 import math
 
+from fmu_bearing.engine.choices import BALL_GUIDED, OUTER_GUIDED
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import consecutive, load, select, store
@@ -16,77 +21,144 @@ _NOWHERE = 1e-30  # m
 
 
 @kernel
-def in_pocket(p, angle, turned, j, w):
-    """Where four balls are in their pockets: offsets from the bores' axes, and the bores' own directions.
+def pocket_axis(p, angle, turned, j, w):
+    """Unit vectors along the axes of the pockets of four balls, outwards, in the balls' orbiting axes.
 
-    ``angle``: of the balls, ``turned``: of the cage (rad). Returns the offset along the cage's axis and
-    around (m), its length, and the unit vectors along the bore and around, in the balls' orbiting axes. A
-    bore is fixed in the cage: its azimuth in the plane YZ is the cage's, and it runs across the axis.
+    ``angle``: of the balls, ``turned``: of the cage (rad). A pocket is fixed in the cage: its azimuth in the
+    plane YZ is the cage's, and its axis runs across the cage's.
     """
     pose = W.POSE + 2 * X.SIZE
     number = consecutive(j)
     spacing = TWO_PI / p[P.BALLS]
     ahead = turned + select(number < p[P.BALLS], number, 0.0) * spacing - load(angle, j)
     co, si = cosine_and_sine(ahead)
-    n = three(w, pose + X.N + j)
-    _, nr, nt = n
+    _, nr, nt = three(w, pose + X.N + j)
     # 1/nx and the root of 1 + lean^2 by their series for small tilts, 1e-16 up to 2 mrad
     small = 0.5 * (nr * nr + nt * nt)
     lean = -(nr * co + nt * si) * (1.0 + small * (1.0 + small))
     square = lean * lean
     per = 1.0 - square * (0.5 - 0.375 * square)
-    bore = (lean * per, co * per, si * per)
-    t = cross(n, bore)
+    return lean * per, co * per, si * per
+
+
+@kernel
+def in_bore(p, angle, turned, j, w):
+    """Where four balls are in their bores: offsets from the bores' axes, and the bores' own directions.
+
+    ``angle``: of the balls, ``turned``: of the cage (rad). Returns the offset along the cage's axis and
+    around (m), its length, and the unit vectors along the bore and around, in the balls' orbiting axes.
+    """
+    pose = W.POSE + 2 * X.SIZE
+    bore = pocket_axis(p, angle, turned, j, w)
+    t = cross(three(w, pose + X.N + j), bore)
     axial = load(w, pose + X.A + j)
     around = dot(three(w, pose + X.Q + j), t)
     return axial, around, math.sqrt(axial * axial + around * around + 1e-30), bore, t
 
 
 @kernel
-def pocket_forces(p, c, angle, lanes, turned, w):
-    """Pocket forces and moments on the balls and the power lost there.
+def in_sphere(p, angle, turned, j, w):
+    """Offsets of four balls from the middles of their spherical pockets (m), and their lengths.
 
-    A pocket is a radial bore with clearance: Hertz contact with Hunt-Crossley damping once the clearance
-    is used up, Coulomb friction (regularised) on the spinning ball, and film damping at all times.
-    ``turned`` is the cage's angle (rad).
+    As `in_bore`; the middles are on the cage's pitch circle.
     """
     pose = W.POSE + 2 * X.SIZE
-    out = W.FORCE + 2 * W.FORCE_SIZE
-    clearance = p[P.POCKET_CLEARANCE]
-    stiffness = c[C.POCKET]
-    damping = p[P.POCKET_DAMPING]
-    film = p[P.POCKET_FILM]
-    mu = p[P.POCKET_FRICTION]
+    outwards = pocket_axis(p, angle, turned, j, w)
+    offset = added(three(w, pose + X.Q + j), scaled(-p[P.PITCH_RADIUS], outwards))
+    return offset, math.sqrt(dot(offset, offset) + 1e-30)
+
+
+@kernel
+def pocket_pressure(p, c, apart, rate):
+    """Penetration (m), elastic force and force (N) of balls ``apart`` (m) from their pockets' middles.
+
+    ``rate`` (m/s): of that distance. Hertz contact with Hunt-Crossley damping once the clearance is used up.
+    """
+    penetration = max(apart - p[P.POCKET_CLEARANCE], 0.0)
+    elastic, _, _ = hertz(c[C.POCKET], penetration)
+    return penetration, elastic, max(elastic * (1.0 + p[P.POCKET_DAMPING] * rate), 0.0)
+
+
+@kernel
+def pocket_friction(p, c, g, pressing, dv, dw):
+    """Coulomb friction (regularised) of a pocket on the spinning ball, and its lever: force and moment.
+
+    ``g``: unit vector from the ball's middle to the contact; ``dv``, ``dw``: velocity and spin of the ball
+    against the cage.
+    """
     floor = p[P.POCKET_SLIP]
     ball = c[C.BALL_RADIUS]
+    # sliding at the contact without its normal part
+    slip = added(dv, scaled(ball, cross(dw, g)))
+    slip = added(slip, scaled(-dot(slip, g), g))
+    drag = scaled(-p[P.POCKET_FRICTION] * pressing / math.sqrt(dot(slip, slip) + floor * floor), slip)
+    return drag, scaled(ball, cross(g, drag))
+
+
+@kernel
+def store_pocket(p, penetration, force, moment, stored_rate, dv, dw, j, w):
+    """Keep what four pockets do to their balls; ``stored_rate`` (W): what their contacts take up."""
+    out = W.FORCE + 2 * W.FORCE_SIZE
+    store(w, W.POCKET + j, penetration)
+    store_three(w, out + W.FX + j, force)
+    store_three(w, out + W.MX + j, moment)
+    lost = -dot(force, dv) - dot(moment, dw) - stored_rate
+    store(w, W.LOSS_CAGE + j, select(consecutive(j) < p[P.BALLS], lost, 0.0))
+
+
+@kernel
+def bore_forces(p, c, angle, lanes, turned, w):
+    """As `pocket_forces`, of pockets that are radial bores."""
+    pose = W.POSE + 2 * X.SIZE
+    film = p[P.POCKET_FILM]
     for j in range(0, lanes, FOUR):
-        live = consecutive(j) < p[P.BALLS]
         n = three(w, pose + X.N + j)
         dv = three(w, pose + X.DV + j)
         dw = three(w, pose + X.DW + j)
-        axial, around, apart, _, t = in_pocket(p, angle, turned, j, w)
+        axial, around, apart, _, t = in_bore(p, angle, turned, j, w)
         px = axial / apart
         pt = around / apart
-        penetration = max(apart - clearance, 0.0)
         vn = dot(n, dv)
         vt = dot(t, dv)
         rate = px * vn + pt * vt
-        elastic, _, _ = hertz(stiffness, penetration)
-        pressing = max(elastic * (1.0 + damping * rate), 0.0)
-        # contact point on the ball: radius along g; sliding there without its normal part
+        penetration, elastic, pressing = pocket_pressure(p, c, apart, rate)
         g = added(scaled(px, n), scaled(pt, t))
-        slip = added(dv, scaled(ball, cross(dw, g)))
-        slip = added(slip, scaled(-dot(slip, g), g))
-        drag = scaled(-mu * pressing / math.sqrt(dot(slip, slip) + floor * floor), slip)
+        drag, moment = pocket_friction(p, c, g, pressing, dv, dw)
         fn = -pressing * px - film * vn
         ft = -pressing * pt - film * vt
         force = added(added(drag, scaled(fn, n)), scaled(ft, t))
-        moment = scaled(ball, cross(g, drag))
-        store(w, W.POCKET + j, penetration)
-        store_three(w, out + W.FX + j, force)
-        store_three(w, out + W.MX + j, moment)
-        lost = -dot(force, dv) - dot(moment, dw) - elastic * rate
-        store(w, W.LOSS_CAGE + j, select(live, lost, 0.0))
+        store_pocket(p, penetration, force, moment, elastic * rate, dv, dw, j, w)
+
+
+@kernel
+def sphere_forces(p, c, angle, lanes, turned, w):
+    """As `pocket_forces`, of pockets that are spheres."""
+    pose = W.POSE + 2 * X.SIZE
+    film = p[P.POCKET_FILM]
+    for j in range(0, lanes, FOUR):
+        dv = three(w, pose + X.DV + j)
+        dw = three(w, pose + X.DW + j)
+        offset, apart = in_sphere(p, angle, turned, j, w)
+        g = scaled(1.0 / apart, offset)
+        rate = dot(g, dv)
+        penetration, elastic, pressing = pocket_pressure(p, c, apart, rate)
+        drag, moment = pocket_friction(p, c, g, pressing, dv, dw)
+        force = added(added(drag, scaled(-pressing, g)), scaled(-film, dv))
+        store_pocket(p, penetration, force, moment, elastic * rate, dv, dw, j, w)
+
+
+@kernel
+def pocket_forces(p, c, angle, lanes, turned, w):
+    """Pocket forces and moments on the balls and the power lost there.
+
+    A pocket is a radial bore, or the sphere of a cage that the balls guide, with clearance: contact with
+    friction once the clearance is used up, and film damping at all times. ``turned`` is the cage's angle
+    (rad).
+    """
+    if p[P.GUIDANCE] == BALL_GUIDED:
+        sphere_forces(p, c, angle, lanes, turned, w)
+    else:
+        bore_forces(p, c, angle, lanes, turned, w)
 
 
 @kernel
@@ -123,11 +195,11 @@ def film_force(ratio, closing, carried):
 
 @kernel
 def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
-    """Force (N) on the cage in y and z at one land, friction torques (N m) and stored energy (J).
+    """Force (N) on the sleeve in y and z at one land, friction torques (N m) and stored energy (J).
 
-    ``viscosity`` in Pa s; ``d`` and ``v`` are the cage centre's offset (m) and velocity (m/s) against the
-    inner ring's at the land, ``journal`` and ``sleeve`` the spin rates (rad/s) of inner ring and cage.
-    Returns ``(fy, fz, torque on the inner ring, torque on the cage, energy, power lost)``.
+    ``viscosity`` in Pa s; ``d`` and ``v`` are the sleeve centre's offset (m) and velocity (m/s) against the
+    journal's at the land, ``journal`` and ``sleeve`` their spin rates (rad/s).
+    Returns ``(fy, fz, torque on the journal, torque on the sleeve, energy, power lost)``.
     """
     clearance = p[P.LAND_CLEARANCE]
     radius = p[P.LAND_RADIUS]
@@ -149,7 +221,7 @@ def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     factor = viscosity * radius * length * length * length * per_clearance * per_clearance
     radial = factor * back
     tangential = factor * on
-    # Seen from the sleeve the journal is at -d. The film pushes it back and across, the cage takes the
+    # Seen from the sleeve the journal is at -d. The film pushes it back and across, the sleeve takes the
     # opposite force.
     fy = -radial * ey - tangential * ez
     fz = -radial * ez + tangential * ey
@@ -161,7 +233,7 @@ def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     stiffness = p[P.LAND_STOP_STIFFNESS]
     stop = stiffness * penetration
     slip = p[P.LAND_STOP_SLIP]
-    # Rubbing where the journal's surface meets the bore, a radius behind the inner ring's centre.
+    # Rubbing where the journal's surface meets the bore, a radius behind the journal's centre.
     rub = across + radius * journal - (radius + apart) * sleeve
     friction = -p[P.LAND_STOP_FRICTION] * stop * rub / math.sqrt(rub * rub + slip * slip)
     fy += -stop * ey - friction * ez
@@ -171,3 +243,16 @@ def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
     energy = 0.5 * stiffness * penetration * penetration
     lost = -(fy * vy + fz * vz + on_journal * journal + on_sleeve * sleeve) - stop * clearance * rate
     return fy, fz, on_journal, on_sleeve, energy, lost
+
+
+@kernel
+def guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage):
+    """As `land_contact`, of the ring that guides the cage: force on the cage, torques on ring and cage.
+
+    ``d`` and ``v``: offset and velocity of the cage's centre against that ring's at the land, ``ring`` and
+    ``cage`` their spin rates (rad/s). In an outer ring the cage is the journal.
+    """
+    if p[P.GUIDANCE] == OUTER_GUIDED:
+        fy, fz, on_cage, on_ring, energy, lost = land_contact(p, viscosity, -dy, -dz, -vy, -vz, cage, ring)
+        return -fy, -fz, on_ring, on_cage, energy, lost
+    return land_contact(p, viscosity, dy, dz, vy, vz, ring, cage)

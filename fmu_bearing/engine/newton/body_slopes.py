@@ -1,7 +1,7 @@
 """The bodies' share of the Jacobian that does not come through the balls: supports, gyroscopes, lands.
 
-The film of a land is differentiated by differences: five evaluations of one formula for a side, against a
-page of derivatives.
+The film of a land is differentiated by differences: five or six evaluations of one formula for a side,
+against a page of derivatives.
 """
 
 import math
@@ -10,7 +10,8 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, J, P, Q, W, Y
-from fmu_bearing.engine.mechanics.cage import land_contact
+from fmu_bearing.engine.mechanics.bodies import cage_at_land, guiding_ring, ring_spin
+from fmu_bearing.engine.mechanics.cage import guiding_land
 
 # steps of the differences: small against clearance and surface speeds, large against rounding
 _PLACE = 1e-6  # of the clearance
@@ -65,67 +66,84 @@ def spin_columns(p, y, turn, polar, jac):
 
 
 @kernel
-def land_coordinate(axis, k, x):
-    """Coordinate of cage or inner ring that moves the cage in its land, and how far per unit.
+def land_coordinate(axis, k, x, ring, tilt):
+    """Coordinate of cage or ring that moves the cage in its land, and how far per unit.
 
-    ``axis``: along y (0) or z (1); ``k``: translation and tilt of the cage, then of the inner ring; ``x``:
-    the land's place (m).
+    ``axis``: along y (0) or z (1); ``k``: translation and tilt of the cage, then of the ring; ``x``: the
+    land's place (m); ``ring``, ``tilt``: see `guiding_ring`.
     """
     tilting = k & 1
     sign = 1.0 if k < 2 else -1.0
     lever = sign * ((x if axis == 0 else -x) if tilting else 1.0)
     if tilting == 0:
-        return (Q.CAGE if k < 2 else Q.INNER) + Q.Y + axis, lever
-    return (Q.CAGE + Q.BZ if k < 2 else Q.INNER + Q.INNER_BZ) - axis, lever
+        return (Q.CAGE if k < 2 else ring) + Q.Y + axis, lever
+    return (Q.CAGE + Q.BZ if k < 2 else tilt + 1) - axis, lever
 
 
 @kernel
-def land_column(p, x, axis, rate, dfy, dfz, dturn, jac):
+def land_rows(p, column, by, x, ring, tilt, change, jac):
+    """Spread the ``change`` of a land's forces and torques, times ``by``, over one column of block E.
+
+    ``change``: of the force on the cage in y and z and of the torques on ring and cage; the inner ring's own
+    rotation is an input, and its torque belongs to no row.
+    """
+    dfy, dfz, dring, dcage = change
+    turn = Q.CAGE + Q.TURN
+    jac[J.E + turn * J.BODIES + column] += dcage * by / p[P.CAGE_POLAR]
+    if ring == Q.OUTER:
+        turn = Q.OUTER + Q.TURN
+        jac[J.E + turn * J.BODIES + column] += dring * by / p[P.OUTER_POLAR]
+    for i in range(4):
+        row, lever = land_coordinate(0, i, x, ring, tilt)
+        jac[J.E + row * J.BODIES + column] += dfy * by * lever / inertia(p, row)
+        row, lever = land_coordinate(1, i, x, ring, tilt)
+        jac[J.E + row * J.BODIES + column] += dfz * by * lever / inertia(p, row)
+
+
+@kernel
+def land_columns(p, x, ring, tilt, axis, rate, change, jac):
     """Spread the derivatives of a land by the cage's motion in it along ``axis`` over block E."""
     for k in range(4):
-        column, by = land_coordinate(axis, k, x)
-        column += rate * Q.SIZE
-        turn = Q.CAGE + Q.TURN
-        jac[J.E + turn * J.BODIES + column] += dturn * by / p[P.CAGE_POLAR]
-        for i in range(4):
-            row, lever = land_coordinate(0, i, x)
-            jac[J.E + row * J.BODIES + column] += dfy * by * lever / inertia(p, row)
-            row, lever = land_coordinate(1, i, x)
-            jac[J.E + row * J.BODIES + column] += dfz * by * lever / inertia(p, row)
+        column, by = land_coordinate(axis, k, x, ring, tilt)
+        land_rows(p, column + rate * Q.SIZE, by, x, ring, tilt, change, jac)
+
+
+@kernel
+def land_slope(p, viscosity, before, motion, spins, per):
+    """By how much forces and torques of a land differ from those ``before``, times ``per``: see `land_rows`.
+
+    ``motion``: place and velocity of the cage in its land, ``spins``: of ring and cage.
+    """
+    fy0, fz0, ring0, cage0, _, _ = before
+    dy, dz, vy, vz = motion
+    ring, cage = spins
+    fy, fz, on_ring, on_cage, _, _ = guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage)
+    return (fy - fy0) * per, (fz - fz0) * per, (on_ring - ring0) * per, (on_cage - cage0) * per
 
 
 @kernel
 def land_slopes(p, c, y, speed, x, jac):
     """Add one land at ``x`` (m) to block E."""
-    i = Y.Q0
-    k = Y.Q0 + Q.CAGE
-    vi = Y.V0
-    vk = Y.V0 + Q.CAGE
-    sleeve = y[vk + Q.TURN]
+    ring, tilt = guiding_ring(p)
+    spin = ring_spin(ring, y, speed)
+    cage = y[Y.V0 + Q.CAGE + Q.TURN]
     viscosity = c[C.LAND_VISCOSITY]
-    dy = y[k + Q.Y] - y[i + Q.Y] + x * (y[k + Q.BZ] - y[i + Q.INNER_BZ])
-    dz = y[k + Q.Z] - y[i + Q.Z] - x * (y[k + Q.BY] - y[i + Q.INNER_BY])
-    vy = y[vk + Q.Y] - y[vi + Q.Y] + x * (y[vk + Q.BZ] - y[vi + Q.INNER_BZ])
-    vz = y[vk + Q.Z] - y[vi + Q.Z] - x * (y[vk + Q.BY] - y[vi + Q.INNER_BY])
-    fy, fz, _, turn, _, _ = land_contact(p, viscosity, dy, dz, vy, vz, speed, sleeve)
+    dy, dz, vy, vz = cage_at_land(y, x, ring, tilt)
+    before = guiding_land(p, viscosity, dy, dz, vy, vz, spin, cage)
     for rate in range(2):
         h = _VELOCITY if rate == 1 else _PLACE * p[P.LAND_CLEARANCE]
         near = h if rate == 0 else 0.0
         fast = h if rate == 1 else 0.0
         per = 1.0 / h
-        fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy + near, dz, vy + fast, vz, speed, sleeve)
-        land_column(p, x, 0, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
-        fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy, dz + near, vy, vz + fast, speed, sleeve)
-        land_column(p, x, 1, rate, (fy1 - fy) * per, (fz1 - fz) * per, (turn1 - turn) * per, jac)
-    per = 1.0 / _RATE
-    fy1, fz1, _, turn1, _, _ = land_contact(p, viscosity, dy, dz, vy, vz, speed, sleeve + _RATE)
-    column = Q.SIZE + Q.CAGE + Q.TURN
-    jac[J.E + (Q.CAGE + Q.TURN) * J.BODIES + column] += (turn1 - turn) * per / p[P.CAGE_POLAR]
-    for n in range(4):
-        row, lever = land_coordinate(0, n, x)
-        jac[J.E + row * J.BODIES + column] += (fy1 - fy) * per * lever / inertia(p, row)
-        row, lever = land_coordinate(1, n, x)
-        jac[J.E + row * J.BODIES + column] += (fz1 - fz) * per * lever / inertia(p, row)
+        change = land_slope(p, viscosity, before, (dy + near, dz, vy + fast, vz), (spin, cage), per)
+        land_columns(p, x, ring, tilt, 0, rate, change, jac)
+        change = land_slope(p, viscosity, before, (dy, dz + near, vy, vz + fast), (spin, cage), per)
+        land_columns(p, x, ring, tilt, 1, rate, change, jac)
+    change = land_slope(p, viscosity, before, (dy, dz, vy, vz), (spin, cage + _RATE), 1.0 / _RATE)
+    land_rows(p, Q.SIZE + Q.CAGE + Q.TURN, 1.0, x, ring, tilt, change, jac)
+    if ring == Q.OUTER:
+        change = land_slope(p, viscosity, before, (dy, dz, vy, vz), (spin + _RATE, cage), 1.0 / _RATE)
+        land_rows(p, Q.SIZE + Q.OUTER + Q.TURN, 1.0, x, ring, tilt, change, jac)
 
 
 @kernel

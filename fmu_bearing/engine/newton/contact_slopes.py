@@ -8,11 +8,12 @@ ball's own. Lanes are four balls from ``j`` on.
 
 import math
 
+from fmu_bearing.engine.choices import BALL_GUIDED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, plus_scaled, scaled_six, select, six, splat, store, store_six
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
-from fmu_bearing.engine.mechanics.cage import in_pocket
+from fmu_bearing.engine.mechanics.cage import in_bore, in_sphere, pocket_axis
 from fmu_bearing.engine.mechanics.contact import damped_slopes, hertz
 from fmu_bearing.engine.mechanics.race import waviness_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
@@ -69,11 +70,12 @@ def motion_columns(ball, gradient, bumps, stiffness, film, j, w):
 
     ``gradient`` of the approach by the ball's place; ``bumps``: slopes of the ball's own surface towards t
     and m; ``stiffness``: load by approach and by its rate, and logarithm of the ellipse by approach;
-    ``film`` (N s/m): damping along e and m. ``ball``: its radius (m).
+    ``film`` (N s/m): damping along e and m, and along t. ``ball``: its radius (m).
     """
     ge, gt, gm = gradient
     bump_t, bump_m = bumps
     by_approach, by_rate, growth = stiffness
+    film_across, film_t = film
     at = W.CONTACT
     _, ft, fm, me, mt, mm = with_moment(w, K.LOAD, j, ball)
     loaded = (-ge, ft - gt, fm - gm, me, mt - bump_m, mm + bump_t)
@@ -84,10 +86,11 @@ def motion_columns(ball, gradient, bumps, stiffness, film, j, w):
     about_t = plus_scaled(with_moment(w, K.AT, j, ball), -ball, across)
     about_m = plus_scaled(with_moment(w, K.AM, j, ball), ball, slid)
     fe, ft, fm, me, mt, mm = scaled_six(by_rate * ge, loaded)
-    store_six(w, at + K.RATE, FOUR, (fe - film, ft, fm, me, mt, mm))
-    store_six(w, at + K.RATE + A.SIX, FOUR, plus_scaled(slid, by_rate * gt, loaded))
+    store_six(w, at + K.RATE, FOUR, (fe - film_across, ft, fm, me, mt, mm))
+    fe, ft, fm, me, mt, mm = plus_scaled(slid, by_rate * gt, loaded)
+    store_six(w, at + K.RATE + A.SIX, FOUR, (fe, ft - film_t, fm, me, mt, mm))
     fe, ft, fm, me, mt, mm = plus_scaled(across, by_rate * gm, loaded)
-    store_six(w, at + K.RATE + 2 * A.SIX, FOUR, (fe, ft, fm - film, me, mt, mm))
+    store_six(w, at + K.RATE + 2 * A.SIX, FOUR, (fe, ft, fm - film_across, me, mt, mm))
     store_six(w, at + K.SPIN, FOUR, with_moment(w, K.AN, j, ball))
     store_six(w, at + K.SPIN + A.SIX, FOUR, plus_scaled(about_t, by_rate * bump_m, loaded))
     store_six(w, at + K.SPIN + 2 * A.SIX, FOUR, plus_scaled(about_m, -by_rate * bump_t, loaded))
@@ -214,7 +217,7 @@ def contact_columns(y, body, ball, contact, j, w):
     ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` give it. That
     is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
     load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
-    along e and m; the body's axis; turns about it and about -t, by places along the three axes; change of
+    along e and m and along t; the axis of one turn, of a race the body's; turns about it and about -t, by places along the three axes; change of
     the gradient along t; entrainment speed by the ball's spin.
     """
     frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, arm = contact
@@ -275,7 +278,7 @@ def race_contact(p, c, y, race, turned, j, w):
         (bump_t, bump_m),
         stiffness,
         load(w, row + R.LOAD + j),
-        zero,
+        (zero, zero),
         (sina, zero, cosa),
         (zero, per_rho, zero),
         (zero, zero, per_distance),
@@ -303,6 +306,36 @@ def pocket_traction(p, pressing, ut, um, j, w):
 
 
 @kernel
+def bore_axes(p, y, turned, j, w):
+    """Axes of the contact with a bore, and how far the ball is from the bore's axis (m); t is along it."""
+    n = three(w, W.POSE + 2 * X.SIZE + X.N + j)
+    axial, along_track, apart, bore, t = in_bore(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
+    px = axial / apart
+    pt = along_track / apart
+    return (added(scaled(px, n), scaled(pt, t)), bore, added(scaled(px, t), scaled(-pt, n))), apart
+
+
+@kernel
+def sphere_axes(p, y, turned, j, w):
+    """Axes of the contact with a sphere, and how far the ball is from its middle (m).
+
+    t and m are any two across e that make a right-handed frame. The one made of the pocket's axis fails where
+    the ball is off along that axis, and the one made of the cage's where it is off along this: whichever is
+    farther from e is taken.
+    """
+    offset, apart = in_sphere(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
+    e = scaled(1.0 / apart, offset)
+    n = three(w, W.POSE + 2 * X.SIZE + X.N + j)
+    bx, br, bt = pocket_axis(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
+    nx, nr, nt = n
+    steep = abs(dot(e, (bx, br, bt))) > abs(dot(e, n))
+    other = (select(steep, nx, bx), select(steep, nr, br), select(steep, nt, bt))
+    t = added(other, scaled(-dot(other, e), e))
+    t = scaled(1.0 / math.sqrt(dot(t, t)), t)
+    return (e, t, cross(e, t)), apart
+
+
+@kernel
 def pocket_contact(p, c, y, turned, j, w):
     """Return what :func:`contact_columns` needs of the contact with a pocket, turned by ``turned`` (rad).
 
@@ -310,11 +343,12 @@ def pocket_contact(p, c, y, turned, j, w):
     """
     pose = W.POSE + 2 * X.SIZE
     ball = c[C.BALL_RADIUS]
-    n = three(w, pose + X.N + j)
-    axial, along_track, apart, bore, t = in_pocket(p, y[Y.TH : Y.TH + STRIDE], turned, j, w)
-    px = axial / apart
-    pt = along_track / apart
-    frame = (added(scaled(px, n), scaled(pt, t)), bore, added(scaled(px, t), scaled(-pt, n)))
+    spherical = p[P.GUIDANCE] == BALL_GUIDED
+    if spherical:
+        frame, apart = sphere_axes(p, y, turned, j, w)
+    else:
+        frame, apart = bore_axes(p, y, turned, j, w)
+    per_apart = 1.0 / max(apart, _NEAREST)
     ve, vt, vm = components(three(w, pose + X.DV + j), frame)
     _, wt, wm = components(three(w, pose + X.DW + j), frame)
     elastic, slope, _ = hertz(c[C.POCKET], apart - p[P.POCKET_CLEARANCE])
@@ -329,17 +363,19 @@ def pocket_contact(p, c, y, turned, j, w):
     )
     pocket_traction(p, pressing, vt + ball * wm, vm - ball * wt, j, w)
     nothing = (zero, zero, zero)
-    # the bore is fixed in the cage: the contact turns only as the ball goes round the bore's axis
+    # a bore is fixed in the cage: the contact turns only as the ball goes round the bore's axis, t; in a
+    # sphere it turns about m, too, as the ball goes along t, and the film is the same all round
+    sphere = 1.0 if spherical else 0.0
     return (
         frame,
         (splat(1.0), zero, zero),
         (zero, zero),
         stiffness,
         pressing,
-        splat(p[P.POCKET_FILM]),
-        nothing,
-        nothing,
-        (zero, zero, 1.0 / max(apart, _NEAREST)),
+        (splat(p[P.POCKET_FILM]), splat(sphere * p[P.POCKET_FILM])),
+        (zero, zero, splat(sphere)),
+        (zero, sphere * per_apart, zero),
+        (zero, zero, per_apart),
         nothing,
         nothing,
     )

@@ -5,6 +5,7 @@ import math
 from fmu_bearing.engine.constants import STANDSTILL
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, S, Y, Z
+from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.contacts import contacts, knows_balls
@@ -38,10 +39,11 @@ def bodies(p, s, z):
     z[Z.WHIRL_RADIUS] = 0.0
     z[Z.WHIRL_SPEED] = 0.0
     if p[P.CAGE] != 0.0:
-        dy = s[q + Q.CAGE + Q.Y] - s[q + Q.Y]
-        dz = s[q + Q.CAGE + Q.Z] - s[q + Q.Z]
-        vy = s[v + Q.CAGE + Q.Y] - s[v + Q.Y]
-        vz = s[v + Q.CAGE + Q.Z] - s[v + Q.Z]
+        ring, _ = guiding_ring(p)
+        dy = s[q + Q.CAGE + Q.Y] - s[q + ring + Q.Y]
+        dz = s[q + Q.CAGE + Q.Z] - s[q + ring + Q.Z]
+        vy = s[v + Q.CAGE + Q.Y] - s[v + ring + Q.Y]
+        vz = s[v + Q.CAGE + Q.Z] - s[v + ring + Q.Z]
         apart2 = dy * dy + dz * dz
         z[Z.WHIRL_RADIUS] = math.sqrt(apart2)
         z[Z.WHIRL_SPEED] = (dy * vz - dz * vy) / (apart2 + _CENTRED_2)

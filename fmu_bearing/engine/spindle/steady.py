@@ -94,7 +94,7 @@ def show_steady_forces(p, b, y, speed, s, w, out, to):
         for i in range(F.SIZE):
             f[i] = 0.0
         land_forces(pb, c, y, speed, f, wb)
-        for i in range(Q.OUTER):
+        for i in range(Q.RINGS):
             out[to + i] += f[F.BODY + i]
     if weighs(p):
         out[to + Q.Z] -= GRAVITY * pb[P.INNER_MASS]

@@ -2,9 +2,11 @@
 
 import math
 
+from fmu_bearing.engine.choices import BALL_GUIDED
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, C, P, Q, W, Y
+from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.statics.quasistatic import forces_at_displacement
 from fmu_bearing.engine.status import OK
 
@@ -97,12 +99,18 @@ def place_balls(p, y, eq):
 
 @kernel
 def place_cage(p, y, eq):
-    """Cage about the inner ring, in the plane of the balls and with their mean orbit speed."""
+    """Cage about the ring that guides it, in the plane of the balls and with their mean orbit speed.
+
+    One that the balls guide begins half-way between both rings, as the balls are.
+    """
     balls = p[P.BALLS]
     k = Y.Q0 + Q.CAGE
+    ring, _ = guiding_ring(p)
     y[k] = y[Y.Q0 + Q.OUTER]
-    y[k + Q.Y] = y[Y.Q0 + Q.Y]
-    y[k + Q.Z] = y[Y.Q0 + Q.Z]
+    for i in (Q.Y, Q.Z):
+        y[k + i] = y[Y.Q0 + ring + i]
+        if p[P.GUIDANCE] == BALL_GUIDED:
+            y[k + i] = 0.5 * (y[Y.Q0 + i] + y[Y.Q0 + Q.OUTER + i])
     for j in range(int(balls)):
         angle = 2.0 * PI * j / balls
         x = eq[EQ.X + j] / balls

@@ -9,6 +9,7 @@ method with the engine's own Jacobian; steps are limited, and halved where the b
 
 import math
 
+from fmu_bearing.engine.choices import OUTER_GUIDED
 from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, C, F, J, P, Q, R, W, Y
@@ -229,8 +230,11 @@ def equalise_balls(p, c, y, speed):
             mean = 0.0
         for j in range(int(p[P.LANES])):
             y[row * STRIDE + j] = mean
-    # a cage that the lands drive holds the balls back by its pockets, and they lag in them
+    # balls lag in the pockets of a cage that the inner ring drives, and lead in those of one that the outer
+    # ring brakes; of one that balls guide nothing drives, and either side serves
     lag = (p[P.POCKET_CLEARANCE] + _PRESSED) / p[P.PITCH_RADIUS] if p[P.CAGE] != 0.0 else 0.0
+    if p[P.GUIDANCE] == OUTER_GUIDED:
+        lag = -lag
     for j in range(int(p[P.LANES])):
         y[Y.TH + j] = (2.0 * math.pi * j / p[P.BALLS] if j < balls else 0.0) - math.copysign(lag, speed)
     for i in range(Q.SIZE):

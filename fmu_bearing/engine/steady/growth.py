@@ -11,6 +11,7 @@ Inverse iteration from a forward whirl of the cage finds the eigenvalue, with on
 
 import math
 
+from fmu_bearing.engine.choices import OUTER_GUIDED
 from fmu_bearing.engine.complex_numbers import complex_at, over, pair, real_times, square
 from fmu_bearing.engine.dense import swap
 from fmu_bearing.engine.jit import kernel
@@ -24,6 +25,9 @@ from fmu_bearing.engine.steady.pattern import STENCIL, matrix_at, neighbour, sho
 _GROWING = 0.15
 _TURNING = 0.45
 _BESIDE = 0.02
+# Sides of a land on the inner ring turn at 0.42 and 1 of shaft speed, of one on the outer ring at 0 and 0.42:
+# what a film does there goes with the share of the sums.
+_ON_OUTER = 0.3
 SHIFTS = 3
 NOTHING = -1e300  # 1/s: growth where no whirl was found; the state of a search has to be numbers
 _ROUNDS = 8  # with each
@@ -182,11 +186,18 @@ def right_side(p, c, rate, fixed, w):
 
 
 @kernel
+def land_speed(p, speed):
+    """Shaft ``speed`` at which a land on the inner ring would turn as fast as the cage's own lands do."""
+    return _ON_OUTER * speed if p[P.GUIDANCE] == OUTER_GUIDED else speed
+
+
+@kernel
 def begin_growth(p, speed, w):
     """Begin the search for the growth of a whirl with a cage that goes round ahead."""
     ahead = math.copysign(1.0, speed)
     vector, moving, right = eigen_row(w, PT.VECTOR), eigen_row(w, PT.RATE), eigen_row(w, PT.RIGHT)
-    rate = complex(_GROWING * abs(speed), _TURNING * abs(speed))
+    fast = land_speed(p, abs(speed))
+    rate = complex(_GROWING * fast, _TURNING * fast)
     for i in range(PT.MOST):
         vector[i], moving[i], right[i] = 0.0, 0.0, 0.0
     y = tail(p) + Q.CAGE + Q.Y

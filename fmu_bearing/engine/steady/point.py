@@ -12,13 +12,15 @@ in real time can make one per step; what a piece leaves to the next are ``PT.KEP
 
 import math
 
+from fmu_bearing.engine.choices import OUTER_GUIDED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, ST, C, P, Q, W, Y
+from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.place import upright_point
 from fmu_bearing.engine.status import OK
 from fmu_bearing.engine.steady.even import BOTH, OUTER, equalise_balls, settle_evenly
-from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, growth_beside
+from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, growth_beside, land_speed
 from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, displace_cage, settle_once
 from fmu_bearing.engine.steady.pattern import tail, take
 
@@ -34,7 +36,7 @@ _EVEN, _DIRECTLY, _SOFTLY, _GROWING, _WHIRLING = range(5)
 # middle at times); then from the dry stop, at a speed from where it came to orbits that the stop holds.
 _ASIDE = 0.7  # of the clearance
 _BEHIND_STOP = 0.01  # of the clearance
-_TURNING = 0.55  # of shaft speed
+_TURNING = 0.55  # of shaft speed, in lands on the inner ring
 # Of the clearance: a smaller orbit changes the lands' drag by less than 0.5 %, and runs pass it.
 _LEAST = 0.1
 _DIRECT = 8  # rounds with pockets as stiff as they are
@@ -63,10 +65,11 @@ def is_loaded(p, c, y, fixed):
 
 @kernel
 def eccentricity(p, y):
-    """Distance of the cage's middle from the inner ring's over the clearance of the lands."""
+    """Distance of the cage's middle from that of the ring that guides it, over the clearance of the lands."""
     k = Y.Q0 + Q.CAGE
-    aside_y = y[k + Q.Y] - y[Y.Q0 + Q.Y]
-    aside_z = y[k + Q.Z] - y[Y.Q0 + Q.Z]
+    ring, _ = guiding_ring(p)
+    aside_y = y[k + Q.Y] - y[Y.Q0 + ring + Q.Y]
+    aside_z = y[k + Q.Z] - y[Y.Q0 + ring + Q.Z]
     return math.sqrt(aside_y * aside_y + aside_z * aside_z) / p[P.LAND_CLEARANCE]
 
 
@@ -132,15 +135,20 @@ def rest_softly(p, c, y, speed, fixed, even, rest, w, jac):
 
 
 @kernel
+def balls_through(p, speed):
+    """Which way balls run through a whirl, 1 or -1: one in the outer ring falls behind, another overtakes."""
+    return math.copysign(1.0, speed if p[P.GUIDANCE] == OUTER_GUIDED else -speed)
+
+
+@kernel
 def begin_whirl(p, c, speed, even, whirl, w, jac):
     """Put the cage aside and the balls where that puts them; False where there is no solution."""
     turning = math.copysign(w[W.PATTERN + PT.FOUND_TURNING], speed)
     aside = _ASIDE
     if w[W.PATTERN + PT.WAY] != 0.0:
         aside = p[P.LAND_STOP_FRACTION] + _BEHIND_STOP
-        turning = _TURNING * speed
-    # the whirl overtakes the balls
-    ahead = -math.copysign(1.0, speed)
+        turning = _TURNING * land_speed(p, speed)
+    ahead = balls_through(p, speed)
     take(p, even, turning, w)
     return displace_cage(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac)
 
@@ -160,7 +168,7 @@ def whirl_once(p, c, speed, fixed, even, whirl, w, jac):
     holds = fixed if aligned and round_seat else max(fixed, OUTER)
     came = FAILED
     if w[W.PATTERN + PT.ROUND] > 0.0 or begin_whirl(p, c, speed, even, whirl, w, jac):
-        ahead = -math.copysign(1.0, speed)
+        ahead = balls_through(p, speed)
         came = settle_once(p, c, speed, holds, ahead, True, 1.0, whirl, w, jac)
     c[C.LOAD_Y] = load_y
     c[C.LOAD_Z] = load_z
@@ -400,7 +408,8 @@ def move_to_steady(p, y, outcome, w):
     for i in range(Q.CAGE):
         y[Y.Q0 + i] += rest[Y.Q0 + i] - even[Y.Q0 + i]
     k = Y.Q0 + Q.CAGE
+    ring, tilt = guiding_ring(p)
     for i in (Q.Y, Q.Z):
-        y[k + i] += rest[Y.Q0 + i] - even[Y.Q0 + i]
+        y[k + i] += rest[Y.Q0 + ring + i] - even[Y.Q0 + ring + i]
     for i in range(2):
-        y[k + Q.BY + i] += rest[Y.Q0 + Q.INNER_BY + i] - even[Y.Q0 + Q.INNER_BY + i]
+        y[k + Q.BY + i] += rest[Y.Q0 + tilt + i] - even[Y.Q0 + tilt + i]

@@ -10,8 +10,10 @@ longer to find its whirl.
 
 import math
 
+from fmu_bearing.engine.choices import OUTER_GUIDED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.steady.point import (
@@ -72,6 +74,11 @@ def freeze_losses(p, c, y, speed, turning, s, w):
     twist = 0.0
     for j in range(int(p[P.BALLS])):
         twist += w[W.BODY + (Q.OUTER + Q.TURN) * STRIDE + j]
+    if p[P.CAGE] != 0.0 and p[P.GUIDANCE] == OUTER_GUIDED:
+        # the lands brake the cage on the outer ring: all that turns this is what its seat does not hold
+        turn = Q.OUTER + Q.TURN
+        twist = p[P.OUTER_POLAR] * f[F.BODY + turn]
+        twist += c[C.PEDESTAL_ROTATIONAL] * y[Y.Q0 + turn] + c[C.DAMPING_SPIN] * y[Y.V0 + turn]
     lv[L.TWIST] = share * twist
 
 
@@ -250,7 +257,8 @@ def keep_cage(p, lv, y, w):
     """Keep where the cage is in its lands in the state ``y``, whose right-hand side was just evaluated."""
     if p[P.CAGE] == 0.0:
         return
-    cage, ring = Y.Q0 + Q.CAGE, Y.Q0 + Q.INNER
+    guide, _ = guiding_ring(p)
+    cage, ring = Y.Q0 + Q.CAGE, Y.Q0 + guide
     away_y, away_z = y[cage + Q.Y] - y[ring + Q.Y], y[cage + Q.Z] - y[ring + Q.Z]
     rate_y, rate_z = y[Y.V0 + Q.CAGE + Q.Y], y[Y.V0 + Q.CAGE + Q.Z]
     square = away_y * away_y + away_z * away_z

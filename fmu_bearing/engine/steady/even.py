@@ -233,10 +233,10 @@ def equalise_balls(p, c, y, speed):
     # balls lag in the pockets of a cage that the inner ring drives, and lead in those of one that the outer
     # ring brakes; of one that balls guide nothing drives, and either side serves
     lag = (p[P.POCKET_CLEARANCE] + _PRESSED) / p[P.PITCH_RADIUS] if p[P.CAGE] != 0.0 else 0.0
-    if p[P.GUIDANCE] == OUTER_GUIDED:
+    if (speed < 0.0) != (p[P.GUIDANCE] == OUTER_GUIDED):
         lag = -lag
     for j in range(int(p[P.LANES])):
-        y[Y.TH + j] = (2.0 * math.pi * j / p[P.BALLS] if j < balls else 0.0) - math.copysign(lag, speed)
+        y[Y.TH + j] = (2.0 * math.pi * j / p[P.BALLS] if j < balls else 0.0) - lag
     for i in range(Q.SIZE):
         axial = i == Q.INNER or i == Q.OUTER or i == Q.CAGE or i == Q.OUTER + Q.TURN
         if not axial:

@@ -25,9 +25,9 @@ from fmu_bearing.engine.steady.pattern import STENCIL, matrix_at, neighbour, sho
 _GROWING = 0.15
 _TURNING = 0.45
 _BESIDE = 0.02
-# Sides of a land on the inner ring turn at 0.42 and 1 of shaft speed, of one on the outer ring at 0 and 0.42:
-# what a film does there goes with the share of the sums.
-_ON_OUTER = 0.3
+# A film on the outer ring carries a cage round at half the cage's speed, 0.21 of the shaft's; on the inner
+# ring a whirl that grows turned with 0.42 to 0.53 of it: the share of both.
+_ON_OUTER = 0.45
 SHIFTS = 3
 NOTHING = -1e300  # 1/s: growth where no whirl was found; the state of a search has to be numbers
 _ROUNDS = 8  # with each
@@ -187,7 +187,7 @@ def right_side(p, c, rate, fixed, w):
 
 @kernel
 def land_speed(p, speed):
-    """Shaft ``speed`` at which a land on the inner ring would turn as fast as the cage's own lands do."""
+    """Shaft ``speed`` at which a cage on the inner ring would whirl as this one does at ``speed``."""
     return _ON_OUTER * speed if p[P.GUIDANCE] == OUTER_GUIDED else speed
 
 

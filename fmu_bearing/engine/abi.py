@@ -61,7 +61,7 @@ def usable(p, u, w):
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     for b in range(members.bearing_count(p)):
         bearing_inputs(p, u, b, given)
-        if not in_range(p, given):
+        if not in_range(members.parameters(p, b), given):
             return False
     return True
 

@@ -96,9 +96,10 @@ def _show(study: "Modes", highest: float, words: str) -> None:
     from fmu_bearing.modal.modes.mode import Mode
     from fmu_bearing.results.base import table
     from fmu_bearing.results.table import show
+    from fmu_bearing.scene.words import designation_words
 
     typer.echo(
-        f"{study.scene.name}: {study.scene.bearing.designation}, {study.rpm:,.0f} r/min, fidelity full "
+        f"{study.scene.name}: {designation_words(study.scene)}, {study.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
     show("modes", *table(Mode, study.records(highest)))

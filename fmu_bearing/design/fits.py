@@ -22,6 +22,7 @@ from fmu_bearing.formulas.fits import Kind, State, mounting_kelvin
 from fmu_bearing.instance import EngineError
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.fit import (
     SIDES,
     Fit,
@@ -207,6 +208,7 @@ def fits(scene: SceneSource, track: Callable[[Sequence[Take]], Iterable[Take]] =
     max: 79 MPa
     """
     whole = fitted(scene)
+    require(whole, "fits")
     scenes, remarks = _scenes(whole)
     several = whole.fit is not None and bool(_tolerated(whole.fit))
     columns, missing = [], []

@@ -16,6 +16,7 @@ from fmu_bearing.design.heat import Heat, heat_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.member import still_of
 from fmu_bearing.steady.rest import started
 
@@ -117,6 +118,7 @@ def temperatures(scene: Scene, ambient: float = AMBIENT, cooling: float | None =
         Where a node passes `HOTTEST`, or temperatures do not settle: spacers that are pressed together by a
         warm shaft may have no steady state.
     """
+    require(scene, "temperatures")
     scene = still_of(scene)
     links = conductances(scene, cooling)
     places, heats = _settled(scene, links, ambient)

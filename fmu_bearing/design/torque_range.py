@@ -17,6 +17,7 @@ from fmu_bearing.design.measured import Range
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
 from fmu_bearing.instance import EngineError
+from fmu_bearing.prepare.model import land_clearance
 from fmu_bearing.results.base import Quantity, Result, table
 from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
@@ -24,6 +25,7 @@ from fmu_bearing.scene.base import Part
 from fmu_bearing.scene.bearing import Bearing, Cage
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.lubricant import Lubricant
+from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.member import still_of
 from fmu_bearing.scene.values import limits
 from fmu_bearing.steady.rest import parts, started
@@ -220,10 +222,30 @@ def _density(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     return _widest("lubricant.oil_air_density_kg_m3", scene.lubricant.oil_air_density_kg_m3, DENSITY)
 
 
+def _geometries(scene: Scene) -> dict[str, Bearing]:
+    """Return the geometries of a scene by their dotted keys: that of all bearings, then bearings' own."""
+    own = {f"spindle.bearing[{k}].bearing": one.bearing for k, one in enumerate(scene.members, start=1)}
+    return {"bearing": scene.bearing} | {key: one for key, one in own.items() if one is not None}
+
+
+def _materials(scene: Scene) -> dict[str, Material]:
+    """Return the materials of rings and balls by their dotted keys: those of all, then bearings' own."""
+    found = {f"materials.{part}": getattr(scene.materials, part) for part in _EACH}
+    for k, one in enumerate(scene.members, start=1):
+        for part in _EACH:
+            if (own := getattr(one.materials, part, None)) is not None:
+                found[f"spindle.bearing[{k}].materials.{part}"] = own
+    return found
+
+
 def _conformity(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     names = ("inner_conformity", "outer_conformity")
     return _ends(
-        {f"bearing.{name}": _within(Bearing, name, getattr(scene.bearing, name) + change) for name in names}
+        {
+            f"{key}.{name}": _within(Bearing, name, getattr(bearing, name) + change)
+            for key, bearing in _geometries(scene).items()
+            for name in names
+        }
         for change in (-CONFORMITY, CONFORMITY)
     )
 
@@ -235,24 +257,28 @@ def _viscosity(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 
 
 def _hysteresis(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
-    losses = {part: getattr(scene.materials, part).loss for part in _EACH}
-    lossy = {part: loss for part, loss in losses.items() if loss > 0.0}
+    losses = {key: material.loss for key, material in _materials(scene).items()}
+    lossy = {key: loss for key, loss in losses.items() if loss > 0.0}
     if not lossy or not scene.fidelity.terms.rolling_hysteresis:
         return None
     low, high = min(HYSTERESIS[0], *lossy.values()), max(HYSTERESIS[1], *lossy.values())
-    keys = [f"materials.{part}.hysteresis_loss" for part in lossy]
+    keys = [f"{key}.hysteresis_loss" for key in lossy]
     return (f"{low:.4g}", dict.fromkeys(keys, low)), (f"{high:.4g}", dict.fromkeys(keys, high))
 
 
 def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     film = scene.fidelity.terms.land_film and scene.lubricant.land_viscosity_Pa_s != 0.0
-    if scene.bearing.cage is None or p[P.LAND] == 0.0 or not film:
+    caged = {key: one.cage for key, one in _geometries(scene).items() if one.cage is not None}
+    caged = {key: cage for key, cage in caged.items() if cage.guidance != "balls"}
+    if not caged or not film:
         return None
-    half = _within(Cage, "land_clearance_mm", CLEARANCE * 1e3 * float(p[P.LAND_CLEARANCE]))
-    return (
-        ("none", {"fidelity.terms.land_film": False}),
-        (f"in {half:.3g} mm", {"bearing.cage.land_clearance_mm": half}),
-    )
+    halves: _Values = {}
+    for key, cage in caged.items():
+        of_key = scene.model_copy(update={"bearing": _geometries(scene)[key]})
+        mine = land_clearance(of_key, cage) if scene.differing else float(p[P.LAND_CLEARANCE])
+        halves[f"{key}.cage.land_clearance_mm"] = _within(Cage, "land_clearance_mm", CLEARANCE * 1e3 * mine)
+    words = " / ".join(f"{half:.3g}" for half in dict.fromkeys(halves.values()))
+    return ("none", {"fidelity.terms.land_film": False}), (f"in {words} mm", halves)
 
 
 def _supply(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:

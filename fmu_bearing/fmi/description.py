@@ -21,6 +21,7 @@ from fmu_bearing.interface import Variable
 from fmu_bearing.interface.inputs import led_inputs
 from fmu_bearing.interface.parameters import RADIATORS
 from fmu_bearing.scene.designation import ascii_word
+from fmu_bearing.scene.words import designation_words
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -112,7 +113,7 @@ def identifier(scene: "Scene") -> str:
     That of a set begins with ``Spindle``.
     """
     what = "Spindle" if scene.assembly.joined else "Bearing"
-    return what + ascii_word(scene.bearing.designation)
+    return what + ascii_word(designation_words(scene))
 
 
 def fmi_type(variable: Variable) -> str:
@@ -206,7 +207,7 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
 
 
 def _about(scene: "Scene") -> str:
-    designation, assembly = scene.bearing.designation, scene.assembly
+    designation, assembly = designation_words(scene), scene.assembly
     if not assembly.joined:
         return (
             f"Angular contact ball bearing {designation} on its mounting: "

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_bearing.fmi.description import FLAVOURS, interface_guid, items
 from fmu_bearing.fmi.units import UNITS
 from fmu_bearing.interface import Variable
+from fmu_bearing.scene.words import designation_words
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -107,7 +108,7 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
 
 def _subject(scene: "Scene") -> dict[str, str]:
     """Return what is modelled: heading, a paragraph about it, and its axes."""
-    designation, balls = escape(scene.bearing.designation), str(scene.bearing.ball_count)
+    designation, balls = escape(designation_words(scene)), str(scene.bearing.ball_count)
     assembly = scene.assembly
     if not assembly.joined:
         about = _BEARING.format(balls=balls)
@@ -115,6 +116,8 @@ def _subject(scene: "Scene") -> dict[str, str]:
     count = len(assembly.members)
     places = ", ".join(f"{member.position_mm:g} mm ({member.carries})" for member in assembly.members)
     arrangement = escape(assembly.arrangement)
+    if scene.differing:
+        balls = ", ".join(str(one.ball_count) for one in scene.geometries)
     words = {"count": str(count), "balls": balls, "arrangement": arrangement, "places": places}
     if scene.on_other_shaft:
         heading = f"{count} x {designation} at a mechanical port"

@@ -159,7 +159,7 @@ def _symmetric(most: float) -> dict[str, float]:
 
 def _fastest(scene: Scene) -> float:
     """Return the largest shaft speed (rad/s), in five digits, rounded up."""
-    most = scene.bearing.most_speed * RPM
+    most = scene.most_speed * RPM
     digits = 10.0 ** (math.floor(math.log10(most)) - 4)
     return math.ceil(most / digits) * digits
 
@@ -198,12 +198,12 @@ def _of_shaft(scene: Scene, start: NDArray[np.float64]) -> list[Row]:
     """Return what shaft, housing and each bearing of a set are given beside the speed."""
     spindle, rows = set_of(scene), list[Row]()
     if not spindle.shaft.external:
-        most = (*spindle.most_loads(scene.bearing), *[largest_moment(scene, start)] * 2)
+        most = (*spindle.most_loads(scene.geometries), *[largest_moment(scene, start)] * 2)
         for k, ((name, text, more), limit) in enumerate(zip(_LOADS, most, strict=True)):
             rows.append((U.NOSE + k, name, text, more | _symmetric(limit)))
     if spindle.preload is not None and spindle.preload.kind == "spring":
         text = "Force of each spring on its sliding outer ring, at standstill and 20 degC"
-        most_preload = scene.bearing.most_preload
+        most_preload = min(one.most_preload for one in scene.geometries)
         rows.append((U.PRELOAD, "preload", text, {**_FORCE, "min": 0.0, "max": most_preload}))
     for place, part, ends in ((U.SHAFT_T, "shaft", "bearings"), (U.HOUSING_T, "housing", "seats")):
         text = f"Mean temperature that lengthens the {part} between its {ends}"

@@ -43,7 +43,7 @@ def microphones(scene: Scene, causality: str, first: int) -> list[Variable]:
     table = []
     for k, (name, _) in enumerate(scene.microphones):
         for i, (label, words) in enumerate(words_of):
-            absent = label == "spl_cage" and scene.bearing.cage is None
+            absent = label == "spl_cage" and all(one.cage is None for one in scene.geometries)
             if absent or (label in _PARTIAL) != (causality == "local"):
                 continue
             unit = "Pa" if label == "pressure" else "dB"

@@ -23,14 +23,14 @@ def outputs_of(scene: Scene) -> list[Variable]:
     """Return the outputs: the shaft's, sums over the bearings, then outputs of each bearing."""
     if not scene.assembly.joined:
         return outputs(scene)
-    single = outputs(one_of(scene))
-    shared = [variable for variable in single if variable.name in SP.OUTPUTS]
+    each = [outputs(one_of(scene, b)) for b in range(_count(scene))]
+    shared = [variable for variable in each[0] if variable.name in SP.OUTPUTS]
     table = [
         *(_port(scene) if scene.on_other_shaft else _nose(scene)),
         *_housing(scene, "output"),
         *(_sum(scene, one) for one in shared),
     ]
-    for b in range(_count(scene)):
+    for b, single in enumerate(each):
         table += [*_forces(scene, b), *_of_bearing(scene, b, single)]
     return table + _microphone_variables(scene, "output")
 
@@ -39,12 +39,11 @@ def internals_of(scene: Scene) -> list[Variable]:
     """Return the local variables: the housing's and the solver's, then variables of each bearing."""
     if not scene.assembly.joined:
         return internals(scene)
-    single = internals(one_of(scene))
-    own = [variable for variable in single if variable.name in SP.OUTPUTS]
+    each = [internals(one_of(scene, b)) for b in range(_count(scene))]
+    own = [variable for variable in each[0] if variable.name in SP.OUTPUTS]
     table = [*_stiffness(scene), *_housing(scene, "local"), *(_shared(scene, one) for one in own)]
-    single = [variable for variable in single if variable not in own]
-    for b in range(_count(scene)):
-        table += _of_bearing(scene, b, single)
+    for b, single in enumerate(each):
+        table += _of_bearing(scene, b, [variable for variable in single if variable not in own])
     return [*table, *_microphone_variables(scene, "local"), *_alone(scene)]
 
 
@@ -53,7 +52,7 @@ def first_output(scene: Scene, number: int) -> int:
 
     ``prepare`` lays them out so, each as of a single bearing without sound.
     """
-    return number * Z.size(scene.bearing.ball_count, 0, 0, scene.flexural_modes)
+    return sum(Z.size(one.ball_count, 0, 0, scene.flexural_modes) for one in scene.geometries[:number])
 
 
 def _count(scene: Scene) -> int:

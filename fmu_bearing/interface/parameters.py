@@ -1,6 +1,7 @@
 """Parameters, which are set before initialisation, and constants, which are fixed when the model is built."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any, get_args
 
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
@@ -57,7 +58,8 @@ def parameters(scene: Scene) -> list[Variable]:
 def _interferences(scene: Scene) -> list[Variable]:
     """Return the interferences of shaft and housing, of a set those of all bearings."""
     table = []
-    places = ("shaft", scene.bearing.bore_mm), ("housing", scene.bearing.outside_diameter_mm)
+    first = scene.geometries[0]
+    places = ("shaft", first.bore_mm), ("housing", first.outside_diameter_mm)
     for race, ((name, seat_mm), found) in enumerate(zip(places, interferences(scene), strict=True)):
         if found is not None:
             words = f"Interference with the {name} on diameter at 20 degC and standstill, + tight"
@@ -93,7 +95,15 @@ def constants(scene: Scene, rotor_inertia: float, rings: tuple[float, float, flo
     if scene.imperfections is not None:
         seed = scene.imperfections.seed
         table.append(_whole("imperfection.seed", "Seed of the imperfections", seed))
-    table += _ratings(scene)
+    if scene.differing:
+        for bearing in scene.bearings():
+            head, words = bearing.prefix, f"Bearing {bearing.number}: "
+            table += [
+                replace(one, name=head + one.name, description=words + one.description)
+                for one in _ratings(bearing.scene)
+            ]
+    else:
+        table += _ratings(scene)
     table += _arrangement(scene.assembly.members)
     for k, (name, place) in enumerate(scene.microphones):
         for axis, metres in zip("xyz", place, strict=True):

@@ -43,7 +43,8 @@ class AxisWatch(RatesWatch):
 
 def frequencies(rates: NDArray[np.float64], scene: Scene) -> tuple[KinematicFrequencies, ...]:
     """Return the frequencies (Hz) of each bearing at the scene's speed from `RatesWatch.rates`."""
-    shaft, balls = scene.operation.speed_rpm * RPM, scene.bearing.ball_count
+    shaft = scene.operation.speed_rpm * RPM
     return tuple(
-        run_rates.frequencies(shaft, orbit, spin, balls) for orbit, spin in rates.mean(axis=0).tolist()
+        run_rates.frequencies(shaft, orbit, spin, bearing.ball_count)
+        for bearing, (orbit, spin) in zip(scene.geometries, rates.mean(axis=0).tolist(), strict=True)
     )

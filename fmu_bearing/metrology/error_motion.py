@@ -258,7 +258,7 @@ def _speeds(scene: Scene, speeds: Sequence[float] | float | None) -> list[float]
     distinct = list(dict.fromkeys(number("speeds", one) for one in asked))
     if not distinct:
         raise ValueError("speeds: none is given; give r/min, or leave speeds out for the scene's own")
-    most = scene.bearing.most_speed
+    most = scene.most_speed
     for speed in distinct:
         if abs(speed) > most:
             raise ValueError(f"speeds: {speed:g} r/min is refused: allowed are {-most:g} to {most:g} r/min")

@@ -70,14 +70,25 @@ def rotor_inertia(scene: Scene) -> float:
     """Polar inertia (kg m2) of all that turns with the shaft's speed: rotor or shaft, and inner rings."""
     shaft = scene.assembly.shaft
     turning = sum(section.polar for section in shaft_sections(scene, shaft)) if shaft else rotor(scene).polar
-    return turning + len(scene.bearings()) * inner_ring(scene).polar
+    return turning + sum(len(places) * ring.polar for ring, places in _inner_rings(scene).items())
 
 
 def rings_at_port(scene: Scene) -> tuple[float, float, float]:
     """Mass (kg), mass times X (kg m), inertia about Y or Z at X = 0 (kg m2) of the inner rings."""
-    ring, places = inner_ring(scene), [bearing.position for bearing in scene.bearings()]
-    about = len(places) * ring.transverse + ring.mass * sum(x * x for x in places)
-    return len(places) * ring.mass, ring.mass * sum(places), about
+    mass = static = about = 0.0
+    for ring, places in _inner_rings(scene).items():
+        mass += len(places) * ring.mass
+        static += ring.mass * sum(places)
+        about += len(places) * ring.transverse + ring.mass * sum(x * x for x in places)
+    return mass, static, about
+
+
+def _inner_rings(scene: Scene) -> dict[RigidBody, list[float]]:
+    """Return the different inner rings of a scene, each with its places (m from the nose)."""
+    rings: dict[RigidBody, list[float]] = {}
+    for bearing in scene.bearings():
+        rings.setdefault(inner_ring(bearing.scene), []).append(bearing.position)
+    return rings
 
 
 def housing(scene: Scene) -> RigidBody:

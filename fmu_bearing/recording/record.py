@@ -150,8 +150,9 @@ def record(
     bearing = begin(Instance(model, growth=warn and not doubted), drives)
     first = round(settle * SD.RATE)
     size = round(duration * SD.RATE)
-    whirl = () if scene.bearing.cage is None else WHIRL
-    names = of_each(scene, dict.fromkeys((*outputs, *DOUBTS, *whirl)))
+    caged = [one.prefix for one in scene.bearings() if one.scene.bearing.cage is not None]
+    whirl = [head + name for head in caged for name in WHIRL]
+    names = tuple(dict.fromkeys((*of_each(scene, dict.fromkeys((*outputs, *DOUBTS))), *whirl)))
     kept = _Readings(bearing, names, first + size + TAIL, watch)
     kept.read()
     total, longest = len(kept.rows) / SD.RATE, min(step, (kept.depth - 8) / SD.RATE)

@@ -16,6 +16,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.bearing import Bearing
 
 _ROWS = (Y.OM, Y.WX, Y.WR, Y.WT)
 _MEANS = ("balls.orbit_mean", "balls.spin_mean")
@@ -25,14 +26,14 @@ class RatesWatch:
     """Reads the rates of the balls at each call, for ``simulate(watch=...)``."""
 
     def __init__(self) -> None:
-        self._places: NDArray[np.int_] | None = None  # of rates in the state, shape (bearings, 4, balls)
+        self._places: list[NDArray[np.int_]] | None = None  # of rates in the state
         self._rates: list[NDArray[np.float64]] = []
 
     def __call__(self, instance: Instance) -> None:
         """Read the present state."""
         if self._places is None:
             self._places = _places(instance)
-        self._rates.append(_means(np.moveaxis(instance.s[self._places], 1, 0)))
+        self._rates.append(np.array([_means(instance.s[places]) for places in self._places]))
 
     @property
     def rates(self) -> NDArray[np.float64]:
@@ -60,8 +61,7 @@ def rates_of(outputs: Mapping[str, NDArray[np.float64]], scene: Scene) -> NDArra
 def ball_rates(part: Readable) -> tuple[float, float]:
     """Return mean orbit and spin (rad/s) of the balls of one bearing in its state."""
     count = int(part.p[P.BALLS])
-    orbit, spin = _means(np.array([[part.s[S.Y + row : S.Y + row + count]] for row in _ROWS]))[0]
-    return float(orbit), float(spin)
+    return _means(np.array([part.s[S.Y + row : S.Y + row + count] for row in _ROWS]))
 
 
 def frequencies(shaft: float, orbit: float, spin: float, balls: int) -> KinematicFrequencies:
@@ -70,23 +70,23 @@ def frequencies(shaft: float, orbit: float, spin: float, balls: int) -> Kinemati
     return KinematicFrequencies(f_r, f_c, f_b, balls * (f_r - f_c), balls * f_c)
 
 
-def by_cage(scene: Scene, speed: float, ratio: float) -> KinematicFrequencies:
+def by_cage(bearing: Bearing, speed: float, ratio: float) -> KinematicFrequencies:
     """Return the frequencies (Hz) of balls that roll, and orbit at a share of the shaft's speed (rad/s).
 
     Without sliding the orbit gives the share of the pitch that the balls' circles take.
     """
-    b = si(scene.bearing)
+    b = si(bearing)
     share = 1.0 - 2.0 * ratio
     spin = 0.5 * speed * b.pitch_diameter / b.ball_diameter * (1.0 - share**2)
     return frequencies(speed, ratio * speed, spin, b.ball_count)
 
 
-def _means(rates: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return mean orbit and spin of the balls of each bearing; ``rates``: shape (4, bearings, balls)."""
+def _means(rates: NDArray[np.float64]) -> tuple[float, float]:
+    """Return mean orbit and spin of the balls of a bearing; ``rates``: shape (4, balls)."""
     orbit, about_x, about_r, about_t = rates
     # spins are absolute: a wave of a ball passes a race by the spin in the axes that orbit
     spin = np.sqrt((about_x - orbit) ** 2 + about_r**2 + about_t**2)
-    return np.column_stack([np.abs(orbit.mean(axis=1)), spin.mean(axis=1)])
+    return float(np.abs(orbit.mean())), float(spin.mean())
 
 
 def _names(scene: Scene) -> list[tuple[str, str]]:
@@ -95,11 +95,10 @@ def _names(scene: Scene) -> list[tuple[str, str]]:
     return [(bearing.prefix + orbit, bearing.prefix + spin) for bearing in scene.bearings()]
 
 
-def _places(instance: Instance) -> NDArray[np.int_]:
+def _places(instance: Instance) -> list[NDArray[np.int_]]:
+    """Return the places of the rates in the state, of each bearing an array of shape (4, balls)."""
     everything = np.arange(len(instance.s))
-    return np.array(
-        [
-            [everything[at_s][S.Y + row : S.Y + row + int(instance.p[at_p][P.BALLS])] for row in _ROWS]
-            for at_p, at_s in parts_of(instance.p)
-        ]
-    )
+    return [
+        np.array([everything[at_s][S.Y + row : S.Y + row + int(instance.p[at_p][P.BALLS])] for row in _ROWS])
+        for at_p, at_s in parts_of(instance.p)
+    ]

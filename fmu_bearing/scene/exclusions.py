@@ -20,8 +20,10 @@ Subject = Literal[
     "changes",
     "channels",
     "comparison",
+    "diagram",
     "error motion",
     "fidelities",
+    "fits",
     "housing",
     "identification",
     "load",
@@ -34,6 +36,7 @@ Subject = Literal[
     "shaft",
     "short runs",
     "statics",
+    "temperatures",
     "tradeoff",
     "unbalance",
     "vibration test",
@@ -150,6 +153,10 @@ _PAPER_SET = Kind(
     "a set with a paper's radiation model", lambda one: _sounds(one) and _model(one).startswith("paper")
 )
 _PORT = Kind("a set on another model's shaft (`spindle.shaft.external`)", lambda one: one.on_other_shaft)
+_DIFFERING = Kind(
+    "a set of bearings that differ (`bearing` or `materials` of a `[[spindle.bearing]]`)",
+    lambda one: one.differing,
+)
 _BENDING = Kind("a scene whose rings bend", lambda one: one.bends)
 _ROUND = Kind(
     "a scene of fidelity rings or response", lambda one: one.fidelity.model in ("rings", "response")
@@ -279,6 +286,33 @@ EXCLUSIONS = (
         "it is the eccentricity of all that turns, which belongs to the model that owns the shaft",
         "leave the key out and give the unbalance to that model",
         _unbalance,
+    ),
+    Exclusion(
+        _DIFFERING,
+        {
+            "diagram": "a Campbell diagram",
+            "measurement": "a measurement of sound",
+            "report": "a report",
+        },
+        "they name lines by the frequencies of one bearing, and those of its bearings differ",
+        "read modes (`modes`), levels and motion of a run (`simulate`), or give all bearings the tables of "
+        "the scene",
+    ),
+    Exclusion(
+        _DIFFERING,
+        {
+            "changes": "a study of changes",
+            "tradeoff": "a trade-off study",
+            "sensitivity": "a sensitivity study",
+        },
+        "they change `[bearing]` and `[materials]`, which not all of its bearings have",
+        "run a sweep over keys of your own (`sweep`)",
+    ),
+    Exclusion(
+        _DIFFERING,
+        {"fits": "a table of its fits", "temperatures": "temperatures that are computed"},
+        "they are of one size of bearings",
+        "give interferences and temperatures, or ask for a scene of each size",
     ),
     BENDING,
     ROUND,

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from fmu_bearing.formulas.tolerances import ToleranceError
 from fmu_bearing.scene.base import Conflict
+from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.fit import bore_at, by_classes, housing_outside
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.seats import (
@@ -45,6 +46,14 @@ def conflicts(tables: Tables) -> Iterator[Conflict]:
     yield from _preload(tables, fit, where)
 
 
+def _geometries(tables: Tables) -> Iterator[tuple[str, Bearing, list[int]]]:
+    """Yield key, geometry and the numbers from 0 of the bearings that have it; of a single one none."""
+    own = [k for k, one in enumerate(tables.members) if one.bearing is not None]
+    yield "bearing", tables.bearing, [k for k in range(len(tables.members)) if k not in own]
+    for k in own:
+        yield f"spindle.bearing[{k + 1}].bearing", tables.geometries[k], [k]
+
+
 def _own(tables: Tables, side: Side) -> list[tuple[str, float | None]]:
     """Return key and value of what each bearing of a set has of its own."""
     key = f"{side.seat}_interference_um"
@@ -66,23 +75,28 @@ def _without_table(tables: Tables) -> Iterator[Conflict]:
 
 def _given(tables: Tables, fit: Fit, seat: Seat, side: Side, where: str) -> Iterator[Conflict]:
     """Yield seats whose interference is not given, or is larger than any ring bears."""
-    diameter = getattr(tables.bearing, side.diameter_key)
-    most = 1e3 * diameter / SMALLEST_RATIO
     own = _own(tables, side)
-    values = [(f"{where}.{side.seat}.interference_um", seat.interference_um, "")]
-    values += [(key, value, f"= {value:g} ") for key, value in own if value is not None]
-    for key, value, shown in values:
-        if value is not None and abs(value) > most:
-            yield Conflict(
-                key,
-                f"{shown}is beyond 1/500 of the seat's diameter bearing.{side.diameter_key} = {diameter:g}; "
-                f"allowed: {-most:g} to {most:g} um",
-            )
     key = f"{where}.{side.seat}.{side.class_key}"
     wanted = getattr(seat, side.class_key)
+    for place, bearing, numbers in _geometries(tables):
+        diameter = getattr(bearing, side.diameter_key)
+        most = 1e3 * diameter / SMALLEST_RATIO
+        values = [(f"{where}.{side.seat}.interference_um", seat.interference_um, "")]
+        mine = [own[k] for k in numbers]
+        values += [(of_one, value, f"= {value:g} ") for of_one, value in mine if value is not None]
+        for of_one, value, shown in values:
+            if value is not None and abs(value) > most:
+                yield Conflict(
+                    of_one,
+                    f"{shown}is beyond 1/500 of the seat's diameter {place}.{side.diameter_key} = "
+                    f"{diameter:g}; allowed: {-most:g} to {most:g} um",
+                )
+        if wanted is not None:
+            one = tables.model_copy(update={"bearing": bearing})
+            yield from _by_classes(one, fit, side, key, most)
     if wanted is not None:
-        yield from _by_classes(tables, fit, side, key, most)
-    elif seat.interference_um is None and not (own and all(value is not None for _, value in own)):
+        return
+    if seat.interference_um is None and not (own and all(value is not None for _, value in own)):
         example = "js4" if side is SHAFT else "JS5"
         each = f", or {side.seat}_interference_um to every [[spindle.bearing]]" if own else ""
         yield Conflict(
@@ -117,19 +131,19 @@ def _by_classes(tables: Tables, fit: Fit, side: Side, key: str, most: float) -> 
 
 def _wall(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
     """Yield effective diameters inside the groove: a ring of such a section has no race."""
-    bearing = tables.bearing
-    if side is SHAFT:
-        key, bottom = "inner_ring_outer_diameter_mm", bearing.pitch_diameter_mm - bearing.ball_diameter_mm
-        wall, word = bearing.inner_ring_outer_diameter_mm - bottom, "exceed"
-    else:
-        key, bottom = "outer_ring_inner_diameter_mm", bearing.pitch_diameter_mm + bearing.ball_diameter_mm
-        wall, word = bottom - bearing.outer_ring_inner_diameter_mm, "be below"
-    if wall <= 0.0:
-        yield Conflict(
-            f"bearing.{key}",
-            f"leaves no wall around the race: with [{where}.{side.seat}] the effective diameter must {word} "
-            f"that of the race's bottom, {bottom:g} mm",
-        )
+    for place, bearing, _ in _geometries(tables):
+        if side is SHAFT:
+            key, bottom = "inner_ring_outer_diameter_mm", bearing.pitch_diameter_mm - bearing.ball_diameter_mm
+            wall, word = bearing.inner_ring_outer_diameter_mm - bottom, "exceed"
+        else:
+            key, bottom = "outer_ring_inner_diameter_mm", bearing.pitch_diameter_mm + bearing.ball_diameter_mm
+            wall, word = bottom - bearing.outer_ring_inner_diameter_mm, "be below"
+        if wall <= 0.0:
+            yield Conflict(
+                f"{place}.{key}",
+                f"leaves no wall around the race: with [{where}.{side.seat}] the effective diameter must "
+                f"{word} that of the race's bottom, {bottom:g} mm",
+            )
 
 
 def _bending(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
@@ -147,7 +161,7 @@ def _bending(tables: Tables, side: Side, where: str) -> Iterator[Conflict]:
 
 def _shaft(tables: Tables, seat: ShaftFit, where: str) -> Iterator[Conflict]:
     """Yield a shaft that is not known, or leaves nothing under the seat."""
-    spindle, limit = tables.spindle, tables.bearing.bore_mm
+    spindle, limit = tables.spindle, min(one.bore_mm for one in tables.geometries)
     key = f"{where}.shaft"
     if spindle is not None and spindle.shaft.external:
         if seat.bore_mm is None:
@@ -166,8 +180,8 @@ def _shaft(tables: Tables, seat: ShaftFit, where: str) -> Iterator[Conflict]:
         if seat.bore_mm >= limit:
             yield Conflict(f"{key}.bore_mm", f"must be below the seat's diameter bearing.bore_mm = {limit:g}")
     elif spindle is not None and not spindle.shaft.external:
-        for k in range(len(spindle.bearing)):
-            if (bore := bore_at(tables, k)) >= limit:
+        for k, one in enumerate(tables.geometries):
+            if (bore := bore_at(tables, k)) >= (limit := one.bore_mm):
                 yield Conflict(
                     "spindle.shaft.sections_mm",
                     f"the bore of {bore:g} mm at bearing {k + 1} must be below the seat's diameter "
@@ -177,7 +191,7 @@ def _shaft(tables: Tables, seat: ShaftFit, where: str) -> Iterator[Conflict]:
 
 def _housing(tables: Tables, seat: HousingFit, where: str) -> Iterator[Conflict]:
     """Yield a housing whose wall is not known, or leaves nothing around the seat."""
-    outside, limit = housing_outside(tables), tables.bearing.outside_diameter_mm
+    outside, limit = housing_outside(tables), max(one.outside_diameter_mm for one in tables.geometries)
     body = f"{where.split('.')[0]}.housing.diameter_mm"
     key = f"{where}.housing.outside_diameter_mm"
     if outside is None:

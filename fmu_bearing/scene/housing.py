@@ -1,6 +1,6 @@
 """The housing of a set where it radiates: its place, and what does not fit into it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from fmu_bearing.scene.base import Conflict
 from fmu_bearing.scene.bearing import Bearing
@@ -26,21 +26,21 @@ def envelope(spindle: Spindle) -> tuple[float, float, float] | None:
     return 0.5 * diameter, middle - 0.5 * length, middle + 0.5 * length
 
 
-def conflicts(spindle: Spindle, bearing: Bearing) -> Iterator[Conflict]:
+def conflicts(spindle: Spindle, geometries: Sequence[Bearing]) -> Iterator[Conflict]:
     """Yield why a housing that moves cannot radiate: its size, and bearings that are not inside."""
     cylinder = envelope(spindle)
     if cylinder is None:
         return
     radius, front, rear = cylinder
-    limit = bearing.outside_diameter_mm
+    limit = max(one.outside_diameter_mm for one in geometries)
     if 2.0 * radius <= limit:
         yield Conflict(
             "spindle.housing.diameter_mm",
             f"must exceed bearing.outside_diameter_mm = {limit:g} where the housing radiates: enlarge "
             f"it, {_BACK}",
         )
-    half = 0.5 * bearing.width_mm
-    for number, one in enumerate(spindle.bearing, start=1):
+    for number, (one, bearing) in enumerate(zip(spindle.bearing, geometries, strict=True), start=1):
+        half = 0.5 * bearing.width_mm
         low, high = one.position_mm - half, one.position_mm + half
         if low < front - SKIN or high > rear - SKIN:  # closed behind the bearings
             yield Conflict(

@@ -85,6 +85,28 @@ class Materials(Part):
         return self.kind in ("steel", "hybrid")
 
 
+class OwnMaterials(Part):
+    """Materials of one bearing of a set; those that are absent are the scene's."""
+
+    inner_ring: Material | None = Field(
+        default=None, examples=["GCr15"], description="Material of its inner ring (absent: the scene's)."
+    )
+    outer_ring: Material | None = Field(
+        default=None, examples=["GCr15"], description="Material of its outer ring (absent: the scene's)."
+    )
+    balls: Material | None = Field(
+        default=None, examples=["Si3N4"], description="Material of its balls (absent: the scene's)."
+    )
+    cage: Material | None = Field(
+        default=None, examples=["bakelite"], description="Material of its cage (absent: the scene's)."
+    )
+
+    def over(self, common: Materials) -> Materials:
+        """Return the scene's materials with these in their places."""
+        own = {key: getattr(self, key) for key in OwnMaterials.model_fields}
+        return common.model_copy(update={key: one for key, one in own.items() if one is not None})
+
+
 def _is_steel(one: Material) -> bool:
     dense = _STEEL_DENSITY[0] < one.density_kg_m3 < _STEEL_DENSITY[1]
     return dense and _STEEL_MODULUS[0] < one.youngs_modulus_GPa < _STEEL_MODULUS[1]

@@ -77,6 +77,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
     set's, for what depends on the width of a contact.
     """
     spindle = set_of(scene)
+    tables = {"bearing": scene.geometries[number], "materials": scene.materials_of_each[number]}
     housing, one = spindle.housing, spindle.bearing[number]
     mounting = Mounting(
         preload_N=0.0,
@@ -91,13 +92,14 @@ def one_of(scene: Given, number: int = 0) -> Given:
         misalignment_z_mrad=one.sign * one.misalignment_z_mrad,
         flexure=spindle.flexure,
     )
-    own = {"preload_N": usual_loads(spindle)[number], "fit": fit_of_member(scene, number)}
+    fit = fit_of_member(scene.model_copy(update=tables), number)
+    own = {"preload_N": usual_loads(spindle)[number], "fit": fit}
     mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
         flaws = flaws.reseeded(number)
     changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
-    return scene.model_copy(update=changes)
+    return scene.model_copy(update=tables | changes)
 
 
 def still_of(scene: Given) -> Given:
@@ -116,8 +118,8 @@ def radiating(scene: Given, number: int) -> Given:
     if not scene.members:
         return scene
     alone = one_of(scene, number)
-    length = set_of(scene).shaft.length_mm or scene.bearing.width_mm
-    shaft = Rotor(mass_kg=0.0, length_mm=length, diameter_mm=scene.bearing.bore_mm)
+    length = set_of(scene).shaft.length_mm or alone.bearing.width_mm
+    shaft = Rotor(mass_kg=0.0, length_mm=length, diameter_mm=alone.bearing.bore_mm)
     return alone.model_copy(update={"mounting": alone.mounted.model_copy(update={"rotor": shaft})})
 
 

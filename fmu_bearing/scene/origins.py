@@ -146,13 +146,19 @@ def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
 
 def _references(document: Mapping[str, Any]) -> Iterator[tuple[str, str, str, str]]:
     """Yield table, name, kind of catalogue, and words for each entry that a file names."""
-    for table, kind in _NAMED.items():
-        given = document.get(table)
+    spindle = document.get("spindle")
+    members = spindle.get("bearing", ()) if isinstance(spindle, Mapping) else ()
+    own = [(f"spindle.bearing[{k}].{table}", table, member) for k, member in enumerate(members, start=1)
+           for table in ("bearing", "materials")]  # fmt: skip
+    for table, of_scene, parent in [*((name, name, document) for name in _NAMED), *own]:
+        given, kind = parent.get(of_scene), _NAMED[of_scene]
+        if of_scene == "bearing" and isinstance(given, str):
+            given = {"catalogue": given}
         if not isinstance(given, Mapping):
             continue
         if "catalogue" in given:
             yield table, str(given["catalogue"]), kind, f"catalogue {given['catalogue']}"
-        elif table == "materials":
+        elif of_scene == "materials":
             for body, entry in given.items():
                 name = entry.get("catalogue") if isinstance(entry, Mapping) else entry
                 if name is not None:

@@ -99,6 +99,27 @@ def carried(data: Any) -> list[Any]:
     return [member.get("carries") for member in members if isinstance(member, Mapping)]
 
 
+def differing_preload(data: Mapping[str, Any], key: str) -> list[str]:
+    """Return a line about a class or an offset, given at a key, of bearings that differ; none of equal ones.
+
+    ``data``: a scene's tables, catalogue entries resolved.
+    """
+    spindle = data.get("spindle")
+    members = spindle.get("bearing") if key.startswith("spindle") and isinstance(spindle, Mapping) else None
+    for k, member in enumerate(members if isinstance(members, list | tuple) else (), start=1):
+        own = member if isinstance(member, Mapping) else {}
+        of_all, materials = data.get("materials"), own.get("materials") or {}
+        same = own.get("bearing") in (None, data.get("bearing"))
+        if isinstance(materials, Mapping) and isinstance(of_all, Mapping):
+            same = same and all(one in (None, of_all.get(part)) for part, one in materials.items())
+        if not same:
+            return [
+                f"{key} is of equal bearings, and spindle.bearing[{k}] has tables of its own: makers grind "
+                f"pairs of one size; give {FORCE} in its place"
+            ]
+    return []
+
+
 def preload_key(table: Mapping[str, Any], path: tuple[str, ...] = TABLES[0]) -> str | None:
     """Return the key that gives the preload in place of newtons; None: there is none.
 

@@ -47,6 +47,8 @@ _RESOLVED: dict[Location, tuple[str, ...]] = {
     ("mounting",): ("preload_class", "preload_offset_um"),
     ("spindle", "preload"): ("preload_class", "preload_offset_um"),
 }
+#: Tables that one bearing of a set may have of its own.
+OWN_TABLES = (("spindle", "bearing", "bearing"), ("spindle", "bearing", "materials"))
 _HOMES = 3  # tables that are named where a key could belong
 #: What a set has in place of keys of a single bearing's mounting, and the reverse.
 _COUNTERPARTS = {
@@ -201,7 +203,7 @@ def too_long(tables: dict[str, Any], path: Location = ()) -> Iterator[tuple[Loca
 
 def is_material(path: Location) -> bool:
     """Whether a material is there, which a catalogue entry can name."""
-    return path[0] == "materials" or path[-1] == "material"
+    return path[0] == "materials" or "materials" in path[:-1] or path[-1] == "material"
 
 
 def _range(field: FieldInfo, key: str) -> str:
@@ -249,10 +251,15 @@ def _unknown(path: Location, data: Mapping[str, Any]) -> str:
     key, table = str(path[-1]), path[:-1]
     model = _model_at(table)
     known = list(model.model_fields) if model is not None else []
-    known += ("catalogue",) if table[:1] == ("materials",) else _RESOLVED.get(table, ())
+    like = table[-1:] if _plain(table) in OWN_TABLES else table
+    known += ("catalogue",) if table[:1] == ("materials",) else _RESOLVED.get(like, ())
     is_set = data.get("spindle") is not None or table[:1] == ("spindle",)
     other = "mounting" if is_set else "spindle"
-    homes = [(where, one) for where, one in _tables(Tables) if where != table and where != _plain(table)]
+    homes = [
+        (where, one)
+        for where, one in _tables(Tables)
+        if where not in (table, _plain(table)) and where[:3] not in OWN_TABLES  # like those of all bearings
+    ]
     mine = [(where, one) for where, one in homes if where[:1] != (other,)]
     elsewhere = any("fit" not in where and key in one.model_fields for where, one in homes)
     exact = [

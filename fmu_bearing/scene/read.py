@@ -27,14 +27,24 @@ from fmu_bearing.scene.preload import (
     TABLES,
     PreloadError,
     carried,
+    differing_preload,
     preload,
     preload_key,
     preload_table,
 )
-from fmu_bearing.scene.problems import Location, described, explain, is_material, missing, shown, too_long
+from fmu_bearing.scene.problems import (
+    Location,
+    described,
+    dotted,
+    explain,
+    is_material,
+    missing,
+    shown,
+    too_long,
+)
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.toml_text import LONGEST, parse
-from fmu_bearing.scene.values import plain, put
+from fmu_bearing.scene.values import plain, put, table_at
 
 __all__ = ["Scene", "SceneError", "catalogue", "read_scene", "read_scene_text", "scene_of", "with_fidelity"]
 
@@ -282,12 +292,11 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
     fit_file.make_room(data, given)
     for key, name in given.items():
         *tables, last = key.split(".")
-        part: Any = data
-        for table in tables:
-            part = part.get(table) if isinstance(part, dict) else None
+        part: Any = table_at(data, tables)
         if not isinstance(part, dict):
             continue
-        if last == "catalogue" and (tables in (["bearing"], ["lubricant"]) or tables[:1] == ["materials"]):
+        named = tables[-1:] in (["bearing"], ["lubricant"]) or "materials" in tables[:-1]
+        if last == "catalogue" and named:
             part.clear()
         elif name is not None and key in _PRELOADS and _PRELOADS[key] not in given:
             part.pop(FORCE, None)
@@ -322,22 +331,24 @@ def _resolve(
     Messages about unknown names are added to ``lines``; their tables, which cannot be checked further, to
     ``unresolved``.
     """
-    bearing = data.get("bearing")
-    name = bearing.get("catalogue") if isinstance(bearing, dict) else None
-    if bearings is not None or name in entries("bearings"):
-        _fill(data, ("bearing",), bearings or entries("bearings"), lines, unresolved)
-    elif name is not None:  # it may be in the faulty catalogue
-        unresolved.append(("bearing",))
+    spindle = data.get("spindle")
+    members = spindle.get("bearing") if isinstance(spindle, dict) else None
+    owners: list[tuple[Location, dict[str, Any]]] = [((), data)]
+    for k, member in enumerate(members if isinstance(members, list | tuple) else ()):
+        if isinstance(member, dict):
+            owners.append((("spindle", "bearing", k), member))
+            if isinstance(member.get("bearing"), str):
+                member["bearing"] = {"catalogue": member["bearing"]}
+    for path, owner in owners:
+        _resolve_bearing(owner, path, bearings, lines, unresolved)
     _fill(data, ("lubricant",), entries("lubricants"), lines, unresolved)
-    bearing, materials = data.get("bearing"), data.get("materials")
-    if isinstance(bearing, dict) and bearing.get("cage") is False:
-        del bearing["cage"]  # how a file leaves out the cage that a catalogue entry has
-    if isinstance(materials, dict):
-        for key in (name for name in Materials.model_fields if name in materials):
+    for path, owner in owners:
+        materials: Any = owner.get("materials")
+        named = Materials.model_fields if isinstance(materials, dict) else ()
+        for key in (name for name in named if name in materials):
             if isinstance(materials[key], str):
                 materials[key] = {"catalogue": materials[key]}
-            _fill(materials, ("materials", key), entries("materials"), lines, unresolved)
-    spindle = data.get("spindle")
+            _fill(materials, (*path, "materials", key), entries("materials"), lines, unresolved)
     for path, part in fit_file.bodies(data):
         if isinstance(part.get("material"), str):
             part["material"] = {"catalogue": part["material"]}
@@ -348,6 +359,22 @@ def _resolve(
         flaws.setdefault("unbalance_um", 0.0)  # a grade's is of one bearing's rotor
     _fill(data, ("imperfections",), entries("grades"), lines, unresolved, key="grade")
     _give_preload(data, lines)
+
+
+def _resolve_bearing(
+    parent: dict[str, Any], path: Location, bearings: Mapping[str, Entry] | None, lines: list[str],
+    unresolved: list[Location],
+) -> None:  # fmt: skip
+    """Fill ``bearing`` at a path: of the scene, or of one bearing of a set."""
+    bearing = parent.get("bearing")
+    name = bearing.get("catalogue") if isinstance(bearing, dict) else None
+    if bearings is not None or name in entries("bearings"):
+        _fill(parent, (*path, "bearing"), bearings or entries("bearings"), lines, unresolved)
+    elif name is not None:  # it may be in the faulty catalogue
+        unresolved.append((*path, "bearing"))
+    bearing = parent.get("bearing")
+    if isinstance(bearing, dict) and bearing.get("cage") is False:
+        del bearing["cage"]  # how a file leaves out the cage that a catalogue entry has
 
 
 def _give_preload(data: dict[str, Any], lines: list[str]) -> None:
@@ -361,6 +388,7 @@ def _give_preload(data: dict[str, Any], lines: list[str]) -> None:
             key = preload_key(table, path)
             if key is not None:
                 lines += fit_file.loose_preload(data, path[0], ".".join((*path, key)))
+                lines += differing_preload(data, ".".join((*path, key)))
                 found = preload(table, data.get("bearing"), data.get("materials"), carried(data), path)
         except PreloadError as problem:
             key = CLASS
@@ -387,7 +415,7 @@ def _fill(
         return
     wanted = given.pop(key)
     if not isinstance(wanted, str) or wanted not in known:
-        where = ".".join(path) + ("" if is_material(path) else f".{key}")
+        where = dotted(path) + ("" if is_material(path) else f".{key}")
         others = f"{suggestion(str(wanted), known)}known: {_named(known)}"
         lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {others}")
         unresolved.append(path)

@@ -28,6 +28,8 @@ from fmu_bearing.scene.spindle import SetBearing, Spindle
 #: Letters of any script; names of FMUs' files and libraries are made of the designation, in ASCII.
 NAME = r"^[\p{L}\p{N}][\w. -]{0,59}$"
 _LONGEST_NAME = 60
+#: Bodies that a contact heats.
+_HEATED = ("inner_ring", "outer_ring", "balls")
 #: Below it waves up to 10 kHz would be of higher orders than any race is known for.
 SLOW_RPM = 100.0
 
@@ -71,7 +73,10 @@ class Tables(Part):
 
     def conflicts(self) -> Iterator[Conflict]:
         """Yield conflicts between tables."""
-        if self.bearing.cage is not None and self.materials.cage is None:
+        if any(
+            one.cage is not None and materials.cage is None
+            for one, materials in zip(self.geometries, self.materials_of_each, strict=True)
+        ):
             yield Conflict("materials.cage", 'is missing, for example cage = "bakelite"; the bearing has one')
         yield from self._sizes()
         yield from self._thermal()
@@ -94,12 +99,15 @@ class Tables(Part):
         """Yield what thermal traction misses of the bodies that a contact heats."""
         if not self.fidelity.terms.thermal_traction:
             return
-        for body in ("inner_ring", "outer_ring", "balls"):
-            material = getattr(self.materials, body)
+        bodies = [(f"materials.{body}", getattr(self.materials, body)) for body in _HEATED]
+        for k, member in enumerate(self.members, start=1):
+            own = [(body, getattr(member.materials, body, None)) for body in _HEATED]
+            bodies += [(f"spindle.bearing[{k}].materials.{body}", one) for body, one in own if one]
+        for path, material in bodies:
             for key, example in (("conductivity_W_mK", 46.0), ("specific_heat_J_kgK", 460.0)):
                 if getattr(material, key) is None:
                     yield Conflict(
-                        f"materials.{body}.{key}",
+                        f"{path}.{key}",
                         f"is missing, for example {key} = {example}; fidelity.terms.thermal_traction "
                         "needs it",
                     )
@@ -109,21 +117,22 @@ class Tables(Part):
         if self.spindle is None:
             return
         if self.sound is not None and self.sound.radiator == "housing":
-            yield from housing.conflicts(self.spindle, self.bearing)
+            yield from housing.conflicts(self.spindle, self.geometries)
         flaws = self.imperfections
         if self.operation.lowest_speed_rpm is not None and not (flaws and flaws.follows_law):
             yield Conflict(
                 "operation.lowest_speed_rpm",
                 "has no effect: it sets the highest order of [imperfections] that follow a law; leave it out",
             )
-        width = self.bearing.width_mm
+        wide = [one.width_mm for one in self.geometries]
         for number, (one, other) in enumerate(pairwise(self.spindle.bearing), start=2):
             apart = other.position_mm - one.position_mm
-            if 0.0 < apart < width - SKIN:
+            before, own = wide[number - 2 : number]
+            if 0.0 < apart < 0.5 * (before + own) - SKIN:
+                each = f"each is {own:g}" if own == before else f"they are {before:g} and {own:g}"
                 yield Conflict(
                     f"spindle.bearing[{number}].position_mm",
-                    f"= {other.position_mm:g} is {apart:g} mm behind the bearing before it; each is "
-                    f"{width:g} mm wide",
+                    f"= {other.position_mm:g} is {apart:g} mm behind the bearing before it; {each} mm wide",
                 )
 
     def _behind_plane(self, plane: float) -> Iterator[Conflict]:
@@ -141,13 +150,14 @@ class Tables(Part):
 
         A load on a set is carried by all its bearings, each up to what one alone may carry.
         """
-        speed = self.bearing.most_speed
+        speed = self.most_speed
         words = "n d_m of 2.6e6 mm r/min or more"
         limits = {
             "operation.speed_rpm": SizeLimit(-speed, speed, "r/min", words),
             "operation.lowest_speed_rpm": SizeLimit(10.0, speed, "r/min", words),
         }
-        axial, radial = self.bearing.most_preload, self.bearing.most_radial
+        axial = min(one.most_preload for one in self.geometries)
+        radial = self.bearing.most_radial
         words = "twice the static rating C0 or more"
         preload, across = SizeLimit(0.0, axial, "N", words), SizeLimit(-radial, radial, "N", words)
         if self.mounting is not None:
@@ -157,7 +167,7 @@ class Tables(Part):
             if self.spindle.preload is not None:
                 limits |= {f"spindle.preload.{key}": preload for key in ("preload_N", "force_N")}
             words = f"twice the static rating C0 of its {len(self.spindle.bearing)} bearings or more"
-            for axis, most in zip("xyz", self.spindle.most_loads(self.bearing), strict=True):
+            for axis, most in zip("xyz", self.spindle.most_loads(self.geometries), strict=True):
                 limits[f"spindle.load.force_{axis}_N"] = SizeLimit(-most, most, "N", words)
         return limits
 
@@ -206,7 +216,7 @@ class Tables(Part):
 
     def _envelopes(self) -> Iterator[tuple[str, float, float, float]]:
         """Yield name, radius and axial extent (mm) of the cylinders that radiate; a shaft fills the bore."""
-        half = self.bearing.width_mm / 2.0
+        half = self.geometries[0].width_mm / 2.0
         own = None if self.mounting is None else self.mounting.housing
         if self.sound is not None and self.sound.radiator == "housing" and own is not None:
             front = -half - own.front_face_mm
@@ -215,8 +225,9 @@ class Tables(Part):
             envelopes = housing.envelope(self.spindle)
             if envelopes is not None:
                 yield "housing", *envelopes
-        for name, middle in self._middles():
-            yield name, self.bearing.outside_diameter_mm / 2.0, middle - half, middle + half
+        for (name, middle), one in zip(self._middles(), self.geometries, strict=True):
+            half = one.width_mm / 2.0
+            yield name, one.outside_diameter_mm / 2.0, middle - half, middle + half
 
     def _middles(self) -> list[tuple[str, float]]:
         """Names of the bearings, and their places (mm) along the axis of the microphones."""
@@ -248,6 +259,28 @@ class Tables(Part):
     def members(self) -> tuple[SetBearing, ...]:
         """Bearings of a shaft, from its nose on; none for the one bearing of a mounting."""
         return self.spindle.bearing if self.spindle else ()
+
+    @property
+    def geometries(self) -> tuple[Bearing, ...]:
+        """Geometry of each bearing, of a set from the nose on: its own, or the scene's."""
+        return tuple(member.bearing or self.bearing for member in self.members) or (self.bearing,)
+
+    @property
+    def materials_of_each(self) -> tuple[Materials, ...]:
+        """Materials of each bearing, of a set from the nose on: its own over the scene's."""
+        own = (member.materials for member in self.members)
+        return tuple(one.over(self.materials) if one else self.materials for one in own) or (self.materials,)
+
+    @property
+    def most_speed(self) -> float:
+        """Largest amount of a speed (r/min) that may be given: what the largest bearing may have."""
+        return min(one.most_speed for one in self.geometries)
+
+    @property
+    def differing(self) -> bool:
+        """Whether the bearings of a set differ in geometry or materials."""
+        each = list(zip(self.geometries, self.materials_of_each, strict=True))
+        return any(one != each[0] for one in each)
 
     @property
     def fit(self) -> Fit | None:

@@ -1,6 +1,6 @@
-"""Several equal bearings on one shaft: where they are, which way they carry, what preloads them."""
+"""Several bearings on one shaft: where they are, which way they carry, what preloads them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Literal
 
@@ -8,7 +8,7 @@ from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
-from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.material import Material, OwnMaterials
 from fmu_bearing.scene.mounting import AxesAngle, AxesRatio, Flexure, SeatTiltY, SeatTiltZ
 from fmu_bearing.scene.seats import LARGEST_UM, Fit
 from fmu_bearing.scene.shaft import LONG, Shaft, ShaftTiltSupport
@@ -32,7 +32,7 @@ DIRECTIONS = {
 
 
 class SetBearing(Part):
-    """One bearing of the set; `[bearing]`, `[materials]` and `[lubricant]` serve all."""
+    """One bearing of the set; `[bearing]`, `[materials]` and `[lubricant]` serve all without their own."""
 
     position_mm: float = Field(
         ge=0, le=LONG, examples=[40.0], description="Plane of the ball centres from the shaft's nose, mm."
@@ -72,6 +72,13 @@ class SetBearing(Part):
         description="Interference of its outer ring in the housing, on diameter, + tight (absent: that of "
         "[spindle.fit.housing]), um.",
     )  # fmt: skip
+    bearing: Bearing | None = Field(
+        default=None,
+        description="Its own geometry in the place of [bearing]: a table, or the name of a catalogue entry.",
+    )
+    materials: OwnMaterials | None = Field(
+        default=None, description="Its own materials in the place of those of [materials]."
+    )
 
     @property
     def sign(self) -> int:
@@ -203,7 +210,7 @@ class Load(Part):
 
 
 class Spindle(Part):
-    """A set of equal bearings on one shaft. It takes the place of `[mounting]`."""
+    """A set of bearings on one shaft. It takes the place of `[mounting]`."""
 
     shaft: Shaft = Field(description="The shaft.")
     bearing: tuple[SetBearing, ...] = Field(
@@ -247,6 +254,23 @@ class Spindle(Part):
         yield from self._springs()
         yield from self._pedestals()
         yield from self._round()
+        yield from self._unread()
+
+    def _unread(self) -> Iterator[Conflict]:
+        """Yield tables of the scene that no bearing reads, because each has its own."""
+        if all(one.bearing is not None for one in self.bearing):
+            yield Conflict(
+                "bearing",
+                "all have a geometry of their own, and nothing reads the table [bearing] of the scene: leave "
+                "out `bearing` of those that are equal to one another, and give theirs as [bearing]",
+            )
+        for key in OwnMaterials.model_fields:
+            if all(one.materials is not None and getattr(one.materials, key) for one in self.bearing):
+                yield Conflict(
+                    "bearing",
+                    f"all have their own materials.{key}, and nothing reads that of [materials]: leave it "
+                    f"out of those that are equal to one another, and give theirs as materials.{key}",
+                )
 
     def _held(self) -> Iterator[Conflict]:
         """Yield a set that carries one direction alone, and nothing pushes the shaft that way."""
@@ -327,11 +351,13 @@ class Spindle(Part):
                     'seat = "pedestal"',
                 )
 
-    def most_loads(self, bearing: Bearing) -> tuple[float, float, float]:
-        """Return the largest load (N) along x, y and z that its bearings together may be given."""
-        number = len(self.bearing)
-        across = number * bearing.most_radial
-        return number * bearing.most_preload, across, across
+    def most_loads(self, geometries: Sequence[Bearing]) -> tuple[float, float, float]:
+        """Return the largest load (N) along x, y and z that its bearings together may be given.
+
+        ``geometries``: of each bearing, see `Tables.geometries`.
+        """
+        across = sum(one.most_radial for one in geometries)
+        return sum(one.most_preload for one in geometries), across, across
 
     @property
     def middle_mm(self) -> float:

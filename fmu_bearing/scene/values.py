@@ -3,7 +3,7 @@
 import math
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args
 
 from pydantic import BaseModel
@@ -37,6 +37,16 @@ def put(data: dict[str, Any], values: Mapping[str, Any]) -> list[str]:
         except LookupError as problem:
             problems.append(problem.args[0])
     return problems
+
+
+def table_at(data: Any, tables: Sequence[str]) -> Any:
+    """Return the table of a scene's nested ones under names as in dotted keys; None: there is none."""
+    for text in tables:
+        name, place = steps(text)[0]
+        data = data.get(name) if isinstance(data, dict) else None
+        if place is not None:
+            data = data[place] if isinstance(data, list | tuple) and 0 <= place < len(data) else None
+    return data
 
 
 def _put(data: dict[str, Any], key: str, value: Any) -> None:

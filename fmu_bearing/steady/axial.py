@@ -98,13 +98,16 @@ def neutral_spacing(scene: Scene, members: Sequence[Member]) -> float | None:
     preload = spindle.preload
     if preload is None or not preload.preload_N:
         return None
-    one = members[0]
+    if scene.differing and count > 2:
+        return None  # each bearing of a side asks for another distance
     material = spindle.shaft.material or scene.materials.inner_ring
-    tightened = one.place_under(preload.preload_N, one.warmer(0.0)) - one.place_under(
-        preload.preload_N, one.warmer(_WARMER)
-    )
+    tightened = [
+        one.place_under(preload.preload_N, one.warmer(0.0))
+        - one.place_under(preload.preload_N, one.warmer(_WARMER))
+        for one in (members if scene.differing else members[:1])
+    ]
     expansion = float(si(material).expansion)
-    return 2.0 * tightened / (expansion * _WARMER) if expansion > 0.0 else None
+    return 2.0 * float(np.mean(tightened)) / (expansion * _WARMER) if expansion > 0.0 else None
 
 
 def spacing(bearings: Sequence[SceneBearing[Scene]]) -> float | None:

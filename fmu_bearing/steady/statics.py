@@ -356,7 +356,8 @@ def _weight(scene: Scene) -> NDArray[np.float64]:
     if not scene.fidelity.terms.gravity:
         return np.zeros(FREEDOMS)
     shaft = _shaft(scene, flexible=False)
-    rings = inner_ring(scene).mass * sum(plane[Q.Z] for plane in shaft.planes)
+    masses = [inner_ring(bearing.scene).mass for bearing in scene.bearings()]
+    rings = sum(mass * plane[Q.Z] for mass, plane in zip(masses, shaft.planes, strict=True))
     return np.asarray(-GRAVITY * (shaft.heavy + rings))
 
 

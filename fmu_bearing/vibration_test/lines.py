@@ -90,7 +90,7 @@ class VibrationLine(Result):
 
 def frequencies(scene: Scene, found: Reading) -> KinematicFrequencies:
     """Return the kinematic frequencies (Hz) of a test, from the speed at which its balls orbited."""
-    return by_cage(scene, scene.operation.speed_rpm * RPM, found.orbit)
+    return by_cage(scene.bearing, scene.operation.speed_rpm * RPM, found.orbit)
 
 
 def waves(scene: Scene, rates: KinematicFrequencies, source: str) -> list[Origin]:

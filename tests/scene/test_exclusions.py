@@ -11,6 +11,7 @@ from fmu_bearing import (
     changes,
     compare,
     error_motion,
+    fits,
     identify,
     modes,
     operating_point,
@@ -22,6 +23,7 @@ from fmu_bearing import (
 from fmu_bearing.accuracy.sensitivity import sensitivity
 from fmu_bearing.accuracy.tradeoff import tradeoff
 from fmu_bearing.cli import app
+from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.recording.channels.sources import sources_of
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator
@@ -72,6 +74,11 @@ SPRINGS = {
     },
 }  # fmt: skip
 BENT = SINGLE.replace({"mounting.flexure": {"outer_ring": [2], "inner_ring": []}})
+DIFFERING = pair(spindle__bearing=[
+    {"position_mm": 40.0, "carries": "+x"},
+    {"position_mm": 90.0, "carries": "-x", "bearing": "NSK-7002C"},
+])  # fmt: skip
+SEATED = {"spindle.fit": {"preload": "mounted", "shaft": {"interference_um": 2.0}}}
 HOUSING = {"sound.radiator": "housing"}
 
 #: For each row, in its order: a scene it holds for, one like it that it does not hold for, and who refuses,
@@ -101,6 +108,20 @@ DOORS = (
     (read_scene(PORT), pair(), {"shaft": {"spindle.shaft.flexible": True}}),
     (read_scene(PORT), pair(), {
         "unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}},
+    }),
+    (DIFFERING, pair(), {
+        "diagram": lambda scene, folder: campbell(scene, [5e3, 1e4, 2e4]),
+        "measurement": measured,
+        "report": lambda scene, folder: make(scene, folder / "a.html"),
+    }),
+    (DIFFERING, pair(), {
+        "changes": lambda scene, folder: changes(scene),
+        "tradeoff": lambda scene, folder: tradeoff(scene),
+        "sensitivity": lambda scene, folder: sensitivity(scene),
+    }),
+    (DIFFERING, pair(), {
+        "fits": lambda scene, folder: fits(scene.replace(SEATED)),
+        "temperatures": lambda scene, folder: temperatures(scene),
     }),
     (BENT, BENT.with_rigid_rings(), {"fidelities": {"fidelity.model": "response"}}),
     (with_fidelity(SINGLE, model="rings"), SINGLE, {"vibration test": lambda scene, folder: rig(scene)}),

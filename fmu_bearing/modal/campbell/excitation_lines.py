@@ -83,7 +83,7 @@ def unbalance(scene: Scene) -> float:
         return own
     amount: float = sum(1e-6 * spot.amount_g_mm for spot in spots)  # kg m
     shaft = sum(section.mass for section in shaft_sections(scene, set_of(scene).shaft))
-    return own + amount / (shaft + len(scene.assembly.members) * inner_ring(scene).mass)
+    return own + amount / (shaft + sum(inner_ring(bearing.scene).mass for bearing in scene.bearings()))
 
 
 def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: float = 0.0) -> list[Line]:

@@ -89,6 +89,7 @@ def campbell(
     """
     scene = scene_of(scene)
     require(scene, "modes")
+    require(scene, "diagram")
     chosen = _speeds(scene, speeds)
     if inputs and "shaft_speed" in inputs:
         raise ValueError("shaft_speed is not an input of a Campbell diagram: give speeds, in r/min")

@@ -162,7 +162,7 @@ class Modes(Result):
             sentences.append(
                 "the shaft does not turn, so contacts stick; once they slide, the modes without friction hold"
             )
-        if self.scene.bearing.cage is not None:
+        if any(one.cage is not None for one in self.scene.geometries):
             sentences.append("the cage and its films are left out: it touches balls and lands with clearance")
         return sentences
 

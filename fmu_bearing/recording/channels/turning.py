@@ -32,31 +32,41 @@ def turned(
     mean = float(np.mean(np.abs(speed)))
     if mean < _STILL:
         return None
-    balls = scene.bearing.ball_count
     rates = rates_of(outputs, scene)
     if rates is not None:
-        return tuple(frequencies(mean, orbit, spin, balls) for orbit, spin in rates.mean(axis=0).tolist())
+        return tuple(
+            frequencies(mean, orbit, spin, bearing.ball_count)
+            for bearing, (orbit, spin) in zip(scene.geometries, rates.mean(axis=0).tolist(), strict=True)
+        )
     ratios = [outputs.get(bearing.prefix + _RATIO) for bearing in scene.bearings()]
     kept = [values for values in ratios if values is not None]
     if len(kept) < len(ratios):
         return None
     return tuple(
-        by_cage(scene, mean, float(np.sum(values * np.abs(speed)) / np.sum(np.abs(speed)))) for values in kept
+        by_cage(bearing, mean, float(np.sum(values * np.abs(speed)) / np.sum(np.abs(speed))))
+        for bearing, values in zip(scene.geometries, kept, strict=True)
     )
 
 
 def rolling(
     scene: Scene, speed: float, outputs: Mapping[str, NDArray[np.float64]], contact_angle: float | None
-) -> KinematicFrequencies:
-    """Return the frequencies (Hz) of rolling without sliding at one contact angle (rad) at both races.
+) -> tuple[KinematicFrequencies, ...]:
+    """Return frequencies (Hz) of each bearing in rolling without sliding at one contact angle (rad).
 
-    Default: the mean of the computed angles where they were kept, else the nominal one.
+    Default: the mean of the computed angles where they were kept, of equal bearings over all of them, else
+    the nominal one.
     """
-    b = si(scene.bearing)
-    if contact_angle is None:
-        kept = [values for name, values in outputs.items() if name.endswith(_ANGLES)]
-        contact_angle = float(np.mean(kept)) if kept else float(b.contact_angle)
-    return kinematic_frequencies(speed, int(b.ball_count), b.ball_diameter, b.pitch_diameter, contact_angle)
+    found = []
+    for bearing in scene.bearings():
+        b, angle, head = si(bearing.scene.bearing), contact_angle, bearing.prefix if scene.differing else ""
+        if angle is None:
+            kept = [values for name, values in outputs.items()
+                    if name.startswith(head) and name.endswith(_ANGLES)]  # fmt: skip
+            angle = float(np.mean(kept)) if kept else float(b.contact_angle)
+        found.append(
+            kinematic_frequencies(speed, int(b.ball_count), b.ball_diameter, b.pitch_diameter, angle)
+        )
+    return tuple(found)
 
 
 def whirls(scene: Scene, outputs: Mapping[str, NDArray[np.float64]]) -> tuple[float, ...]:
@@ -109,8 +119,14 @@ class Turning(ABC):
         Raises
         ------
         ValueError
-            When the recording has no scene, and so no bearing.
+            When the recording has no scene, and so no bearing, or bearings that differ: see
+            `bearing_kinematics`.
         """
+        if self._known().differing:
+            raise ValueError(
+                f"{self._known().name}: its bearings differ, and so do their frequencies: read those of "
+                "each (bearing_kinematics)"
+            )
         every = self.bearing_kinematics(speed, contact_angle)
         return KinematicFrequencies(*np.mean(every, axis=0).tolist())
 
@@ -122,8 +138,7 @@ class Turning(ABC):
         w = mean if speed is None else speed
         found = None if contact_angle is not None else self._turned
         if found is None:
-            one = rolling(scene, w, self.outputs, contact_angle)
-            return (one,) * len(scene.bearings())
+            return rolling(scene, w, self.outputs, contact_angle)
         return tuple(
             KinematicFrequencies(*(abs(w) / (2.0 * math.pi) * f / each.f_r for f in each)) for each in found
         )

@@ -297,7 +297,7 @@ def sound_power(
         squares = _squares(recording.levels(list(points), radiation_model, weighting, resolution))
         return power_from_pressure(squares, radius, air)
     bearings = recording.scene.bearings()
-    rear = bearings[0].position - 0.5 * si(recording.scene.bearing).width
+    rear = bearings[0].position - 0.5 * si(bearings[0].scene.bearing).width
     for number, body in bodies_of(recording.scene):
         if body.housing is not None:
             one = bearings[number]

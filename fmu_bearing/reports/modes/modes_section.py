@@ -16,6 +16,7 @@ from fmu_bearing.reports.modes.moving_shapes import moving_shapes
 from fmu_bearing.reports.page.blocks import Absent, Block, Section, Table, Words
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.words import designation_words
 
 HIGHEST = 20e3  # Hz: modes that the section lists
 #: Speeds of its diagram over the shaft's own: fewer than on a page of its own, closer together near it.
@@ -130,7 +131,7 @@ def modes_page(chart: Campbell, path: str | os.PathLike[str], point: Modes | Non
     ]  # fmt: skip
     speeds = np.abs(chart.rpm)
     text = render(
-        scene.name, f"{scene.bearing.designation}, {speeds.min():,.0f} to {speeds.max():,.0f} r/min",
+        scene.name, f"{designation_words(scene)}, {speeds.min():,.0f} to {speeds.max():,.0f} r/min",
         f"scene {scene.name}, {len(chart.points)} speeds", sections, _tiles(chart, point), [chart.verdict()],
         [f"{words[0].upper()}{words[1:]}." for words in _cautions(chart, point)], kind="Modes of a bearing",
     )  # fmt: skip

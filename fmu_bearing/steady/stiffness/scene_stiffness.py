@@ -194,7 +194,7 @@ def stiffness(
     loads = _axis("preloads", "N", preloads, [scene.assembly.preload_N])
     if preloads is not None and not scene.assembly.can_preload:
         raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
-    most = scene.bearing.most_speed
+    most = scene.most_speed
     if rpm[0] < -most or rpm[-1] > most:
         raise ValueError(f"speeds are refused: allowed are {-most:g} to {most:g} r/min")
     hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)

@@ -117,7 +117,7 @@ _SAMPLES = 40  # per period of the mode looked for
 _PERIODS = 10
 
 
-def _decays(pair, way, push, frequency):
+def decays(pair, way, push, frequency):
     """Eigenvalues in the nose's motion after a force on it ceases, from a run of the engine.
 
     ``way``: 0 axial, 1 horizontal, 2 vertical. By the matrix pencil: y_k = sum c_i e^(s_i k h).
@@ -159,7 +159,7 @@ def test_the_engine_rings_at_these_frequencies(which, way, push):
     found = modes(several)
     order = min(way, 1)
     lowest = min((mode for mode in found.modes if mode.order == order), key=lambda mode: mode.frequency)
-    poles = _decays(several, way, push, lowest.frequency)
+    poles = decays(several, way, push, lowest.frequency)
     frequency = abs(poles.imag) / (2.0 * np.pi)
     assert abs(frequency - lowest.frequency).min() < 0.005 * lowest.frequency
 

@@ -8,21 +8,23 @@ sign. Displacement of its centre is that of the nose plus the shaft's rotation t
 import numpy as np
 from scipy.optimize import root
 
+from . import Bearing
 from .jones_harris import MICRO, JonesHarris
 
 
-def shaft(bearing, places, signs, offsets, force, at):
+def shaft(bearings, places, signs, offsets, force, at):
     """Return the displacement of the nose (m, rad) and per bearing force and moment on it, shaft axes.
 
-    ``places`` (m), ``signs``, ``offsets`` (m, own axial displacement at zero), ``force`` x y z (N) at the
-    plane ``at`` (m).
+    ``bearings``: one of all, or one for each place; ``places`` (m), ``signs``, ``offsets`` (m, own axial
+    displacement at zero), ``force`` x y z (N) at the plane ``at`` (m).
     """
-    model = JonesHarris(bearing, "outer", control="outer")
-    lever = 0.5 * bearing.pitch_diameter
+    each = [bearings] * len(places) if isinstance(bearings, Bearing) else bearings
+    models = [JonesHarris(bearing, "outer", control="outer") for bearing in each]
+    lever = 0.5 * each[0].pitch_diameter
 
     def carried(q):
         found = []
-        for x, sign, offset in zip(places, signs, offsets, strict=True):
+        for model, x, sign, offset in zip(models, places, signs, offsets, strict=True):
             centre = q[:3] + np.cross([0.0, q[3], q[4]], [x, 0.0, 0.0])
             own = np.array([sign * centre[0] + offset, *centre[1:], sign * q[3], sign * q[4]])
             on_ring = model.at_displacement(own).force

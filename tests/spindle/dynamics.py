@@ -158,7 +158,10 @@ def bearing_of(scene, number, **parameters):
         misalignment_z_mrad=tilts[1] if own else 0.0,
     )
     full = scene.fidelity.model_copy(update={"model": "full"})
-    alone = scene.model_copy(update={"spindle": None, "mounting": mounting, "fidelity": full, "sound": None})
+    own_tables = {"bearing": scene.geometries[number], "materials": scene.materials_of_each[number]}
+    alone = scene.model_copy(
+        update={"spindle": None, "mounting": mounting, "fidelity": full, "sound": None} | own_tables
+    )
     p = pack(alone.with_rigid_rings(), np.empty(0))
     p[P.ECCENTRICITY] = p[P.TILT_STIFFNESS] = p[P.TILT_DAMPING] = p[P.RIGID] = 0.0
     for name, value in parameters.items():
@@ -209,8 +212,8 @@ def housing_of(scene):
     if not spindle.housing.moves:
         return None
     places = [one.position_mm for one in spindle.bearing]
-    ring = outer_ring(scene)
-    carried = len(places) * np.array([ring.mass] * 3 + [ring.polar] + [ring.transverse] * 2)
+    rings = [outer_ring(bearing.scene) for bearing in scene.bearings()]
+    carried = sum(np.array([ring.mass] * 3 + [ring.polar] + [ring.transverse] * 2) for ring in rings)
     middle = housing.position if housing.position is not None else 0.5e-3 * (places[0] + places[-1])
     return oracle.Housing.cylinder(
         housing.mass, housing.diameter, housing.length, middle, housing.pedestal_stiffness,
@@ -225,9 +228,11 @@ def held_upright(scene, shaft):
     if given is None:
         return shaft
     # the one rigid motion that no force along y or z goes with: about the centre of mass
-    ring = inner_ring(scene)
-    inertia = [ring.mass] * 3 + [ring.transverse] * 2
-    mass = shaft.mass + sum(plane.T @ np.diag(inertia) @ plane for plane in shaft.planes)
+    rings = [inner_ring(bearing.scene) for bearing in scene.bearings()]
+    mass = shaft.mass + sum(
+        plane.T @ np.diag([ring.mass] * 3 + [ring.transverse] * 2) @ plane
+        for ring, plane in zip(rings, shaft.planes, strict=True)
+    )
     heavy, about = mass[2, [2, 3]], mass[3, 3]
     zeta, stiffness = given.damping_ratio, given.stiffness_N_m_rad
     damping = 2.0 * zeta * np.sqrt(stiffness * (about - heavy[1] ** 2 / heavy[0]))

@@ -93,7 +93,7 @@ class Member:
         for index, ring in ((U.INNER_T, "inner_ring_temperature"), (U.OUTER_T, "outer_ring_temperature")):
             given = getattr(own, ring)
             self.inputs[index] = getattr(operation, ring) if given is None else given
-        self.parameters = pack(_alone(scene), np.empty(0))
+        self.parameters = pack(_alone(scene, scene.spindle.bearing.index(place)), np.empty(0))
         self._c, self._out = np.zeros(C.SIZE), np.zeros(EQ.SIZE)
         self._force, self._w = np.zeros(FREEDOMS), np.zeros(W.size(self.parameters))
         self.mirror = np.array([self.sign, 1.0, 1.0, self.sign, self.sign])
@@ -180,9 +180,9 @@ class Member:
         return low, high
 
 
-def _alone(scene):
-    """Return the scene of one perfect bearing of the set."""
-    return one_of(with_fidelity(scene, model="full").model_copy(update={"imperfections": None}))
+def _alone(scene, number):
+    """Return the scene of one perfect bearing of the set, from 0."""
+    return one_of(with_fidelity(scene, model="full").model_copy(update={"imperfections": None}), number)
 
 
 @dataclass(frozen=True)
@@ -328,9 +328,12 @@ def assembly(scene, speed):
     loads = [share * asked for share in shares(spindle)]
     springs = axial_springs(spindle, spring)
     one_way = len({one.sign for one in members}) == 1
-    places = {load: 0.0 if one_way else members[0].place_under(load, members[0].cold()) for load in loads}
+    places = [
+        0.0 if one_way else one.place_under(load, one.cold())
+        for one, load in zip(members, loads, strict=True)
+    ]
     cold = np.array(
-        [places[load] + 1e-6 * one.place.stickout_um for one, load in zip(members, loads, strict=True)]
+        [place + 1e-6 * one.place.stickout_um for one, place in zip(members, places, strict=True)]
     )
     for k, one in enumerate(members):
         if one.place.seat == "pedestal" and not one_way:
@@ -361,8 +364,8 @@ def weight(assembled):
     if not scene.fidelity.terms.gravity:
         return np.zeros(shaft.count)
     found = -GRAVITY * shaft.heavy
-    for plane in shaft.planes:
-        found -= GRAVITY * inner_ring(scene).mass * plane[2]
+    for bearing, plane in zip(scene.bearings(), shaft.planes, strict=True):
+        found -= GRAVITY * inner_ring(bearing.scene).mass * plane[2]
     return found
 
 

@@ -93,9 +93,9 @@ def answers_as_the_dense_system(given, own, run, bodies):
         # what driven rows have as a residual counts as a force on what drives them
         driven = int(run.row(b)[SP.ROW_DRIVEN])
         residual -= motion(run, b).T @ (inertia(run, b) * row[F.BODY : F.BODY + driven])
+        balls, lanes = (int(run.of(run.p, b, "P")[place]) for place in (P.BALLS, P.LANES))
         for first in range(0, F.BODY, STRIDE):  # spare lanes copy the first ball
-            lanes = int(run.p[P.LANES])
-            own_rows[first + 12 : first + lanes] = own_rows[first]
+            own_rows[first + balls : first + lanes] = own_rows[first]
         run.work(b)[W.D : W.D + F.SIZE] = own_rows
     for k, b in enumerate(one for one in range(2) if given.spindle.bearing[one].seat == "sliding"):
         # the oracle's row of a sliding ring is an acceleration
@@ -106,10 +106,10 @@ def answers_as_the_dense_system(given, own, run, bodies):
     # two eliminations of well conditioned equations
     assert found == pytest.approx(moved, rel=1e-9, abs=1e-9 * size)
     for b, answer in enumerate(wanted):
-        ours = run.work(b)[W.D : W.D + F.SIZE]
+        ours, balls = run.work(b)[W.D : W.D + F.SIZE], int(run.of(run.p, b, "P")[P.BALLS])
         for first in range(0, F.BODY, STRIDE):
-            scale = np.abs(answer[first : first + 12]).max()
-            assert np.abs(ours[first : first + 12] - answer[first : first + 12]).max() < 1e-9 * scale
+            scale = np.abs(answer[first : first + balls]).max()
+            assert np.abs(ours[first : first + balls] - answer[first : first + balls]).max() < 1e-9 * scale
         assert ours[bodies] == pytest.approx(
             answer[bodies], rel=1e-9, abs=1e-9 * np.abs(answer[bodies]).max()
         )

@@ -66,15 +66,23 @@ def test_a_bearing_stays_where_it_is_timed():
     assert math.isnan(Paces().slowest)
 
 
+class Stub:
+    """A bearing that takes time and does nothing."""
+
+    s, u = np.zeros(1), np.zeros(1)
+
+    def step(self, h):
+        sum(range(30_000))  # its time must not be nothing
+
+
 def test_inputs_move_with_the_time_that_is_simulated():
     """Two steps to see how long one takes, then as many as the longest time has, from the begin again."""
     times = []
-
-    class Stub:
-        s, u = np.zeros(1), np.zeros(1)
-
-        def step(self, h):
-            sum(range(30_000))  # its time must not be nothing
-
     speed(Stub(), 1.0, 1, 0.01, motion=lambda u, time: times.append(time))
     np.testing.assert_allclose(times, [1e-3, 2e-3, *(1e-3 * np.arange(1, 11))], rtol=1e-12)
+
+
+def test_a_run_shorter_than_a_tick_of_the_processors_clock_counts_as_what_passes(monkeypatch):
+    monkeypatch.setattr("fmu_bearing.run.paces.time.process_time", lambda: 1.0)
+    wall, cpu = speed(Stub(), 1.0, 2, 0.01)
+    assert cpu == wall > 0.0

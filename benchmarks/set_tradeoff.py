@@ -10,7 +10,7 @@ import pathlib
 
 from fmu_bearing.accuracy.tradeoff import SETTINGS, tradeoff
 from fmu_bearing.results.table import markdown, write_csv
-from fmu_bearing.run.choose import SHORT, choose
+from fmu_bearing.run.choose import choose
 from fmu_bearing.scene import Scene, read_scene
 
 _EXAMPLES = pathlib.Path(__file__).parents[1] / "examples" / "spindle_set"
@@ -40,7 +40,7 @@ def write(name: str, folder: pathlib.Path) -> None:
     study = tradeoff(scene, SETTINGS)
     choice = choose(scene)
     page = study.markdown().replace("Made by `fmu-bearing tradeoff`", "Made by `benchmarks.set_tradeoff`")
-    page += f"\n## What `auto` chooses\n\n{choice.summary}.\n\n{markdown(SHORT, choice.table())}"
+    page += f"\n## What `auto` chooses\n\n{choice.words()}.\n\n{markdown(*choice.table())}"
     stem = f"tradeoff_{name.lower()}"
     (folder / f"{stem}.md").write_text(page, "utf-8")
     write_csv(folder / f"{stem}.csv", *study.table())

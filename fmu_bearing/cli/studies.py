@@ -41,14 +41,13 @@ def choose(
         choice, code = base.so_far(
             partial(choosing.chosen, scene_of(source_of(scene, at_speed(speed, settings, scene))))
         )
-    summary = None if choice.chosen == choosing.NONE else choice.summary
     if as_json:
-        base.print_json({"chosen": summary, "candidates": base.named(choosing.COLUMNS, choice.cells())})
+        base.print_json(choice.summary())
     else:
         where = " / ".join(choice.probed)
-        show(f"{choice.scene}: errors against fidelity full at {where}", choosing.SHORT, choice.table())
-        if summary is not None:
-            typer.echo(summary)
+        show(f"{choice.scene}: errors against fidelity full at {where}", *choice.table())
+        if choice.chosen != choosing.NONE:
+            typer.echo(choice.words())
     base.end(code)
 
 

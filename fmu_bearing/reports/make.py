@@ -262,7 +262,7 @@ def _subject(
         tell("fidelity auto: finding the cheapest within the scene's accuracy")
     scene, choice = resolve(given)
     if choice is not None:
-        tell(choice.summary)
+        tell(choice.words())
     tell(f"running {scene.name}, fidelity {scene.fidelity.model}, for {settle + duration:g} s")
     try:
         recording, notes = observed(
@@ -275,7 +275,7 @@ def _subject(
     whole = settle + duration
     origin = f"scene {scene.name}, run for {whole:.4g} s of which the last {duration:.4g} s are shown"
     if choice is not None:
-        origin += f"; {choice.summary}"
+        origin += f"; {choice.words()}"
     if surface is not None:
         origin += f"; surfaces: the median law of {surface.words}"
         whence = with_surface(whence, surface)

@@ -196,7 +196,10 @@ def _scalars(row: Result) -> dict[str, Any]:
 def write_rows(path: Path, rows: Sequence[Result | dict[str, Any]]) -> Path:
     """Write rows as CSV, numbers with nine digits, and return the file."""
     values = [_scalars(row) if isinstance(row, Result) else row for row in rows]
-    cells = [[f"{v:.9g}" if isinstance(v, float) else str(v) for v in row.values()] for row in values]
+    cells = [
+        [f"{v:.9g}" if isinstance(v, float) else "" if v is None else str(v) for v in row.values()]
+        for row in values
+    ]
     write_csv(path, list(values[0]) if values else [], cells)
     return path
 

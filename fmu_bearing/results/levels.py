@@ -24,9 +24,9 @@ def present(values: ArrayLike, unit: str) -> NDArray[np.float64]:
     return levels
 
 
-def decibels(value: float, digits: int = 1) -> str:
-    """Return a level (dB) as text for a table; a dash for that of a silent component."""
-    return f"{value:.{digits}f}" if value >= ROUNDING else "-"
+def decibels(value: float | None, digits: int = 1) -> str:
+    """Return a level (dB) as text for a table; a dash for that of a silent component, and for none."""
+    return "-" if value is None or not value >= ROUNDING else f"{value:.{digits}f}"
 
 
 def sounding(values: ArrayLike) -> NDArray[np.float64]:

@@ -34,8 +34,8 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
         tell(f"caution: {doubted}")
         notes.append(f"{doubted[0].upper()}{doubted[1:]}")
     if choice is not None:
-        tell(choice.summary)
-        notes.append(choice.summary)
+        tell(choice.words())
+        notes.append(choice.words())
     return prepare(resolved, note=". ".join(notes))
 
 

@@ -32,7 +32,8 @@ from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.modal.campbell import doubts
 from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.progress import Stopped, keeping
-from fmu_bearing.results.table import number
+from fmu_bearing.results.base import Quantity, Result, table
+from fmu_bearing.results.table import Table, number
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
@@ -69,15 +70,6 @@ FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
 NONE = -1
 
 _LEFT_OUT = "left out: "
-
-COLUMNS = (
-    "fidelity", "method", "tolerance", "max step, us", "at", "ring level, dB", "dB(A)", "load",
-    "torque", "sim/CPU", "verdict",
-)  # fmt: skip
-
-
-#: The columns of a table with one row for each candidate, and the errors under all conditions in a cell.
-SHORT = tuple(name for name in COLUMNS if name != "at")
 
 
 @dataclass(frozen=True)
@@ -151,22 +143,34 @@ class Probe:
         names = [field.name for field in dataclasses.fields(Errors)]
         return Errors(**{name: max(getattr(error, name) for error in self.errors) for name in names})
 
-    def cells(self, at: Sequence[str]) -> list[list[str]]:
-        """Texts in the order of ``COLUMNS``, a row for each of the conditions of these names."""
-        method = self.method if self.fidelity == "full" else ""
-        head = [self.fidelity, method, f"{self.tolerance:g}", f"{1e6 * self.max_step:g}"]
-        rows = []
-        for k, reason in enumerate(self.reasons):
-            e = self.errors[k] if k < len(self.errors) else None
-            texts = [""] * 4 if e is None else [number(x) for x in (e.ring_level, e.level, e.load, e.torque)]
-            where = at[k] if self.errors or len(self.reasons) > 1 else "all"
-            pace = number(self.pace) if k == 0 else ""
-            rows.append([*head, where, *texts, pace, reason or "accurate"])
-        return rows
+
+@dataclass(frozen=True)
+class Tried(Result):
+    """A candidate under one condition; without errors where it was refused or left out."""
+
+    quantities = (
+        Quantity("fidelity = probe.fidelity", "fidelity"),
+        Quantity("method", "method", of=lambda row: row.probe.method * (row.probe.fidelity == "full")),
+        Quantity("tolerance [1] = probe.tolerance", "tolerance", "g"),
+        Quantity("max_step_s = probe.max_step", "max step, us", "g", 1e6),
+        Quantity("at", "at"),
+        Quantity("ring_level_dB = errors.ring_level", "ring level, dB", number),
+        Quantity("level_dBA = errors.level", "dB(A)", number),
+        Quantity("load [1] = errors.load", "load", number),
+        Quantity("torque [1] = errors.torque", "torque", number),
+        Quantity("pace [1]", "sim/CPU", number),
+        Quantity("verdict", "verdict"),
+    )
+
+    probe: Probe
+    at: str
+    errors: Errors | None
+    pace: float | None
+    verdict: str
 
 
 @dataclass(frozen=True)
-class Choice:
+class Choice(Result):
     """The choice for a scene, and the figures of all candidates.
 
     Attributes
@@ -184,6 +188,12 @@ class Choice:
     missing : str
         Which conditions were not probed, and why; empty: all were.
     """
+
+    quantities = (
+        "scene", "level_dB = level_dB", "relative [1]",
+        Quantity("chosen", of=lambda choice: None if choice.chosen == NONE else choice.words()),
+        "candidates = records",
+    )  # fmt: skip
 
     scene: str
     level_dB: float
@@ -203,9 +213,8 @@ class Choice:
         p = self.probe
         return bounded(Setting(p.fidelity, p.method, p.tolerance, p.max_step), scene)
 
-    @property
-    def summary(self) -> str:
-        """One line: which, why, under which conditions, and what was not probed."""
+    def words(self) -> str:
+        """Return one line: which, why, under which conditions, and what was not probed."""
         p, asked = self.probe, f"{self.level_dB:g} dB and {self.relative:g} of loads and torque"
         how = f"{p.name}, internal steps up to {1e6 * p.max_step:g} us, tolerance {p.tolerance:g}"
         e = p.worst
@@ -236,33 +245,39 @@ class Choice:
         reason = next(iter(out.values())).removeprefix(_LEFT_OUT)
         return f"; {' and '.join(out)} left out: {reason}"
 
-    def table(self) -> list[list[str]]:
-        """Table in the order of ``SHORT``: a row for each candidate, errors in the order of ``probed``."""
-        at, pace = COLUMNS.index("at"), COLUMNS.index("sim/CPU")
+    def records(self) -> tuple[Tried, ...]:
+        """Return each candidate under each condition, the chosen one marked."""
+        rows = []
+        for k, probe in enumerate(self.probes):
+            several = bool(probe.errors) or len(probe.reasons) > 1
+            for n, reason in enumerate(probe.reasons):
+                verdict = (reason or "accurate") + ", chosen" * (k == self.chosen and n == 0)
+                rows.append(Tried(
+                    probe, self.probed[n] if several else "all",
+                    probe.errors[n] if n < len(probe.errors) else None, None if n else probe.pace, verdict,
+                ))  # fmt: skip
+        return tuple(rows)
+
+    def cells(self) -> Table:
+        """Return a table with a row for each candidate and condition."""
+        return table(Tried, self.records())
+
+    def table(self) -> Table:
+        """Return a table with a row for each candidate, errors in the order of ``probed`` in a cell."""
+        columns, cells = self.cells()
+        at, pace = columns.index("at"), columns.index("sim/CPU")
         table_rows = []
         for k, probe in enumerate(self.probes):
-            rows = probe.cells(self.probed)
+            rows, cells = cells[: len(probe.reasons)], cells[len(probe.reasons) :]
             errors = [" / ".join(row[c] for row in rows) if rows[0][c] else "" for c in range(at + 1, pace)]
             reasons = [
                 reason if reason.startswith(_LEFT_OUT) else f"{reason} at {where}"
                 for reason, where in zip(probe.reasons, self.probed, strict=False)
                 if reason
             ]
-            verdict = "; ".join(reasons) or "accurate"
-            table_rows.append(
-                [*rows[0][:at], *errors, rows[0][pace], verdict + (", chosen" if k == self.chosen else "")]
-            )
-        return table_rows
-
-    def cells(self) -> list[list[str]]:
-        """Table in the order of ``COLUMNS``: a row for each candidate and condition, the chosen marked."""
-        table_rows = []
-        for k, probe in enumerate(self.probes):
-            rows = probe.cells(self.probed)
-            if k == self.chosen:
-                rows[0][-1] += ", chosen"
-            table_rows += rows
-        return table_rows
+            verdict = ("; ".join(reasons) or "accurate") + ", chosen" * (k == self.chosen)
+            table_rows.append([*rows[0][:at], *errors, rows[0][pace], verdict])
+        return columns[:at] + columns[at + 1 :], table_rows
 
 
 def too_far(errors: Errors, scene: Scene) -> str:

@@ -113,7 +113,7 @@ def plan_of(
     note = ""
     if "fidelity.model" not in {axis.key for axis in axes}:
         scene, choice = resolve(scene)
-        note = "" if choice is None else choice.summary
+        note = "" if choice is None else choice.words()
     scenes = _scenes(scene, axes, points)
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # reported once, and not as the reason of every point

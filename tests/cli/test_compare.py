@@ -51,7 +51,7 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
     assert "A: running 7003C-bare, fidelity rings" in done.stderr and "written:" in done.stderr
     assert (tmp_path / "both.png").read_bytes().startswith(b"\x89PNG")
     head, *levels = cells(tmp_path / "tables" / "levels.csv")
-    assert head[:4] == ["microphone", "A, dB", "B, dB", "B - A"]
+    assert head[:4] == ["microphone", "A, dB", "B, dB", "B - A, dB"]
     assert [row[0] for row in levels] == ["P1", "P2", "P3", "P4"]
     _, *bands = cells(tmp_path / "tables" / "third-octaves.csv")
     for row in levels + bands:  # each of the three is rounded to 0.1 dB

@@ -64,7 +64,7 @@ def test_differences_are_b_less_a(found):
     columns, rows = found.levels_table()
     row = dict(zip(columns[:4], rows[0][:4], strict=True))
     a, b = found.a.levels["P1"][0], found.b.levels["P1"][0]
-    assert row == {"microphone": "P1", "A, dB": f"{a:.1f}", "B, dB": f"{b:.1f}", "B - A": f"{b - a:+.1f}"}
+    assert row == {"microphone": "P1", "A, dB": f"{a:.1f}", "B, dB": f"{b:.1f}", "B - A, dB": f"{b - a:+.1f}"}
     load = next(row for row in found.figures_table()[1] if row[0] == "contact.inner.load_mean")
     assert float(load[4]) < 0.0 and float(load[5]) < -20.0  # less preload, less load
     torque = next(row for row in found.figures_table()[1] if row[0] == "friction_torque")
@@ -111,7 +111,9 @@ def test_picture_has_both_spectra(found):
 def test_machines_get_the_same(found):
     data = found.summary()
     own = found.keys["mounting.preload_N"][0]
-    assert data["keys"]["mounting.preload_N"] == {"a": own, "b": 200.0, "unit": "N"}
+    assert data["keys"]["mounting.preload_N"] == {
+        "key": "mounting.preload_N", "a": own, "b": 200.0, "unit": "N",
+    }  # fmt: skip
     assert data["b"]["levels"]["P4"]["laeq_dB"] == found.b.levels["P4"][1]
     assert data["a"]["third_octaves_dB"]["P1"]["1000"] == pytest.approx(found.a.third_octaves["P1"][1000.0])
 

@@ -38,7 +38,10 @@ from fmu_bearing.modal.campbell.diagram import Diagram
 from fmu_bearing.recording.measurements.at_frequency import noise_at
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.studies.finding import Finding
+from fmu_bearing.recording.studies.pairs import BandPair, FigurePair, KeyPair
 from fmu_bearing.results.base import Quantity, Result, Study, plain, table
+from fmu_bearing.run.choose import Choice, Probe
+from fmu_bearing.run.metrics import Errors
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.run.step_times import Realtime, Timed
 from fmu_bearing.scene import read_scene
@@ -52,7 +55,10 @@ WITHOUT = ("fmu_bearing.engine", "fmu_bearing.compiled", "fmu_bearing.fmi", "fmu
 #: Classes that only their descendants make.
 BASES = (Diagram, StiffnessTable, Study)
 #: Values whose units are in the words beside them: of variables by name, counts, a scene's keys.
-BESIDE = ("figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "value", "moved")
+BESIDE = (
+    "figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "value", "moved", "a",
+    "b", "change",
+)  # fmt: skip
 
 
 def identified(scene):
@@ -83,7 +89,10 @@ def roots():
         temperatures(read_scene(bare)), modes(bare), campbell(bare, [18e3, 20e3, 22e3]),
         stiffness(pair, frequencies=[1e3]), error_motion(scene, revolutions=20), sound,
         noise_at(made, sound, 3000.0), spread(made, ["P1"], seeds=1), compare(made, made),
-        Finding("P1", 1.5, (1.2, 1.7)), rough, *rough.bands,
+        KeyPair("mounting.preload_N", None, 2.0), BandPair(500.0, 60.0, math.nan),
+        FigurePair("friction_torque", "N mm", 15.0, 16.0), Finding("P1", 1.5, (1.2, 1.7)),
+        Choice("a", 1.0, 0.1, (Probe("full", "", 0.01, 1e-5, (Errors(0, 0.1, 0.2, 0.3, 0.4),), 2.0),), 0),
+        rough, *rough.bands,
         changes(bare, levels=False), identified(scene), simulate(scene, 2e-3, outputs=["friction_torque"]),
         Tradeoff("a", 9e3, 0.01, 0.01, 1e-6, 1e-6, 1e-6, (Row(Setting(), trajectory=1e-3),)),
         Sensitivity("a", 9e3, 0.01, 0.01, {}, (Moved("fmu.x", 1.0, 1.2, (0.1,) * 7),)),

@@ -83,10 +83,10 @@ def test_three_accuracies_three_fidelities(loose, between, tight):
         ("",) * 3,
     ]
     for choice, words in ((loose, "response, "), (between, "rings, "), (tight, "full / esdirk4, ")):
-        assert choice.summary.startswith(
+        assert choice.words().startswith(
             f"fidelity auto: {words}internal steps up to 20 us, tolerance 0.001: "
         )
-        assert choice.summary.endswith(
+        assert choice.words().endswith(
             "; probed at 20,000 r/min, 10,000 r/min and 19,600 to 20,000 r/min in 20 ms; not probed: other "
             "loads, preloads and temperatures, jumps of inputs, faster changes of speed"
         )
@@ -94,13 +94,15 @@ def test_three_accuracies_three_fidelities(loose, between, tight):
 
 @pytest.mark.heavy
 def test_the_table_has_a_row_for_each_condition(between):
-    rows = [dict(zip(choosing.COLUMNS, row, strict=True)) for row in between.cells()]
+    columns, cells = between.cells()
+    rows = [dict(zip(columns, row, strict=True)) for row in cells]
     assert len(rows) == 3 * len(between.probes)
     assert [row["at"] for row in rows[:3]] == list(between.probed)
     assert [row["fidelity"] for row in rows[:6]] == ["response"] * 3 + ["rings"] * 3
     assert [row["verdict"] for row in rows[3:6]] == ["accurate, chosen", "accurate", "accurate"]
     assert all(row["torque"] and row["ring level, dB"] for row in rows)
-    short = [dict(zip(choosing.SHORT, row, strict=True)) for row in between.table()]
+    columns, cells = between.table()
+    short = [dict(zip(columns, row, strict=True)) for row in cells]
     assert [row["fidelity"] for row in short] == [probe.fidelity for probe in between.probes]
     assert short[1]["torque"] == " / ".join(row["torque"] for row in rows[3:6])
     assert short[0]["verdict"].startswith("too far: ring velocity at 20,000 r/min; too far: ring velocity at")
@@ -128,7 +130,7 @@ def test_at_standstill_it_says_what_it_left_out(automatic):
     at_rest = {"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1e3}
     found = choose(automatic(6.0, 0.5).replace(at_rest), FEW[:1], warm_up=2e-3, window=2e-3, budget=1e-3)
     assert found.probed == ("0 r/min",)
-    assert "not probed: another speed and a rise of speed, as the shaft does not turn; other" in found.summary
+    assert "not probed: another speed and a rise of speed, as the shaft does not turn; other" in found.words()
 
 
 @pytest.mark.heavy
@@ -141,9 +143,9 @@ def test_a_bearing_that_whirls_by_itself_takes_full(automatic, example):
     for probe in found.probes[:2]:
         assert probe.errors == () and probe.worst is None and math.isnan(probe.pace)
         assert probe.reason.startswith("left out: the ring whirls by itself at ")
-    assert "; response and rings left out: the ring whirls by itself at 1320 Hz" in found.summary
-    assert found.table()[0][-1] == found.probes[0].reason and found.table()[0][4] == ""
-    rows = found.cells()
+    assert "; response and rings left out: the ring whirls by itself at 1320 Hz" in found.words()
+    assert found.table()[1][0][-1] == found.probes[0].reason and found.table()[1][0][4] == ""
+    rows = found.cells()[1]
     assert len(rows) == 2 + 3 + 3 and rows[0][4] == "all" and rows[2][-1] == "accurate, chosen"
     lowest = wide.replace({"operation.speed_rpm": 9000.0, "operation.lowest_speed_rpm": 18000.0})
     found = choose(lowest, FEW[:2], warm_up=2e-3, window=2e-3, budget=1e-3)
@@ -169,7 +171,7 @@ def test_a_speed_at_which_full_is_refused_is_said(automatic, monkeypatch):
     monkeypatch.setattr(choosing, "measure_between", refused)
     found = choose(automatic(6.0, 0.5), FEW[:1], warm_up=2e-3, window=2e-3, budget=1e-3)
     assert found.probed == ("20,000 r/min", "19,960 to 20,000 r/min in 2 ms")
-    assert "not probed: 10,000 r/min, where fidelity full is refused (no equilibrium); " in found.summary
+    assert "not probed: 10,000 r/min, where fidelity full is refused (no equilibrium); " in found.words()
 
 
 def read(scene):
@@ -286,6 +288,6 @@ def test_resolve_reports_in_the_fmu(automatic, silent, counted):
     assert resolve(silent) == (silent, None)
     scene, choice = resolve(automatic(1.0, 0.1))
     assert scene.fidelity.model == "full"
-    page = documentation.pages(prepare(scene, note=choice.summary))["index.html"].decode()
+    page = documentation.pages(prepare(scene, note=choice.words()))["index.html"].decode()
     assert "fidelity auto: full / esdirk4" in page
     assert "fidelity auto" not in documentation.pages(prepare(scene))["index.html"].decode().split("<pre>")[0]

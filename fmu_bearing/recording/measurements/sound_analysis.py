@@ -23,8 +23,9 @@ from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.channels.sources import centre_of
 from fmu_bearing.recording.measurements import measure, tables
-from fmu_bearing.results.base import Result, write_netcdf
+from fmu_bearing.results.base import Quantity, Result, table, write_netcdf
 from fmu_bearing.results.levels import decibels
+from fmu_bearing.results.picture_parts import COLOURS
 from fmu_bearing.results.table import Table, markdown, write_csv
 
 if TYPE_CHECKING:
@@ -36,6 +37,30 @@ _LINES = 12
 _BARS = 8  # microphones side by side in a picture
 _TURNS = 10  # of the shaft in a block of an order map; fewer where there would be less than
 _BLOCKS = 8  # of them, one after the other
+
+
+def _part(name: str) -> Quantity:
+    """Return the level of one component."""
+    return Quantity(f"laeq_{name}_dB [dB(A)]", f"{name}, dB(A)", decibels, of=lambda row: row.parts.get(name))
+
+
+@dataclass(frozen=True)
+class MicrophoneLevels(Result):
+    """Equivalent levels at one microphone, and in dB(A) those of the components that are known alone."""
+
+    quantities = (
+        Quantity("microphone", "microphone"), Quantity("leq_dB", "Leq, dB", decibels),
+        Quantity("laeq_dB [dB(A)]", "LAeq, dB(A)", decibels), *map(_part, list(COLOURS)[1:]),
+    )  # fmt: skip
+
+    microphone: str
+    leq: float
+    laeq: float
+    parts: dict[str, float]
+
+    def summary(self) -> dict[str, Any]:
+        """Return the levels that are known, for machines."""
+        return {key: value for key, value in super().summary().items() if value is not None}
 
 
 @dataclass(frozen=True)
@@ -63,21 +88,21 @@ class SoundAnalysis(Result):
     positions: tuple[Position, ...]
     """Places (m) of the microphones."""
 
+    def records(self) -> tuple[MicrophoneLevels, ...]:
+        """Return the levels at each microphone."""
+        return tuple(
+            MicrophoneLevels(name, z, a, {part: float(values[k]) for part, values in self.parts.items()})
+            for k, (name, (z, a)) in enumerate(zip(self.names, self.levels.tolist(), strict=True))
+        )
+
     def rows(self) -> Table:
         """Columns and rows of a table of levels; a dash for a component that is silent."""
-        rows = [
-            [name, *(decibels(float(value)) for value in (z, a, *(part[k] for part in self.parts.values())))]
-            for k, (name, (z, a)) in enumerate(zip(self.names, self.levels, strict=True))
-        ]
-        return ["microphone", "Leq, dB", "LAeq, dB(A)", *(f"{name}, dB(A)" for name in self.parts)], rows
+        parts = (f"{name}, dB(A)" for name in self.parts)
+        return table(MicrophoneLevels, self.records(), ["microphone", "Leq, dB", "LAeq, dB(A)", *parts])
 
     def summary(self) -> dict[str, Any]:
         """Return levels by microphone, for machines."""
-        return {
-            name: {"leq_dB": z, "laeq_dB": a}
-            | {f"laeq_{part}_dB": values[k] for part, values in self.parts.items()}
-            for k, (name, (z, a)) in enumerate(zip(self.names, self.levels.tolist(), strict=True))
-        }
+        return {one.microphone: one.summary() for one in self.records()}
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return spectra and third octaves with microphones and sources as coordinates."""

@@ -4,7 +4,7 @@ import html
 import math
 import os
 import pathlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,8 @@ from fmu_bearing.recording.record import DURATION, record
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.comparison_data import RECORDED, ComparisonData, of_recording, of_run
 from fmu_bearing.recording.studies.finding import SEEDS, Finding, judged
-from fmu_bearing.results.base import Result
+from fmu_bearing.recording.studies.pairs import BandPair, FigurePair, KeyPair, LevelPair
+from fmu_bearing.results.base import Quantity, Result, table
 from fmu_bearing.results.result import ENDINGS, Run
 from fmu_bearing.results.table import Table, html_table, write_csv
 from fmu_bearing.results.variable_names import unit_of
@@ -27,7 +28,6 @@ from fmu_bearing.run.figures import table_unit
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.scene.units import symbol
 from fmu_bearing.scene.values import flat
 
 if TYPE_CHECKING:
@@ -37,12 +37,16 @@ if TYPE_CHECKING:
 Compared = Recording | Run | SceneSource
 SETTLE = 0.1  # s left out at the beginning, in which the start-up dies away
 _HIGHEST = 20_000.0  # Hz
-_BLANK = "-"
+_NONE = (math.nan, math.nan)  # dB and dB(A)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Result):
     """Two finished runs, A and B; differences are B minus A."""
+
+    quantities = (
+        Quantity("keys", of=lambda found: {one.key: one.summary() for one in found.differing()}), "a", "b",
+    )  # fmt: skip
 
     a: ComparisonData
     b: ComparisonData
@@ -71,45 +75,45 @@ class Comparison(Result):
             )
         return max(both, key=lambda name: self.a.levels[name][1])
 
+    def differing(self) -> list[KeyPair]:
+        """Return the keys in which the scenes differ."""
+        return [KeyPair(key, *pair) for key, pair in self.keys.items()]
+
+    def records(self) -> Sequence[LevelPair | FigurePair]:
+        """Return the levels at each microphone; where there is none the means."""
+        a, b = self.a.levels, self.b.levels
+        levels = [LevelPair(name, *a.get(name, _NONE), *b.get(name, _NONE)) for name in self.microphones]
+        return levels or self.means()
+
+    def means(self) -> list[FigurePair]:
+        """Return the means of contact loads, contact angles and friction torque."""
+        rows = []
+        for name in self.a.figures | self.b.figures:
+            unit, factor = table_unit(unit_of(name))
+            a, b = (factor * side.figures.get(name, math.nan) for side in (self.a, self.b))
+            rows.append(FigurePair(name, unit, a, b))
+        return rows
+
     def levels_table(self) -> Table:
         """Levels (dB and dB(A)) of A and B at each microphone, with differences."""
-        columns = ["microphone", "A, dB", "B, dB", "B - A", "A, dB(A)", "B, dB(A)", "B - A"]
-        rows = []
-        for name in self.microphones:
-            pairs = (_pair(self.a.levels, self.b.levels, name, k) for k in (0, 1))
-            rows.append([name, *(text for a, b in pairs for text in _texts(a, b))])
-        return columns, rows
+        return table(LevelPair, self.records() if self.microphones else [])
 
     def third_octaves_table(self, microphone: str | None = None) -> Table:
         """Third-octave levels (dB) of A and B at a microphone; default: `loudest`."""
         name = self._common_microphone(microphone)
-        columns = ["band, Hz", "A, dB", "B, dB", "B - A"]
         a, b = self.a.third_octaves.get(name, {}), self.b.third_octaves.get(name, {})
-        bands = sorted(a.keys() | b.keys())
-        rows = [[f"{nominal_frequency(f):g}", *_texts(a.get(f), b.get(f))] for f in bands]
-        return columns, rows
+        return table(BandPair, [
+            BandPair(nominal_frequency(f), a.get(f, math.nan), b.get(f, math.nan))
+            for f in sorted(a.keys() | b.keys())
+        ])  # fmt: skip
 
     def figures_table(self) -> Table:
         """Means of contact loads, contact angles and friction torque, with differences."""
-        rows = []
-        for name in self.a.figures | self.b.figures:
-            unit, factor = table_unit(unit_of(name))
-            a, b = (side.figures.get(name) for side in (self.a, self.b))
-            values = [None if value is None else factor * value for value in (a, b)]
-            change = share = _BLANK
-            if a is not None and b is not None:
-                change = f"{factor * (b - a):+.3g}"
-                share = f"{100.0 * (b / a - 1.0):+.1f}" if a else _BLANK
-            rows.append([name, unit, *(_BLANK if v is None else f"{v:.4g}" for v in values), change, share])
-        return ["mean of", "unit", "A", "B", "B - A", "%"], rows
+        return table(FigurePair, self.means())
 
     def keys_table(self) -> Table:
         """Keys in which the scenes differ."""
-        rows = [
-            [key, *(_BLANK if value is None else _value(value) for value in pair), _unit(key)]
-            for key, pair in self.keys.items()
-        ]
-        return ["key of the scene", "A", "B", "unit"], rows
+        return table(KeyPair, self.differing())
 
     def tables(self, microphone: str | None = None) -> dict[str, Table]:
         """All tables that have rows, by title; third octaves at a microphone (default: `loudest`).
@@ -128,7 +132,7 @@ class Comparison(Result):
         if microphone is not None or any(name in self.b.third_octaves for name in self.a.third_octaves):
             name = self._common_microphone(microphone)
             tables[f"third octaves at {name}"] = self.third_octaves_table(name)
-        return {title: table for title, table in tables.items() if table[1]}
+        return {title: made for title, made in tables.items() if made[1]}
 
     def plot(
         self, microphone: str | None = None, highest: float = _HIGHEST, title: str | None = None
@@ -210,31 +214,11 @@ class Comparison(Result):
         target = pathlib.Path(folder)
         target.mkdir(parents=True, exist_ok=True)
         files = []
-        for title, table in self.tables(microphone).items():
+        for title, made in self.tables(microphone).items():
             file = target / f"{title.split(' at ')[0].replace(',', '').replace(' ', '-')}.csv"
-            write_csv(file, *table)
+            write_csv(file, *made)
             files.append(file)
         return files
-
-    def summary(self) -> dict[str, Any]:
-        """Return names, differing keys, levels, third octaves and figures of both, for machines."""
-        document: dict[str, Any] = {
-            "keys": {key: {"a": a, "b": b, "unit": _unit(key)} for key, (a, b) in self.keys.items()}
-        }
-        for side, here in (("a", self.a), ("b", self.b)):
-            document[side] = {
-                "name": here.name,
-                "levels": {name: {"leq_dB": z, "laeq_dB": w} for name, (z, w) in here.levels.items()},
-                "third_octaves_dB": {
-                    name: {f"{nominal_frequency(f):g}": value for f, value in bands.items()}
-                    for name, bands in here.third_octaves.items()
-                },
-                "figures": here.figures,
-                "doubt": here.doubt,
-                "fidelity": here.fidelity,
-                "radiation_model": here.radiation_model,
-            }
-        return document
 
     def __repr__(self) -> str:
         return f"Comparison(A: {self.a.name}, B: {self.b.name}, {len(self.keys)} keys differ)"
@@ -242,7 +226,7 @@ class Comparison(Result):
     def _repr_html_(self) -> str:
         lines = (f"{self!r}; {self.conditions()}; differences are B minus A", *self.doubts())
         parts = [f"<p>{html.escape(line)}</p>" for line in lines]
-        return "".join(parts + [html_table(title, *table) for title, table in self.tables().items()])
+        return "".join(parts + [html_table(title, *made) for title, made in self.tables().items()])
 
     def _common_microphone(self, microphone: str | None) -> str:
         """Name of a microphone that both have."""
@@ -371,26 +355,3 @@ def _computed(side: ComparisonData) -> str:
     if side.levels:
         words.append(f"radiation model {side.radiation_model or 'not known'}")
     return ", ".join(words)
-
-
-def _pair(
-    a: Mapping[str, tuple[float, float]], b: Mapping[str, tuple[float, float]], name: str, k: int
-) -> tuple[float | None, float | None]:
-    return (a[name][k] if name in a else None), (b[name][k] if name in b else None)
-
-
-def _texts(a: float | None, b: float | None) -> list[str]:
-    """Texts of two levels (dB) and their difference; a dash where one is missing."""
-    texts = [_BLANK if value is None or math.isnan(value) else f"{value:.1f}" for value in (a, b)]
-    if a is None or b is None or math.isnan(b - a):
-        return [*texts, _BLANK]
-    return [*texts, f"{b - a:+.1f}"]
-
-
-def _unit(key: str) -> str:
-    """Return the unit of a dotted key."""
-    return symbol(key.rpartition(".")[2])
-
-
-def _value(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -13,6 +13,7 @@ from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.spread import doubt_of
+from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.levels import present
 from fmu_bearing.results.result import Run
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
@@ -32,7 +33,7 @@ _FAST = 40_000.0  # Hz: pressures that reach to 20 kHz
 
 
 @dataclass(frozen=True, eq=False)
-class ComparisonData:
+class ComparisonData(Result):
     """A run as a comparison reads it.
 
     Attributes
@@ -56,6 +57,18 @@ class ComparisonData:
     fidelity, radiation_model : str
         What it was computed with; empty: not known.
     """
+
+    quantities = (
+        "name",
+        Quantity("levels", of=lambda side: {
+            name: {"leq_dB": z, "laeq_dB": a} for name, (z, a) in side.levels.items()
+        }),
+        Quantity("third_octaves_dB", of=lambda side: {
+            name: {f"{nominal_frequency(f):g}": value for f, value in bands.items()}
+            for name, bands in side.third_octaves.items()
+        }),
+        "figures", "doubt", "fidelity", "radiation_model",
+    )  # fmt: skip
 
     name: str
     scene: Scene | None

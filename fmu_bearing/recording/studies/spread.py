@@ -22,7 +22,7 @@ from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.record import RecordingSource, recording_of
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_model
-from fmu_bearing.results.base import Result
+from fmu_bearing.results.base import Quantity, Result, table
 from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import ASSUMED_EXPONENTS, Imperfections
@@ -39,6 +39,30 @@ _FACTOR = 2.0  # on A_1, either way
 #: Draws of a surface that was found; a further one lies between the ends of n with (n - 1) / (n + 1): 95 %.
 _DRAWS = 40
 _DRAWS_FULL = 6  # with fidelity full: 71 %
+
+
+@dataclass(frozen=True)
+class LevelRange(Result):
+    """The level at one microphone (dB, weighted as asked for) and its range, as in `Spread`."""
+
+    quantities = (
+        Quantity("microphone", "microphone"),
+        Quantity("level_dB"),
+        *(Quantity("", unit, ".1f", of=lambda row: row.level) for unit in ("dB", "dB(A)")),
+        Quantity("", "range", of=lambda row: f"{row.low:.0f} to {row.high:.0f}"),
+        "low_dB", "high_dB", Quantity("seeds_dB", "seeds, dB", ".1f"), "exponent_dB", "amplitude_dB",
+        "energy_share [1]", Quantity("decides", "what decides"),
+    )  # fmt: skip
+
+    microphone: str
+    level: float
+    low: float
+    high: float
+    seeds: float
+    exponent: float
+    amplitude: float
+    energy_share: dict[str, float]
+    decides: str
 
 
 @dataclass(frozen=True)
@@ -118,35 +142,26 @@ class Spread(Result):
             words += f"; {source} {100.0 * self.sources[source][mic]:.0f} % of the energy"
         return words
 
+    def records(self) -> tuple[LevelRange, ...]:
+        """Return the level at each microphone with its range."""
+        return tuple(
+            LevelRange(
+                name, float(self.levels[k]), float(self.low[k]), float(self.high[k]), float(self.seeds[k]),
+                float(self.exponent[k]), float(self.amplitude[k]),
+                {source: float(share[k]) for source, share in self.sources.items()}, self.decides(k),
+            )
+            for k, name in enumerate(self.names)
+        )  # fmt: skip
+
     def rows(self) -> Table:
         """Columns and rows of a table."""
         unit = "dB(A)" if self.weighting == "A" else "dB"
-        columns = ["microphone", unit, "range", "seeds, dB", "what decides"]
-        return columns, [
-            [
-                name,
-                f"{self.levels[k]:.1f}",
-                f"{self.low[k]:.0f} to {self.high[k]:.0f}",
-                f"{self.seeds[k]:.1f}",
-                self.decides(k),
-            ]
-            for k, name in enumerate(self.names)
-        ]
+        heads = ["microphone", unit, "range", "seeds, dB", "what decides"]
+        return table(LevelRange, self.records(), heads)
 
     def summary(self) -> dict[str, Any]:
         """Return the ranges by microphone, for machines."""
-        return {
-            name: {
-                "level_dB": float(self.levels[k]),
-                "low_dB": float(self.low[k]),
-                "high_dB": float(self.high[k]),
-                "seeds_dB": float(self.seeds[k]),
-                "exponent_dB": float(self.exponent[k]),
-                "amplitude_dB": float(self.amplitude[k]),
-                "energy_share": {source: float(share[k]) for source, share in self.sources.items()},
-            }
-            for k, name in enumerate(self.names)
-        } | super().summary()
+        return {one.microphone: one.summary() for one in self.records()} | super().summary()
 
 
 def spread(

@@ -268,8 +268,8 @@ def _hysteresis(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 
 def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     film = scene.fidelity.terms.land_film and scene.lubricant.land_viscosity_Pa_s != 0.0
-    caged = {key: one.cage for key, one in _geometries(scene).items() if one.cage is not None}
-    caged = {key: cage for key, cage in caged.items() if cage.guidance != "balls"}
+    cages = {key: one.cage for key, one in _geometries(scene).items()}
+    caged = {key: cage for key, cage in cages.items() if cage is not None and cage.guidance != "balls"}
     if not caged or not film:
         return None
     halves: _Values = {}

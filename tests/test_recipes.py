@@ -26,8 +26,8 @@ pytestmark = pytest.mark.pages
 
 PAGE = DOCS / "architecture.md"
 COPIED = ("fmu_bearing", "tests", "examples", "pyproject.toml", "docs/cli.md")
-#: Recipes that change kernels: a copy of the engine has to be compiled for them.
-COMPILED = ("Add a force", "Add an output", "Add an integrator")
+#: Recipes that change kernels or step a bearing in all fidelities: the copy's engine is compiled for them.
+COMPILED = ("Add a force", "Add a spring", "Add an output", "Add an integrator")
 #: End of the copy's ``optimise.py``. Tests of recipes run milliseconds of a bearing.
 UNOPTIMISED = """
 

@@ -1,10 +1,25 @@
 """Masses and moments of inertia from the scene's dimensions."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fmu_bearing.elastic.shaft.sections import shaft_sections
+from fmu_bearing.engine.layout import Q
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.mounting import SUPPORTS, Mounting
+from fmu_bearing.scene.spindle import Spindle
+
+#: Rows of the inner ring, or of a plane of the shaft, that a support holds.
+_ROWS = {
+    "axial": slice(Q.X, Q.Y),
+    "radial": slice(Q.Y, Q.INNER_BY),
+    "tilt": slice(Q.INNER_BY, Q.OUTER),
+}
 
 
 @dataclass(frozen=True)
@@ -64,6 +79,38 @@ def rotor(scene: Scene) -> RigidBody:
         return RigidBody(0.0, 0.0, 0.0)
     r = si(scene.mounted.rotor)
     return of_mass(r.mass, 0.0, r.diameter, r.length)
+
+
+class Support(NamedTuple):
+    """A spring with a damper between shaft and ground.
+
+    Attributes
+    ----------
+    stiffness, damping : ndarray
+        Shape (5,): along x y z (N/m, N s/m), about y z (N m/rad, N m s/rad).
+    position_mm : float, optional
+        Plane of the shaft that it holds; None: a bearing's, or the middle of the bearings.
+    """
+
+    stiffness: NDArray[np.float64]
+    damping: NDArray[np.float64]
+    position_mm: float | None
+
+
+def supports(given: Mounting | Spindle, mass: float, transverse: float) -> Iterator[Support]:
+    """Yield springs and dampers from the shaft to ground.
+
+    Damping over the critical one counts all that turns, of ``mass`` (kg) and ``transverse`` moment of inertia
+    (kg m2), as it would move on this support alone.
+    """
+    inertia = np.array([mass] * 3 + [transverse] * 2)
+    for key, direction in SUPPORTS.items():
+        table = getattr(given, key)
+        if table is not None:
+            stiffness = np.zeros(Q.OUTER)
+            stiffness[_ROWS[direction]] = si(table).stiffness
+            damping = 2.0 * table.damping_ratio * np.sqrt(stiffness * inertia)
+            yield Support(stiffness, damping, getattr(table, "position_mm", None))
 
 
 def rotor_inertia(scene: Scene) -> float:

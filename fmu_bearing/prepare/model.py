@@ -10,7 +10,7 @@ from scipy.special import roots_jacobi
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, OUTER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, GUIDANCES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P
+from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.inputs import input_values
@@ -283,10 +283,11 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
     p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
     p[P.PEDESTAL_Y : P.PEDESTAL_Y + 6] = pedestal_axes(scene.mounted)
-    if scene.mounted.tilt_support is not None:
-        support = si(scene.mounted.tilt_support)
-        p[P.TILT_STIFFNESS] = support.stiffness
-        p[P.TILT_DAMPING] = 2.0 * support.damping_ratio * math.sqrt(support.stiffness * inner.transverse)
+    for support in bodies.supports(scene.mounted, inner.mass, inner.transverse):
+        p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + Q.OUTER] += support.stiffness
+        p[P.SUPPORT_DAMPING : P.SUPPORT_DAMPING + Q.OUTER] += support.damping
+    if p[P.RIGID]:  # the mount holds the ring along the axis
+        p[P.SUPPORT_STIFFNESS] = p[P.SUPPORT_DAMPING] = 0.0
     if scene.imperfections is not None:
         p[P.ECCENTRICITY] = si(scene.imperfections).unbalance
 

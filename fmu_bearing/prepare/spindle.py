@@ -166,27 +166,25 @@ def housing_of(scene: Scene) -> tuple[bodies.RigidBody, float]:
     return bodies.of_mass(housing.mass, 0.0, housing.diameter, housing.length), middle
 
 
-def tilt_support(scene: Scene, shaft: ShaftModel) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return stiffness and damping of the set's support against tilting, each of shape (n, n), SI units.
+def supports(scene: Scene, shaft: ShaftModel) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return stiffness and damping of springs and dampers from the shaft to ground, SI units.
 
-    Over the shaft's n coordinates. Damping over the critical one counts the shaft with its inner rings that
-    tilts about their centre of mass, as it would on this support alone.
+    Each of shape (n, n) over the shaft's n coordinates. Shaft and inner rings tilt about their centre of
+    mass.
     """
     spindle = set_of(scene)
-    given = spindle.tilt_support
-    if given is None:
-        return np.zeros_like(shaft.stiffness), np.zeros_like(shaft.damping)
-    place = spindle.middle_mm if given.position_mm is None else given.position_mm
-    tilts = shaft.at(1e-3 * place)[Q.INNER_BY :]
     mass, moment, about = bodies.rings_at_port(scene)
     for section in shaft_sections(scene, spindle.shaft):
         middle = section.start + 0.5 * section.length
         mass, moment = mass + section.mass, moment + section.mass * middle
         about += section.transverse + section.mass * middle**2
-    stiffness = si(given).stiffness
-    critical = 2.0 * math.sqrt(stiffness * (about - moment**2 / mass))
-    projection = tilts.T @ tilts
-    return stiffness * projection, given.damping_ratio * critical * projection
+    stiffness, damping = np.zeros_like(shaft.stiffness), np.zeros_like(shaft.damping)
+    for support in bodies.supports(spindle, mass, about - moment**2 / mass):
+        place = spindle.middle_mm if support.position_mm is None else support.position_mm
+        plane = shaft.at(1e-3 * place)
+        stiffness += plane.T @ (support.stiffness[:, None] * plane)
+        damping += plane.T @ (support.damping[:, None] * plane)
+    return stiffness, damping
 
 
 def _matrices(scene: Scene, shaft: ShaftModel, rows: Rows) -> dict[int, NDArray[np.float64]]:
@@ -199,11 +197,11 @@ def _matrices(scene: Scene, shaft: ShaftModel, rows: Rows) -> dict[int, NDArray[
     sliding = _sliding(spindle)
     behind = shaft.count + count
     free = np.zeros((n - behind, n - behind))
-    upright, damped = tilt_support(scene, shaft)
+    springs, dampers = supports(scene, shaft)
     wide = [
         block_diag(own, np.zeros((count, count)), free)
         # a housing does not spin
-        for own in (shaft.stiffness + upright, shaft.damping + damped, shaft.gyroscopic)
+        for own in (shaft.stiffness + springs, shaft.damping + dampers, shaft.gyroscopic)
     ]
     # springs are between sliding rings and housing
     pressed = np.zeros((len(sliding), n))

@@ -10,6 +10,7 @@ from typing import Literal
 
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.member import set_of
+from fmu_bearing.scene.mounting import SUPPORTS
 from fmu_bearing.scene.scene import Tables
 from fmu_bearing.scene.shaft import Shaft
 from fmu_bearing.scene.spindle import Load
@@ -124,8 +125,9 @@ def _shaft(tables: Tables) -> Keys:
     for key in ("sections_mm", "flexible", "fixed_modes", "damping_ratio", "unbalance"):
         if getattr(set_of(tables).shaft, key) != Shaft.model_fields[key].default:
             yield f"spindle.shaft.{key}"
-    if set_of(tables).tilt_support is not None:
-        yield "spindle.tilt_support"
+    for key in SUPPORTS:
+        if getattr(set_of(tables), key) is not None:
+            yield f"spindle.{key}"
 
 
 def _model(tables: Tables) -> str:
@@ -275,7 +277,7 @@ EXCLUSIONS = (
     ),
     Exclusion(
         _PORT,
-        {"shaft": "sections, bending, heavy spots or a tilt support of the shaft"},
+        {"shaft": "sections, bending, heavy spots or supports of the shaft"},
         "they are given in the model which owns the shaft",
         "leave the key out, or give `spindle.shaft.external` = false",
         _shaft,

@@ -29,6 +29,13 @@ class TiltSupport(Part):
     )
 
 
+#: Tables of springs with dampers between what turns and ground, in `[mounting]` and `[spindle]`, by their
+#: keys: what each holds. They have ``stiffness_...`` and ``damping_ratio``.
+SUPPORTS: dict[str, Literal["axial", "radial", "tilt"]] = {
+    "tilt_support": "tilt",
+}
+
+
 class Housing(Part):
     """A cylinder that moves with the outer ring."""
 

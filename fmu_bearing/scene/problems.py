@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 from fmu_bearing.formulas.tolerances import HOUSING_CLASSES, SHAFT_CLASSES
 from fmu_bearing.likeness import nearest
 from fmu_bearing.scene.base import LABEL
+from fmu_bearing.scene.mounting import SUPPORTS
 from fmu_bearing.scene.scene import NAME, Tables
 from fmu_bearing.scene.seats import HOUSING_CLASS, SHAFT_CLASS
 from fmu_bearing.scene.spindle import OR_CLASS
@@ -57,7 +58,7 @@ _COUNTERPARTS = {
     ("mounting", "radial_load_z_N"): ("spindle", "load", "force_z_N"),
     ("mounting", "pedestal_stiffness_N_m"): ("spindle", "housing", "pedestal_stiffness_N_m"),
     ("mounting", "rotor"): ("spindle", "shaft"),
-    ("mounting", "tilt_support"): ("spindle", "tilt_support"),
+    **{("mounting", key): ("spindle", key) for key in SUPPORTS},
 }
 _FORCE_X = ("spindle", "load", "force_x_N")  # a single bearing's axial force is its preload
 

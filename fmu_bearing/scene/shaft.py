@@ -33,16 +33,20 @@ class Unbalance(Part):
     )  # fmt: skip
 
 
-class ShaftTiltSupport(TiltSupport):
-    """Moments between shaft and ground that hold the shaft against tilting: a bearing that is not in the set.
-
-    It holds one plane of the shaft; all planes of a rigid shaft have the same tilt.
-    """
+class OnShaft(Part):
+    """A plane of the shaft that a support holds."""
 
     position_mm: float | None = Field(
         default=None, ge=0, le=LONG, examples=[150.0],
         description="Plane that it holds, from the shaft's nose (absent: the middle of the bearings), mm.",
     )  # fmt: skip
+
+
+class ShaftTiltSupport(OnShaft, TiltSupport):
+    """Moments between shaft and ground that hold the shaft against tilting: a bearing that is not in the set.
+
+    It holds one plane of the shaft; all planes of a rigid shaft have the same tilt.
+    """
 
 
 class Shaft(Part):

@@ -9,7 +9,7 @@ from pydantic import Field
 from fmu_bearing.scene.base import Conflict, Part
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.material import Material, OwnMaterials
-from fmu_bearing.scene.mounting import AxesAngle, AxesRatio, Flexure, SeatTiltY, SeatTiltZ
+from fmu_bearing.scene.mounting import SUPPORTS, AxesAngle, AxesRatio, Flexure, SeatTiltY, SeatTiltZ
 from fmu_bearing.scene.seats import LARGEST_UM, Fit
 from fmu_bearing.scene.shaft import LONG, Shaft, ShaftTiltSupport
 
@@ -246,9 +246,10 @@ class Spindle(Part):
                     f"= {other.position_mm:g} must exceed that of the bearing before it, "
                     f"{one.position_mm:g}: bearings are given from the nose to the rear",
                 )
-        support = self.tilt_support
-        if not given and support is not None and (support.position_mm or 0.0) > length:
-            yield Conflict("tilt_support.position_mm", f"is beyond the shaft's end at {length:g} mm")
+        for key in SUPPORTS:
+            support = getattr(self, key)
+            if not given and support is not None and (support.position_mm or 0.0) > length:
+                yield Conflict(f"{key}.position_mm", f"is beyond the shaft's end at {length:g} mm")
         if not self.shaft.external:
             yield from self._held()
         yield from self._springs()

@@ -77,10 +77,12 @@ def impedance(
 
 
 def _support(p: NDArray[np.float64], s: complex, speed: float) -> NDArray[np.complex128]:
-    """Return what the tilt support and the rotor's own turning put on the inner ring, shape (5, 5)."""
-    stiffness = np.zeros((len(FREEDOMS), len(FREEDOMS)), dtype=complex)
+    """Return what springs to ground and the rotor's own turning put on the inner ring, shape (5, 5)."""
+    springs, dampers = (
+        p[place : place + len(FREEDOMS)] for place in (P.SUPPORT_STIFFNESS, P.SUPPORT_DAMPING)
+    )
+    stiffness = np.diag(springs + s * dampers)
     by, bz = FREEDOMS.index("by"), FREEDOMS.index("bz")
-    stiffness[by, by] = stiffness[bz, bz] = p[P.TILT_STIFFNESS] + s * p[P.TILT_DAMPING]
     stiffness[by, bz] = s * p[P.INNER_POLAR] * speed
     stiffness[bz, by] = -stiffness[by, bz]
     return stiffness

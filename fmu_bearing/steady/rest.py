@@ -130,8 +130,8 @@ def forces(run: Instance) -> NDArray[np.float64]:
     rigid = p[P.RIGID] != 0.0  # the pedestal then carries the force of the held place
     axial = y[Y.Q0 + Q.OUTER] * c[C.PEDESTAL_AXIAL] if rigid else u[U.PRELOAD]
     weight = GRAVITY * p[P.INNER_MASS] if p[P.GRAVITY] else 0.0
-    support = -p[P.TILT_STIFFNESS] * y[Y.Q0 + Q.INNER_BY : Y.Q0 + Q.INNER_BZ + 1]
-    return np.array([[axial, u[U.LOAD_Y], u[U.LOAD_Z] - weight, *support]])
+    springs = p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + Q.OUTER] * y[Y.Q0 : Y.Q0 + Q.OUTER]
+    return np.array([[axial, u[U.LOAD_Y], u[U.LOAD_Z] - weight, 0.0, 0.0]]) - springs
 
 
 def preloads(run: Instance) -> dict[str, list[float]]:

@@ -17,7 +17,7 @@ from fmu_bearing.instance import Instance
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
 from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.prepare.bodies import inner_ring
-from fmu_bearing.prepare.spindle import tilt_support
+from fmu_bearing.prepare.spindle import supports
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.table import tenths
@@ -393,17 +393,17 @@ def _stiffness(
     """Return the stiffness at the nose, all else free to follow, shape (5, 5).
 
     ``matrices``: of the bearings in their own axes; ``flexible``: a shaft that bends or not, default: the
-    scene's. A single bearing is held by its pedestal, and by what supports its tilt.
+    scene's. A single bearing is held by its pedestal and by springs to ground.
     """
     tied, bearings = system.shaft, system.bearings
     if tied.count == 0:
         (one,), (matrix,) = bearings, matrices
-        support = one.arrays.p[P.TILT_STIFFNESS] * np.diag([0.0, 0.0, 0.0, 1.0, 1.0])
-        return _on_pedestal(one.arrays, matrix) + support
+        springs = one.arrays.p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + FREEDOMS]
+        return _on_pedestal(one.arrays, matrix) + np.diag(springs)
     shaft = _shaft(scene, set_of(scene).shaft.flexible if flexible is None else flexible)
     first = shaft.count
     # housing and sliding rings have no springs to the shaft
-    upright = shaft.stiffness + tilt_support(scene, shaft)[0]
+    upright = shaft.stiffness + supports(scene, shaft)[0]
     stiffness = block_diag(upright, tied.stiffness[tied.shaft_count :, tied.shaft_count :])
     for one, matrix, plane, driven, sign in zip(
         bearings, matrices, shaft.planes, tied.motions, tied.signs, strict=True

@@ -252,9 +252,10 @@ class Slow:
         f[1] -= heavy * np.sin(speed * t)
         f[2] += heavy * np.cos(speed * t) - GRAVITY * p[P.INNER_MASS]
         f[7] -= GRAVITY * p[P.OUTER_MASS]
-        f[3] += -p[P.INNER_POLAR] * speed * v[4] - p[P.TILT_STIFFNESS] * q[3]
-        f[4] += p[P.INNER_POLAR] * speed * v[3] - p[P.TILT_STIFFNESS] * q[4]
-        f[3:5] -= p[P.TILT_DAMPING] * v[3:5]
+        f[3] -= p[P.INNER_POLAR] * speed * v[4]
+        f[4] += p[P.INNER_POLAR] * speed * v[3]
+        f[:5] -= p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + 5] * q[:5]
+        f[:5] -= p[P.SUPPORT_DAMPING : P.SUPPORT_DAMPING + 5] * v[:5]
         f[8] += self.lv[L.TWIST]
         f[5] -= c[C.PEDESTAL_AXIAL] * q[5] + c[C.DAMPING_AXIAL] * v[5]
         along = np.array([self.ratio * c[C.PEDESTAL], c[C.PEDESTAL]])

@@ -5,11 +5,21 @@ from scipy.special import comb
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
-from fmu_bearing.engine.layout import STRIDE, P, S, U, W, Z
+from fmu_bearing.engine.layout import STRIDE, P, Q, S, U, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.surfaces import form_rows
 from tests.engine.flexible import with_modes
+
+#: Stiffness and damping of the springs that hold an inner ring against tilting.
+TILT_STIFFNESS, TILT_DAMPING = (
+    slice(first + Q.INNER_BY, first + Q.OUTER) for first in (P.SUPPORT_STIFFNESS, P.SUPPORT_DAMPING)
+)
+#: Springs and dampers between inner ring and ground: N/m, N m/rad, N s/m, N m s/rad.
+SUPPORTED = {
+    "SUPPORT_STIFFNESS": [5e6, 2e7, 2e7, 3e4, 3e4],
+    "SUPPORT_DAMPING": [300.0, 900.0, 900.0, 2.0, 2.0],
+}
 
 
 def quiet(scene):
@@ -53,7 +63,8 @@ class Run:
         if modes is not None:
             self.p = with_modes(self.p, modes)
         for name, value in parameters.items():
-            self.p[getattr(P, name)] = value
+            place = getattr(P, name)
+            self.p[place : place + np.size(value)] = value
         self.p.setflags(write=False)
         mounting = scene.mounting
         self.u = np.zeros(U.SIZE)

@@ -168,8 +168,9 @@ def setup(p, c, mounting, wave=spline):
     springs, dampers, load = np.zeros((3, 6, 6)), np.zeros((3, 6, 6)), np.zeros((3, 3))
     rest = np.zeros((3, 6))
     rest[1, 4:] = p[P.MISALIGNMENT_Y], p[P.MISALIGNMENT_Z]
-    np.fill_diagonal(springs[0, 4:, 4:], p[P.TILT_STIFFNESS])
-    np.fill_diagonal(dampers[0, 4:, 4:], p[P.TILT_DAMPING])
+    held = [0, 1, 2, 4, 5]  # the inner ring's own rotation is prescribed
+    springs[0, held, held] = p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + 5]
+    dampers[0, held, held] = p[P.SUPPORT_DAMPING : P.SUPPORT_DAMPING + 5]
     turn = c[C.PEDESTAL_ROTATIONAL]
     springs[1] = np.diag([c[C.PEDESTAL_AXIAL], 0.0, 0.0, turn, turn, turn])
     turn = c[C.DAMPING_ROTATIONAL]

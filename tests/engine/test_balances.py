@@ -9,6 +9,7 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import F, S, Y
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.engine.readout.losses import summarise
+from tests.engine.helpers import SUPPORTED
 from tests.engine.states import BUMPS, ROUNDING, SCENES, SPEED_RATE, agree, off
 from tests.oracles import cartesian as oracle
 
@@ -59,11 +60,12 @@ def moments(case, found):
     return turning, given
 
 
+@pytest.mark.parametrize("held", [{}, SUPPORTED], ids=["free", "springs to ground"])
 @pytest.mark.parametrize("cage_offset", [0.5, 1.02])
 @pytest.mark.parametrize("tilt", [0.0, 1e-3])
-def test_linear_momentum(case, tilt, cage_offset):
+def test_linear_momentum(case, tilt, cage_offset, held):
     """What bodies and balls do to each other cancels: only outside forces change the momentum."""
-    one = case(SCENES[0], tilt=tilt, cage_offset=cage_offset)
+    one = case(SCENES[0], tilt=tilt, cage_offset=cage_offset, **held)
     rate, outside, _ = pulls(one, one.engine())
     assert off(rate.sum(0), outside.sum(0), rate) <= 1e-12
 
@@ -105,13 +107,14 @@ def test_losses_by_source(case):
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("cage_offset", [0.5, 1.02])
 @pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-5, 4e-9), (1e-4, 4e-8), (1e-3, 1e-6)])
-def test_power_balance(case, name, cage_offset, tilt, gate):
+@pytest.mark.parametrize("held", [{}, SUPPORTED], ids=["free", "springs to ground"])
+def test_power_balance(case, name, cage_offset, tilt, gate, held):
     """Work less heat is the rate of the stored energy along the engine's accelerations.
 
     Small-tilt equations leave a rest that grows with the tilt squared, and with the forces in the pockets,
     which the balls press at the start: 2e-9 of the work there.
     """
-    one = case(name, tilt=tilt, cage_offset=cage_offset)
+    one = case(name, tilt=tilt, cage_offset=cage_offset, **held)
     found = one.engine()
     stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)
     assert abs(found.work - found.heats.sum() - stored) <= gate * found.work
@@ -142,7 +145,7 @@ def test_heavy_spot_of_the_cage(case, name, cage_offset):
 
 
 def test_stored_energy(case):
-    one = case(SCENES[0], cage_offset=1.02)
+    one = case(SCENES[0], cage_offset=1.02, **SUPPORTED)
     one.engine()
     energy = stored_energy(one.p, one.c, one.y, one.w)
     assert energy == pytest.approx(oracle.stored_energy(one.setup, one.state), rel=1e-12)

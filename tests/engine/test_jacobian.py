@@ -14,7 +14,7 @@ from fmu_bearing.compiled import call
 from fmu_bearing.engine.choices import TRACTION_LAWS
 from fmu_bearing.engine.layout import STRIDE, C, F, J, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import conditions
-from tests.engine.helpers import Run
+from tests.engine.helpers import SUPPORTED, Run
 from tests.engine.states import guided, shake
 
 ANGLES = (3, 4, 8, 9, 10, 14, 15, 16)  # among the bodies' coordinates
@@ -196,6 +196,7 @@ def test_traction_laws(scene, law):
         {"GRAVITY": 0.0},
         {"RIGID": 1.0},
         {"CONTACT_DAMPING": 0.0},
+        SUPPORTED,
     ],
     ids=lambda parameters: next(iter(parameters)),
 )

@@ -9,7 +9,7 @@ from fmu_bearing.engine.layout import EQ, ST, STRIDE, C, F, P, Q, Y
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 from fmu_bearing.engine.status import OK
-from tests.engine.helpers import RPM, quiet
+from tests.engine.helpers import RPM, TILT_STIFFNESS, quiet
 from tests.engine.quasistatic import Bearing
 from tests.oracles import B7003C, B7009C
 from tests.oracles.jones_harris import JonesHarris
@@ -70,7 +70,7 @@ def test_against_the_independent_solution(scene, name, geometry, rpm, load, cont
 @pytest.mark.parametrize("load", [(500, 0, 0, 0, 0), (500, 100, -300, 1.0, -0.5), (100, 0, -800, 0, 0)])
 def test_stiffness_is_the_derivative_of_the_load(scene, name, load):
     """The flexibility by central differences of the equilibrium at standstill is the matrix's inverse."""
-    bearing = Bearing(scene(name), TILT_STIFFNESS=0.0)
+    bearing = Bearing(scene(name))
     matrix = bearing.solve(0.0, load, (1e-4, -2e-4)).stiffness
     # 0.01 % of the loads: second-order error 1e-8, the solution's tolerance 1e-9 over 1e-4
     steps = np.array([0.05, 0.05, 0.05, 5e-4, 5e-4])
@@ -162,7 +162,8 @@ def test_without_gyroscopic_term_no_friction(scene):
 
 def test_tilt_support_and_offset(scene):
     """A stiff support holds the inner ring upright while the outer one is tilted."""
-    bearing = Bearing(scene("7003C-bare"), TILT_STIFFNESS=1e9)
+    bearing = Bearing(scene("7003C-bare"))
+    bearing.p[TILT_STIFFNESS] = 1e9
     bearing.solve(0.0, (500, 0, 0, 0, 0), (5e-4, 0))
     assert bearing.shift[3] == pytest.approx(-5e-4, rel=1e-4)
     free = Bearing(scene("7003C-bare")).solve(0.0, (500, 0, 0, 0, 0), (5e-4, 0))
@@ -176,7 +177,7 @@ def test_pedestal_tilt_balances_the_moments(scene):
     load = np.array([500.0, 0.0, -300.0, 0.0, 0.0])
     tilt = bearing.rest(0.0, load).tilt
     # the support takes the moment that the pedestal's springs give, but for loads on displaced centres
-    support = bearing.p[P.TILT_STIFFNESS] * (bearing.shift[3] + tilt[0])
+    support = bearing.p[TILT_STIFFNESS][0] * (bearing.shift[3] + tilt[0])
     spring = bearing.c[C.PEDESTAL_ROTATIONAL] * (tilt[0] - 1e-3)
     displaced = bearing.shift[2] * load[0] - bearing.shift[0] * load[2]
     assert support + spring == pytest.approx(displaced, rel=1e-4, abs=1e-5 * abs(spring))

@@ -8,6 +8,7 @@ import pytest
 from fmu_bearing.engine.layout import P, Q, Y
 from fmu_bearing.engine.mechanics.cage import film_force
 from fmu_bearing.engine.mechanics.energy import stored_energy
+from tests.engine.helpers import SUPPORTED
 from tests.engine.states import (
     BUMPS,
     LIFTED,
@@ -78,6 +79,10 @@ def test_other_speeds(case, rpm):
 )
 def test_without_a_term(case, term):
     agree(case(SCENES[0], LAND=0.0, **{term: 0.0}), ROUNDING)
+
+
+def test_springs_and_dampers_to_ground(case):
+    agree(case(SCENES[0], LAND=0.0, **SUPPORTED), ROUNDING)
 
 
 @pytest.mark.parametrize("hysteresis", [False, True])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from fmu_bearing.engine.layout import P
+from fmu_bearing.engine.layout import P, Q
 from fmu_bearing.prepare.model import pack
 from tests.engine.quasistatic import solve
 
@@ -17,7 +17,7 @@ def test_first_lateral_mode_is_at_28000_rpm(scene):
     bearing = np.array([[radial, coupling], [coupling, tilt]])
     stiffness = np.block([[bearing, -bearing], [-bearing, bearing]])
     pedestal = spindle.mounting.pedestal_stiffness_N_m
-    stiffness[1, 1] += p[P.TILT_STIFFNESS]
+    stiffness[1, 1] += p[P.SUPPORT_STIFFNESS + Q.INNER_BY]
     stiffness[2, 2] += pedestal
     stiffness[3, 3] += p[P.ROTATIONAL_RATIO] * pedestal
     mass = p[[P.INNER_MASS, P.INNER_TRANSVERSE, P.OUTER_MASS, P.OUTER_TRANSVERSE]]

@@ -9,6 +9,7 @@ import numpy as np
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, J, P, Q, S, Y
+from tests.engine.helpers import TILT_DAMPING, TILT_STIFFNESS
 
 _PLACED = slice(0, J.PLACED)
 _PAIR = ((Q.Y, Q.INNER_BY), (Q.Z, Q.INNER_BZ))
@@ -55,7 +56,7 @@ def circling(system, w, way, spacing="held"):
             through = 0.5 * p[P.BALLS] * (one[first] + 1j * way * one[second])
             direct = 0.5 * (all_of_them[first] + 1j * way * all_of_them[second])
             found[i, k] = -masses[first] * (through + direct)
-    support = p[P.TILT_STIFFNESS] + 1j * w * p[P.TILT_DAMPING]
+    support = p[TILT_STIFFNESS][0] + 1j * w * p[TILT_DAMPING][0]
     found[1, 1] -= support + way * w * p[P.INNER_POLAR] * system.speed
     return found
 

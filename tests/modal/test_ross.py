@@ -176,7 +176,7 @@ def test_tilt_counts_in_the_spindle(scene, whole, hertz):
     k = sum_of_planes(plane_matrices(k, arm(k)), arm(k)) if whole else np.diag([0.0, k[Y, Y], 0.0, 0.0, 0.0])
     pair, pedestal = k[np.ix_([Y, BZ], [Y, BZ])], system.on_pedestal[1]
     found = np.block([[pair, -pair], [-pair, pair]])
-    found += np.diag([0.0, p[P.TILT_STIFFNESS], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])
+    found += np.diag([0.0, p[P.SUPPORT_STIFFNESS + Q.INNER_BY], pedestal, pedestal * p[P.ROTATIONAL_RATIO]])
     highest = math.sqrt(np.linalg.eigvals(found / inertia[:, None]).real.max()) / (2.0 * math.pi)
     assert highest == pytest.approx(hertz, rel=1e-3)  # where half of the balls' mass is put counts 3e-4
 

@@ -134,11 +134,12 @@ def test_full_loaded_slowly_gives_way_by_the_matrix_at_rest(scene, name):
             "sound": None, "imperfections": None, "fidelity.terms.gravity": False,
             "operation.speed_rpm": 18e3, "mounting.preload_N": 350.0,
             "mounting.pedestal_stiffness_N_m": 1e11,
+            "mounting.tilt_support": {"stiffness_N_m_rad": 1e6, "damping_ratio": 0.8},
         }
     )  # fmt: skip
     expected, force, places = operating_point(light).bearings[0].stiffness[Y, Y], 10.0, []
     for load in (force, -force):
-        run = Arrays.of(light, CAGE=0.0, TILT_STIFFNESS=1e6, TILT_DAMPING=5.0)
+        run = Arrays.of(light, CAGE=0.0)
         run.u[U.LOAD_Y] = load
         run.init()
         apart = []

@@ -163,7 +163,7 @@ def bearing_of(scene, number, **parameters):
         update={"spindle": None, "mounting": mounting, "fidelity": full, "sound": None} | own_tables
     )
     p = pack(alone.with_rigid_rings(), np.empty(0))
-    p[P.ECCENTRICITY] = p[P.TILT_STIFFNESS] = p[P.TILT_DAMPING] = p[P.RIGID] = 0.0
+    p[P.ECCENTRICITY] = p[P.RIGID] = 0.0
     for name, value in parameters.items():
         p[getattr(P, name)] = value
     u = np.zeros(U.SIZE)

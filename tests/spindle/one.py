@@ -3,7 +3,7 @@
 import math
 
 from fmu_bearing.scene import Scene, read_scene
-from fmu_bearing.scene.mounting import Mounting, Rotor
+from fmu_bearing.scene.mounting import SUPPORTS, Mounting, Rotor
 from tests.conftest import GATES
 from tests.spindle.sets import scene
 
@@ -44,8 +44,9 @@ def as_set(single: Scene) -> Scene:
         body = mount.housing.model_dump(exclude={"front_face_mm"})
         spindle["housing"] |= body | {"position_mm": 0.5 * rotor.length_mm}
         spindle["bearing"][0]["seat"] = "fixed"
-    if mount.tilt_support is not None:
-        spindle["tilt_support"] = mount.tilt_support.model_dump()
+    for key in SUPPORTS:
+        if getattr(mount, key) is not None:
+            spindle[key] = getattr(mount, key).model_dump()
     if mount.flexure is not None:
         spindle["flexure"] = mount.flexure.model_dump()
     return Scene.from_dict(single.model_dump(exclude={"mounting"}) | {"spindle": spindle})

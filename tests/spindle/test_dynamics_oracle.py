@@ -13,7 +13,7 @@ from fmu_bearing.prepare import bodies
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.scene import si
 from tests.conftest import GATES
-from tests.engine.helpers import Run
+from tests.engine.helpers import TILT_DAMPING, TILT_STIFFNESS, Run
 from tests.marks import heavy_but
 from tests.oracles import spindle_dynamics as oracle
 from tests.spindle.dynamics import Bearing, at_rest, bearing_arrays, dense_answer, place_from, spindle_of
@@ -289,7 +289,7 @@ def mounted(sign, in_housing):
     bare = {"rotor": None} | ({"housing": None} if in_housing else {})
     alone = base.model_copy(update={"mounting": base.mounting.model_copy(update=bare)})
     p = pack(alone.with_rigid_rings(), np.empty(0))
-    p[P.ECCENTRICITY] = p[P.TILT_STIFFNESS] = p[P.TILT_DAMPING] = 0.0
+    p[P.ECCENTRICITY] = p[TILT_STIFFNESS] = p[TILT_DAMPING] = 0.0
     u, position = run.u.copy(), 0.05
     u[U.PRELOAD] = 0.0
     bearing, plane = Bearing(p, u, own=not in_housing), rigid_transform(1.0, position)
@@ -299,8 +299,8 @@ def mounted(sign, in_housing):
     tilts = np.diag([0.0, 0.0, 0.0, 1.0, 1.0])
     shaft = ShaftModel(
         plane.T @ np.diag([rotor.mass] * 3 + [rotor.transverse] * 2) @ plane,
-        run.p[P.TILT_DAMPING] * tilts,
-        run.p[P.TILT_STIFFNESS] * tilts,
+        run.p[TILT_DAMPING][0] * tilts,
+        run.p[TILT_STIFFNESS][0] * tilts,
         gyroscopic,
         rotor.mass * plane[1:3],
         rigid_transform(1.0, 0.0),

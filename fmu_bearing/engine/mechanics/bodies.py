@@ -77,10 +77,26 @@ def land_forces(p, c, y, speed, f, w):
 
 
 @kernel
+def supported(p, c, y, i, force):
+    """Return ``force`` (N, N m) with what springs and dampers to ground put on row ``i`` of the inner ring.
+
+    Springs along y and z are free where those of the pedestal are.
+    """
+    away = y[Y.Q0 + i]
+    if i == Q.Y:
+        away -= c[C.NEUTRAL_Y]
+    elif i == Q.Z:
+        away -= c[C.NEUTRAL_Z]
+    return force - p[P.SUPPORT_STIFFNESS + i] * away - p[P.SUPPORT_DAMPING + i] * y[Y.V0 + i]
+
+
+@kernel
 def inner_ring(p, c, y, angle, speed, speed_rate, f):
-    """Preload, loads, weight, unbalance, tilt support and gyroscopic moments of inner ring and rotor."""
+    """Preload, loads, weight, unbalance, springs to ground and gyroscopic moments of inner ring and rotor."""
     g = F.BODY
     v = Y.V0
+    for i in range(Q.INNER_BY):
+        f[g + i] += supported(p, c, y, i, 0.0)
     mass = p[P.INNER_MASS]
     eccentric = mass * c[C.ECCENTRICITY]
     ca = math.cos(angle)
@@ -99,13 +115,10 @@ def inner_ring(p, c, y, angle, speed, speed_rate, f):
     f[g + Q.Y] += fy
     f[g + Q.Z] += fz
     polar = p[P.INNER_POLAR] * speed
-    k = p[P.TILT_STIFFNESS]
-    d = p[P.TILT_DAMPING]
-    dby = y[v + Q.INNER_BY]
-    dbz = y[v + Q.INNER_BZ]
-    f[g + Q.INNER_BY] += -polar * dbz - k * y[Y.Q0 + Q.INNER_BY] - d * dby
-    f[g + Q.INNER_BZ] += polar * dby - k * y[Y.Q0 + Q.INNER_BZ] - d * dbz
-    f[F.HEAT] += d * (dby * dby + dbz * dbz)
+    f[g + Q.INNER_BY] += supported(p, c, y, Q.INNER_BY, -polar * y[v + Q.INNER_BZ])
+    f[g + Q.INNER_BZ] += supported(p, c, y, Q.INNER_BZ, polar * y[v + Q.INNER_BY])
+    for i in range(Q.OUTER):
+        f[F.HEAT] += p[P.SUPPORT_DAMPING + i] * y[v + i] * y[v + i]
     for i in range(3):
         f[g + i] /= mass
     f[g + Q.INNER_BY] /= p[P.INNER_TRANSVERSE]

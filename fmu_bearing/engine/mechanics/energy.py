@@ -68,7 +68,8 @@ def stored_energy(p, c, y, w):
         total += spring_energy(p, y, w)
     total += 0.5 * p[P.INNER_MASS] * squares(y, Y.V0, 3)
     total += 0.5 * p[P.INNER_TRANSVERSE] * squares(y, Y.V0 + Q.INNER_BY, 2)
-    total += 0.5 * p[P.TILT_STIFFNESS] * squares(y, Y.Q0 + Q.INNER_BY, 2)
+    for i in range(Q.OUTER):
+        total += 0.5 * p[P.SUPPORT_STIFFNESS + i] * squares(y, Y.Q0 + i, 1)
     total += 0.5 * p[P.OUTER_MASS] * squares(y, vo, 3) + 0.5 * p[P.OUTER_POLAR] * squares(y, vo + Q.TURN, 1)
     total += 0.5 * p[P.OUTER_TRANSVERSE] * squares(y, vo + Q.BY, 2)
     total += 0.5 * c[C.PEDESTAL_AXIAL] * squares(y, outer, 1)

@@ -210,8 +210,8 @@ def cage_unbalance(p, c, y, lanes, w, jac):
 def body_slopes(p, c, y, speed, jac):
     """Add to block E what ``bodies.body_equations`` adds to the forces of the balls."""
     gyroscope(p, Q.INNER + Q.INNER_BY, p[P.INNER_POLAR] * speed, jac)
-    support(p, Q.INNER + Q.INNER_BY, p[P.TILT_STIFFNESS], p[P.TILT_DAMPING], jac)
-    support(p, Q.INNER + Q.INNER_BZ, p[P.TILT_STIFFNESS], p[P.TILT_DAMPING], jac)
+    for i in range(Q.OUTER):
+        support(p, Q.INNER + i, p[P.SUPPORT_STIFFNESS + i], p[P.SUPPORT_DAMPING + i], jac)
     outer = Q.OUTER
     gyroscope(p, outer + Q.BY, p[P.OUTER_POLAR] * y[Y.V0 + outer + Q.TURN], jac)
     spin_columns(p, y, outer + Q.TURN, p[P.OUTER_POLAR], jac)

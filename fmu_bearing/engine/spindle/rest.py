@@ -148,6 +148,8 @@ def forces_at(p, s, w, speed, share, z, g):
         ws[g + Q.X] = s[S.C + C.PRELOAD]
         ws[g + Q.Y] = s[S.C + C.LOAD_Y]
         ws[g + Q.Z] = s[S.C + C.LOAD_Z]
+        for i in range(SP.PLANE):
+            ws[g + i] -= p[P.SUPPORT_STIFFNESS + i] * ws[z + i]
     status = OK
     for b in range(members.bearing_count(p)):
         here = settle_bearing(p, s, w, b, speed, share, z, g)
@@ -159,9 +161,9 @@ def forces_at(p, s, w, speed, share, z, g):
 
 @kernel
 def upright_stiffness(p, i, k):
-    """Entry, by shared unknowns, of the stiffness of the shaft and of what supports its tilt."""
+    """Entry, by shared unknowns, of the stiffness of the shaft and of its springs to ground."""
     if not members.has_shaft(p):
-        return p[P.TILT_STIFFNESS] if i == k and i >= Q.INNER_BY else 0.0
+        return p[P.SUPPORT_STIFFNESS + i] if i == k else 0.0
     return p[members.table(p, SP.AT_STIFFNESS) + k * members.padded_size(p) + i]
 
 
@@ -334,7 +336,7 @@ def begin_rest(p, s, w, speed):
     axial = w[W.STILL_EQUILIBRIUM : W.STILL_END]
     quasistatic(p, c, speed, axial)
     own_weight, lying = weights(p, p)
-    aside, down = pedestal_deflection(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
+    aside, down = pedestal_deflection(p, c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
     for place in (z, z + SP.PLANE):
         ws[place + Q.X] = c[C.PRELOAD] / c[C.PEDESTAL_AXIAL]
         ws[place + Q.Y] = aside

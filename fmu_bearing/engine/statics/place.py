@@ -14,11 +14,13 @@ _FAR = 0.3  # of the pitch radius: beyond it the angles of pockets and waves, se
 
 
 @kernel
-def pedestal_deflection(c, load_y, load_z):
-    """Return where a pedestal lets loads (N) push the outer ring: y, z (m)."""
-    share = c[C.PEDESTAL_YZ] / c[C.PEDESTAL_Z]
-    aside = (load_y - share * load_z) / (c[C.PEDESTAL_Y] - share * c[C.PEDESTAL_YZ])
-    return aside, (load_z - c[C.PEDESTAL_YZ] * aside) / c[C.PEDESTAL_Z]
+def pedestal_deflection(p, c, load_y, load_z):
+    """Return where loads (N) push rings in line with each other, on pedestal and springs: y, z (m)."""
+    along_y = c[C.PEDESTAL_Y] + p[P.SUPPORT_STIFFNESS + Q.Y]
+    along_z = c[C.PEDESTAL_Z] + p[P.SUPPORT_STIFFNESS + Q.Z]
+    share = c[C.PEDESTAL_YZ] / along_z
+    aside = (load_y - share * load_z) / (along_y - share * c[C.PEDESTAL_YZ])
+    return aside, (load_z - c[C.PEDESTAL_YZ] * aside) / along_z
 
 
 @kernel

@@ -5,11 +5,9 @@
 * ``p``, ``c``: parameters and conditions; ``speed`` of the inner ring (rad/s).
 * ``ring``: x y z by bz (m, rad) of the inner ring against the outer one, ``tilt``: y z (rad) of the outer.
 * ``share`` of the imperfections, ball sizes and race waviness: 1, or 0 for a perfect bearing.
-* ``force``: of the balls and of the tilt support (``P.TILT_STIFFNESS``, neutral at zero) on the inner ring,
-  x y z (N) and moments y z about its centre (N m).
+* ``force``: of the balls on the inner ring, x y z (N) and moments y z about its centre (N m).
 * ``out``: ``EQ.SIZE`` numbers, places of ``layout.EQ``: ``ring``, residual of the worst ball (N), stiffness
-  5 x 5 (bearing alone, without the tilt support), then per ball place, orbit speed, spin, loads, contact
-  angles. Outer ring's centre at the origin.
+  5 x 5, then per ball place, orbit speed, spin, loads, contact angles. Outer ring's centre at the origin.
 * ``w``: work space; the kernels get ``v``, its area ``W.STATICS`` with the places of ``layout.ST``.
 * status ``OK``, or ``NO_START`` where a ball's residual stays above 1e-6 of the forces and 0.01 N, which slow
   balls that nothing presses may lack.
@@ -82,7 +80,7 @@ def pose_of(v, j, ring, offset):
 
 @kernel
 def settle_balls(p, c, speed, offset, ring, v, g):
-    """Settle all balls and put what acts on the inner ring to ``g`` (N, N m); their worst residual (N)."""
+    """Settle all balls and put what they do to the inner ring to ``g`` (N, N m); their worst residual (N)."""
     radius = c[C.BALL_RADIUS]
     worst = 0.0
     for i in range(EQ.FREEDOMS):
@@ -112,9 +110,6 @@ def settle_balls(p, c, speed, offset, ring, v, g):
         g[Q.Z] += cj * fr - sj * ft
         g[Q.INNER_BY] += -sj * mr - cj * mt
         g[Q.INNER_BZ] += cj * mr - sj * mt
-    for k in range(2):
-        tilt = Q.INNER_BY + k
-        g[tilt] -= p[P.TILT_STIFFNESS] * (ring[tilt] + offset[k])
     return worst
 
 

@@ -186,7 +186,8 @@ def along_axis(p, c, y, speed, fixed, state, w):
     outer = y[Y.Q0 + Q.OUTER]
     shift = y[Y.Q0] - outer
     status = OK
-    if fixed < BOTH and p[P.RIGID] == 0.0:
+    # where mount or springs hold the ring along the axis, its place varies less than the balls' load
+    if fixed < BOTH and p[P.RIGID] == 0.0 and p[P.SUPPORT_STIFFNESS] == 0.0:
         axial = w[W.STILL_EQUILIBRIUM : W.STILL_END]
         status = quasistatic(p, c, speed, axial)
         shift = axial[ST.AXIAL_SHIFT]

@@ -264,7 +264,7 @@ def exceeds_pedestal(p, s):
         return False
     c = s[S.C : S.C + C.SIZE]
     own_weight, lying = weights(p, p)
-    aside, down = pedestal_deflection(c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
+    aside, down = pedestal_deflection(p, c, c[C.LOAD_Y], c[C.LOAD_Z] - own_weight - lying)
     return too_far(p, aside, down)
 
 

@@ -151,8 +151,8 @@ def freeze_point(p, u, b, at_once, s, w):
     if together:
         given[U.PRELOAD] = carried
     turning = frozen_conditions(pb, given, speed, lv, c)
-    if rigid:
-        # the mount gives the load that the present sizes and speed ask for
+    if rigid or pb[P.SUPPORT_STIFFNESS] != 0.0:
+        # mount and springs leave the balls the load that the present sizes and speed ask for
         c[C.PRELOAD] = carried
     axial = wb[W.STILL_EQUILIBRIUM : W.STILL_END]
     status = quasistatic(pb, c, turning, axial)
@@ -162,6 +162,8 @@ def freeze_point(p, u, b, at_once, s, w):
         if rigid:
             y[Y.Q0] = sb[S.PLACE]
             own[members.history(p) + Q.X] = sb[S.PLACE]
+        else:
+            c[C.PRELOAD] = given[U.PRELOAD]
         freeze_at(pb, speed, turning, OUTER if together else NONE, sb, wb)
         if together:
             # what the shaft puts across the axis counts as this bearing's load

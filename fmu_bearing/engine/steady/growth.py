@@ -25,9 +25,9 @@ from fmu_bearing.engine.steady.pattern import STENCIL, matrix_at, neighbour, sho
 _GROWING = 0.15
 _TURNING = 0.45
 _BESIDE = 0.02
-# A film on the outer ring carries a cage round at half the cage's speed, 0.21 of the shaft's; on the inner
-# ring a whirl that grows turned with 0.42 to 0.53 of it: the share of both.
-_ON_OUTER = 0.45
+# Whirls that grow turned with 0.35 to 0.42 of shaft speed on the outer ring, with 0.42 to 0.53 on the inner
+# one, of the same bearings: between what the film carries round and the balls, which the pockets press on.
+_ON_OUTER = 0.75
 SHIFTS = 3
 NOTHING = -1e300  # 1/s: growth where no whirl was found; the state of a search has to be numbers
 _ROUNDS = 8  # with each

@@ -12,7 +12,7 @@ in real time can make one per step; what a piece leaves to the next are ``PT.KEP
 
 import math
 
-from fmu_bearing.engine.choices import OUTER_GUIDED
+from fmu_bearing.engine.choices import BALL_GUIDED, OUTER_GUIDED
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, ST, C, P, Q, W, Y
 from fmu_bearing.engine.mechanics.bodies import guiding_ring
@@ -48,6 +48,7 @@ _WAYS = ((1e-3, 10.0), (1e-3, 1e3), (1e-4, 100.0))
 _STIFFER = 100.0
 _REACH = 3.0
 _ACROSS = 1e-12  # m, rad: rings less apart are in line
+_PRESSED = 5e-7  # m: into a spherical pocket at first; one that is not touched has no slope
 
 
 @kernel
@@ -74,6 +75,28 @@ def eccentricity(p, y):
 
 
 @kernel
+def press_spheres(p, w):
+    """Move the balls of the unknowns along their orbits, behind or ahead as they are, into their spheres.
+
+    Nothing but these carries the cage.
+    """
+    balls = int(p[P.BALLS])
+    at = W.PATTERN + PT.UNKNOWNS
+    cage = at + tail(p) + Q.CAGE
+    wide = p[P.POCKET_CLEARANCE] + _PRESSED
+    for j in range(balls):
+        angle = 2.0 * math.pi * j / p[P.BALLS]
+        co = math.cos(angle)
+        si = math.sin(angle)
+        axial = w[at + j] - w[cage]
+        deep = w[at + balls + j] + w[cage + Q.Y] * si - w[cage + Q.Z] * co
+        around = math.sqrt(max(wide * wide - axial * axial - deep * deep, 0.0))
+        lead = at + 2 * balls + j
+        around = math.copysign(around, w[lead]) - w[cage + Q.Y] * co - w[cage + Q.Z] * si
+        w[lead] = around / p[P.PITCH_RADIUS]
+
+
+@kernel
 def begin_pattern(p, y, even, w):
     """Put to the unknowns the places of the state ``y`` with the means of the ``even`` one."""
     balls = int(p[P.BALLS])
@@ -94,10 +117,15 @@ def begin_pattern(p, y, even, w):
     for i in range(Q.CAGE):
         if i != Q.OUTER + Q.TURN:
             w[last + i] = y[Y.Q0 + i]
+    ring, tilt = guiding_ring(p)
     for i in (Q.Y, Q.Z):
-        w[last + Q.CAGE + i] = y[Y.Q0 + i]
-    w[last + Q.CAGE + Q.BY] = y[Y.Q0 + Q.INNER_BY]
-    w[last + Q.CAGE + Q.BZ] = y[Y.Q0 + Q.INNER_BZ]
+        w[last + Q.CAGE + i] = y[Y.Q0 + ring + i]
+    w[last + Q.CAGE + Q.BY] = y[Y.Q0 + tilt]
+    w[last + Q.CAGE + Q.BZ] = y[Y.Q0 + tilt + 1]
+    if p[P.CAGE] != 0.0 and p[P.GUIDANCE] == BALL_GUIDED:
+        for i in (Q.Y, Q.Z):
+            w[last + Q.CAGE + i] = 0.5 * (y[Y.Q0 + i] + y[Y.Q0 + Q.OUTER + i])
+        press_spheres(p, w)
 
 
 @kernel

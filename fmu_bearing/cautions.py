@@ -117,6 +117,17 @@ _UNLOADED = Caution(
     " N per ball: the bearing is unloaded; loose balls skid or lift off, and what they then do depends on "
     "gravity and chance more than on the bearing; give more preload or less load",
 )
+_IDLE = replace(
+    _UNLOADED, after=_UNLOADED.after.replace("give more preload or less load", "give it a load, or a preload")
+)
+_PRESSED = Caution(
+    Z.CLEARANCE,
+    0.0,
+    1e6,
+    "fits and heat leave a radial clearance of ",
+    " um, so that balls are pressed between the races without load, more with each kelvin that the inner "
+    "ring is warmer; give less interference, cooler rings, or a larger clearance",
+)
 _BACKWARD = Caution(  # of a set that carries one way: another has bearings for the other one
     Z.BEARING_OUTPUTS.index("contact.inner.angle_mean"),
     -0.02,  # rad: more than a free bearing's balls sway
@@ -133,6 +144,13 @@ _ROLLS = {
     "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
     "wrong by orders of magnitude",
 }
+
+
+def is_loose(scene: Scene) -> bool:
+    """Whether a single bearing has no preload; a deep groove one has a radial load in its place."""
+    return (
+        scene.mounting is not None and not scene.bearing.is_deep_groove and not scene.mounting.preload_N > 0.0
+    )
 
 
 def loose(fidelity: str) -> str:
@@ -184,6 +202,8 @@ def _cautions(model: Model) -> tuple[Caution, ...]:
     fidelity = FIDELITIES[int(model.parameters[P.FIDELITY])]
     if SP.has_shaft(model.parameters):
         return (*_skids(model, fidelity), *_cautions_of_set(model.scene))
+    if model.scene.bearing.is_deep_groove:
+        return (_IDLE, *_skids(model, fidelity), *_ALWAYS, *_fits(model.scene), *_tight(model.scene))
     before, nothing, after = loose(fidelity).partition("0")
     smallest = math.ulp(float(nothing))
     without = Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u")
@@ -196,7 +216,7 @@ def _fits(scene: Scene, table: str = "mounting.fit") -> tuple[Caution, ...]:
     ``table``: of the file, in which they are given.
     """
     tight = replace(_RADIALLY_TIGHT, after=_RADIALLY_TIGHT.after.format(table))
-    warnings = [] if scene.fit is None else [tight]
+    warnings = [] if scene.fit is None or scene.bearing.is_deep_groove else [tight]
     for race, (seat, interference) in enumerate(zip(("shaft", "housing"), interferences(scene), strict=True)):
         if interference is not None and interference.um > 0.0:
             ring = ("inner", "outer")[race]
@@ -210,18 +230,25 @@ def _fits(scene: Scene, table: str = "mounting.fit") -> tuple[Caution, ...]:
     return tuple(warnings)
 
 
+def _tight(scene: Scene) -> tuple[Caution, ...]:
+    """Return the warning about a deep groove bearing that fits and heat make tight; none of one drawn so."""
+    own = scene.bearing.is_deep_groove and scene.bearing.radial_clearance > 0.0
+    return (_PRESSED,) if own else ()
+
+
 def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
     """Return the warnings about balls that roll in a fidelity although traction cannot drive them.
 
     The traction of all inner contacts at the preload, at their distance from the axis, is the most torque
     that rolling balls can take from the shaft: a bearing whose friction asks for more skids. The preload is
-    the scene's, as the text says: a warning has one threshold, and the input may change. Of a set loads
-    depend on its statics: there the warnings come where there is no traction at all.
+    the scene's, as the text says: a warning has one threshold, and the input may change. Of a set, and of a
+    deep groove bearing, loads depend on the statics: there the warnings come where there is no traction.
     """
     p = model.parameters
     b = model.scene.bearing
-    arm = 5e-4 * (b.pitch_diameter_mm - b.ball_diameter_mm * math.cos(math.radians(b.contact_angle_deg)))
-    along = 0.0 if SP.has_shaft(p) else model.inputs[U.PRELOAD] / math.sin(math.radians(b.contact_angle_deg))
+    arm = 5e-4 * (b.pitch_diameter_mm - b.ball_diameter_mm * math.cos(b.nominal_angle))
+    apart = SP.has_shaft(p) or b.is_deep_groove
+    along = 0.0 if apart else model.inputs[U.PRELOAD] / math.sin(b.nominal_angle)
     most = float(p[P.MU] * along * arm)
     if fidelity == "full" or (most == 0.0 and p[P.MU] > 0.0):
         return ()
@@ -251,9 +278,10 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
         replace(_GROWTH, index=own + SP.Z_GROWTH),
     ]  # fmt: skip
     for bearing in bearings:
-        for one in (_UNLOADED, *_SHOULDERS, *_fits(bearing.scene, "spindle.fit")):
+        own_fits = *_fits(bearing.scene, "spindle.fit"), *_tight(bearing.scene)
+        for one in (_UNLOADED, *_SHOULDERS, *own_fits):
             place = first_output(scene, bearing.number - 1) + one.index
             warnings.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
-    if len({bearing.sign for bearing in bearings}) == 1:
+    if len({bearing.sign for bearing in bearings}) == 1 and not scene.bearing.is_deep_groove:
         warnings.append(replace(_BACKWARD, index=first_output(scene, 0) + _BACKWARD.index))
     return tuple(warnings)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from fmu_bearing.design.rating import preload_classes
+from fmu_bearing.formulas import clearances
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.preload import CLASS, preload
 from fmu_bearing.scene.read import catalogue
@@ -147,7 +148,10 @@ def _geometry(scene: Scene) -> Iterator[Alternative]:
             yield Alternative(
                 "conformity", f"{race} groove {now:g} -> {changed:g}", {f"bearing.{race}_conformity": changed}
             )
-    angle = scene.bearing.contact_angle_deg
+    if scene.bearing.is_deep_groove:
+        yield from _clearances(scene)
+        return
+    angle = scene.bearing.nominal_angle_deg
     near = [one for one in _ANGLES if abs(one - angle) <= _NEAR]
     for other in _ANGLES:
         if other not in near:
@@ -155,6 +159,15 @@ def _geometry(scene: Scene) -> Iterator[Alternative]:
                 "contact angle", f"contact angle {angle:g} -> {other:g} deg",
                 {"bearing.contact_angle_deg": other},
             )  # fmt: skip
+
+
+def _clearances(scene: Scene) -> Iterator[Alternative]:
+    """Yield the other groups of a deep groove bearing's clearance."""
+    bearing = scene.bearing
+    now = bearing.clearance or f"{1e6 * bearing.radial_clearance:g} um"
+    for group in clearances.GROUPS:
+        if group != bearing.clearance and clearances.limits(group, bearing.bore_mm) is not None:
+            yield Alternative("clearance", f"clearance {now} -> {group}", {"bearing.clearance": group})
 
 
 def _supports(scene: Scene) -> Iterator[Alternative]:

@@ -39,7 +39,7 @@ def fit_verdicts(point: BearingPoint) -> Iterator[Verdict]:
         yield from _creep(point, own)
     if "outer" in own.seats:
         yield _gap(own, low, high)
-    yield _free_angle(own, low, high)
+    yield (_clearance if point.scene.bearing.is_deep_groove else _free_angle)(own, low, high)
     if "inner" in own.seats:
         yield _mounting(own, high)
 
@@ -198,8 +198,24 @@ def _creep(point: BearingPoint, own: Mounted) -> Iterator[Verdict]:
     )  # fmt: skip
 
 
+def _clearance(own: Mounted, low: Mounted, high: Mounted) -> Verdict:
+    left, loosest, tightest = (1e6 * one.clearance(one.speed) for one in (own, low, high))
+    text, advice = f"{left:.1f}", ""
+    if tightest < 0.0:
+        worst = text if left < 0.0 else f"{tightest:.1f} um with the tightest of the fits, {text}"
+        advice = (
+            f"radial clearance {worst} um at the operating point: balls are pressed between the races, more "
+            "with each kelvin that the inner ring is warmer: take looser fits, or a larger clearance"
+        )
+    judgement: Judgement = "change" if left < 0.0 else "watch" if advice else "good"
+    return Verdict(
+        "clearance", "clearance at the operating point, um", 1e-6 * left,
+        f"{text} ({tightest:.1f} to {loosest:.1f})", "0", "rule of the field, no standard", judgement, advice,
+    )  # fmt: skip
+
+
 def _free_angle(own: Mounted, low: Mounted, high: Mounted) -> Verdict:
-    drawn = own.scene.bearing.contact_angle_deg
+    drawn = own.scene.bearing.nominal_angle_deg
     angle, loosest, tightest = (one.free_angle(one.speed) for one in (own, low, high))
     text, off = f"{math.degrees(angle):.1f}", angle - math.radians(drawn)
     judgement: Judgement = "change" if angle == 0.0 else "watch" if abs(off) > _ANGLE_OFF else "good"

@@ -327,7 +327,7 @@ def column_at(scene: Scene, take: Take, point: OperatingPoint) -> Column:
         seats = {ring: _seat(own, scene, k, ring, take) for ring in own.seats}
         joint = mounted(bearing.scene)
         angles = {key: joint.free_angle(share * joint.speed, warm) for key, (share, warm) in STATES.items()}
-        drawing = {"drawing": math.radians(joint.scene.bearing.contact_angle_deg)}
+        drawing = {"drawing": joint.scene.bearing.free_angle}
         loads, apart = preloads(point, k), axial_gaps(point)
         bearings.append(FitPoint(k + 1, seats, drawing | angles, loads, apart, bearing, own, joint))
     return Column(take, tuple(bearings), point)

@@ -6,6 +6,7 @@ Warmth is a share of the way from 20 degC (0) to the temperatures of the scene (
 from dataclasses import dataclass
 
 from fmu_bearing.design.operating_point import OperatingPoint
+from fmu_bearing.elastic.section import INNER, OUTER, groove_circle
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas import fits as closed
 from fmu_bearing.formulas.fits import REFERENCE, Kind, State
@@ -58,18 +59,36 @@ class Mounted:
         seat = self.seats[ring]
         return seat.fit.loss_speed(seat.interference, *self.temperatures(ring, warmth))
 
-    def free_angle(self, speed: float, warmth: float = 1.0) -> float:
-        """Return the free contact angle (rad) at a speed (rad/s); 0 where the bearing is radially tight."""
-        b, materials = si(self.scene.bearing), self.scene.materials
+    def _grown(self, speed: float, warmth: float) -> tuple[tuple[float, float, float], tuple[float, float]]:
+        """Return the thermal growth of inner ring, outer ring and balls, and the motion of the races (m)."""
+        materials = self.scene.materials
         warm = [self.temperatures(ring, warmth)[0] - REFERENCE for ring in RINGS]
         rises = (*warm, 0.5 * sum(warm))
         bodies = (materials.inner_ring, materials.outer_ring, materials.balls)
         inner, outer, ball = (1.0 + si(one).expansion * rise for one, rise in zip(bodies, rises, strict=True))
         moved = [self.at(ring, speed, warmth).race if ring in self.seats else 0.0 for ring in RINGS]
+        return (inner, outer, ball), (moved[0], moved[1])
+
+    def free_angle(self, speed: float, warmth: float = 1.0) -> float:
+        """Return the free contact angle (rad) at a speed (rad/s); 0 where the bearing is radially tight."""
+        if self.scene.bearing.is_deep_groove:
+            return self._clearance(speed, warmth)[1]
+        b, angle = si(self.scene.bearing), self.scene.bearing.nominal_angle
         return closed.free_angle(
-            b.pitch_diameter, b.ball_diameter, b.inner_conformity, b.outer_conformity, b.contact_angle,
-            (inner, outer, ball), (moved[0], moved[1]),
+            b.pitch_diameter, b.ball_diameter, b.inner_conformity, b.outer_conformity, angle,
+            *self._grown(speed, warmth),
         )  # fmt: skip
+
+    def clearance(self, speed: float, warmth: float = 1.0) -> float:
+        """Return the radial clearance (m) at a speed (rad/s); negative where the bearing is tight."""
+        return self._clearance(speed, warmth)[0]
+
+    def _clearance(self, speed: float, warmth: float) -> tuple[float, float]:
+        b = si(self.scene.bearing)
+        grooves = groove_circle(self.scene, INNER)[1], groove_circle(self.scene, OUTER)[1]
+        return closed.clearance(
+            grooves, b.ball_diameter, b.inner_conformity, b.outer_conformity, *self._grown(speed, warmth)
+        )
 
     def breaking_chance(self, speed: float, warmth: float = 1.0) -> float | None:
         """Return the chance that the inner ring breaks at once, at `GROOVE` times its hoop stress.

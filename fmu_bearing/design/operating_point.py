@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
 from fmu_bearing.design.heat import Heat, heat_in_all, heat_of
-from fmu_bearing.design.rating import Rating, least_preload, rating, reference_life, speed_limit
+from fmu_bearing.design.rating import Rating, least_load, rating, reference_life, speed_limit
 from fmu_bearing.design.torque_range import TorqueRange, torque_range
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import C, P, S, Y
@@ -77,7 +77,7 @@ class BearingPoint(Result):
     speed_limit: float | None
     """Its limit for spring-loaded bearings of this angle, see `design.rating.speed_limit`."""
     least_preload: float
-    """N: below it balls skid, see `design.rating.least_preload`."""
+    """N: of what `holding` is, below it balls skid, see `design.rating.least_load`."""
     rating: Rating | None
     """None where no standard rates the bearing."""
     reference_life: float | None
@@ -104,13 +104,18 @@ class BearingPoint(Result):
 
     @property
     def axial(self) -> float:
-        """Axial load (N) for its rating: 0 of a bearing that is unloaded."""
-        return max(0.0, self.load.axial)
+        """Axial load (N) for its rating: 0 of a bearing that is unloaded, of a deep groove one its size."""
+        return axial_of(self.scene, self.load)
 
     @property
     def radial(self) -> float:
         """Radial load, N, weights included."""
         return self.load.radial
+
+    @property
+    def holding(self) -> float:
+        """Load (N) that keeps balls from skidding: the axial one, of a deep groove bearing all of it."""
+        return math.hypot(self.axial, self.radial) if self.scene.bearing.is_deep_groove else self.axial
 
     @property
     def displacement(self) -> float:
@@ -287,11 +292,16 @@ def _figures(
     return BearingPoint(
         scene, contacts, frequencies, output("film.lambda_min"), nu,
         iso281.viscosity_ratio(nu, rpm, pitch), abs(rpm) * pitch, speed_limit(scene),
-        least_preload(scene, centrifugal), rating(scene, max(0.0, load.axial), load.radial, rpm),
+        least_load(scene, centrifugal, nu), rating(scene, axial_of(scene, load), load.radial, rpm),
         reference_life(scene, *load.ball_loads), settled.get(one.prefix + "friction_torque"),
         heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM, scene.bearing.cage is not None),
         _gyroscopic_friction(part, load.ball_loads), load, one.prefix != "",
     )  # fmt: skip
+
+
+def axial_of(scene: Scene, load: BearingLoad) -> float:
+    """Return the axial load (N) of a bearing for its rating, which deep groove ones carry both ways."""
+    return abs(load.axial) if scene.bearing.is_deep_groove else max(0.0, load.axial)
 
 
 def _gyroscopic_friction(bearing: Readable, loads: NDArray[np.float64]) -> float:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.formulas import iso76, iso281, iso16281, makers
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.dimension_series import series_of
 from fmu_bearing.scene.preload import Classes, classes, nsk_size
 
 
@@ -54,11 +55,11 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
     dynamic, static = iso281.dynamic_rating(*size), iso76.static_rating(*size)
     factor = iso76.static_factor(iso281.relative_ball(*size[1:]))
     relative = factor * axial / static
-    load = iso281.equivalent_load(scene.bearing.contact_angle_deg, relative, axial, radial)
+    load = iso281.equivalent_load(scene.bearing.nominal_angle_deg, relative, axial, radial)
     life = None
     if load is not None and load > 0.0 and speed_rpm != 0.0:
         life = iso281.hours(iso281.basic_life(dynamic, load), speed_rpm)
-    angle = scene.bearing.contact_angle_deg
+    angle = scene.bearing.nominal_angle_deg
     still, steep = iso76.static_load(angle, axial, radial), iso76.axial_factor(angle)
     factors = iso281.factors(angle, relative)
     return Rating(
@@ -74,21 +75,31 @@ def speed_limit(scene: Scene) -> float | None:
     if not scene.materials.steel_rings:
         return None
     ceramic = scene.materials.kind == "hybrid"
-    return makers.speed_limit(scene.bearing.contact_angle_deg, ceramic, scene.lubricant.greased)
+    return makers.speed_limit(scene.bearing.nominal_angle_deg, ceramic, scene.lubricant.greased)
 
 
-def least_preload(scene: Scene, centrifugal: float) -> float:
-    """Return the axial force (N) below which balls of this centrifugal force (N) skid, by GMN's catalogue."""
+def least_load(scene: Scene, centrifugal: float, nu: float) -> float:
+    """Return the load (N) below which balls skid.
+
+    The axial force of angular contact bearings by GMN's catalogue, from the balls' centrifugal force (N); of
+    deep groove ones SKF's least radial load, from the viscosity ``nu`` (mm2/s).
+    """
+    b = scene.bearing
+    if b.is_deep_groove:
+        series = series_of(b.bore_mm, b.outside_diameter_mm)
+        return makers.least_radial(series, nu, scene.operation.speed_rpm, b.pitch_diameter_mm)
     return makers.least_preload(scene.bearing.ball_count, scene.bearing.for_ratings[3], centrifugal)
 
 
 def unclassed(scene: Scene) -> str:
     """Return why no maker's preload class is for such a bearing; empty: there are classes."""
+    if scene.bearing.is_deep_groove:
+        return "makers' classes are for angular contact bearings"
     if not scene.materials.steel_rings:
         return "makers' classes are for rings of steel"
     if nsk_size(scene.bearing) is not None:
         return ""
-    angle = scene.bearing.contact_angle_deg
+    angle = scene.bearing.nominal_angle_deg
     if not makers.at_known_angle(angle):
         return f"makers' classes are for contact angles of 15 to 25 deg, not {angle:g}"
     return unrated(scene)  # GMN's classes are shares of C

@@ -12,6 +12,7 @@ from dataclasses import replace
 from fmu_bearing.design.fit_verdicts import fit_verdicts, mounted_preload
 from fmu_bearing.design.mounted import preloads
 from fmu_bearing.design.operating_point import RINGS, BearingPoint, OperatingPoint
+from fmu_bearing.design.preload_verdicts import preload_verdicts
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
 from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
 from fmu_bearing.formulas import iso76, iso281, makers
@@ -65,7 +66,7 @@ def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
         _pressure(bearing),
         *_static_safety(bearing),
         *_life(bearing),
-        *_preload(bearing),
+        *preload_verdicts(bearing),
         _speed(bearing),
     ]
     judged += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
@@ -128,9 +129,14 @@ def _pressure(point: BearingPoint) -> Verdict:
         why = "limits are known for races of steel: ask for the maker's proof load"
         return unjudged("pressure", label, why, pressure, text)
     usual = makers.CLASS_PRESSURE[point.scene.materials.kind]
+    if point.scene.bearing.is_deep_groove:  # classes are of angular contact bearings
+        usual = HIGH_PRESSURE
     shown = f"contact pressure {text} GPa at the {race} race"
-    limit = f"{1e-9 * usual:.2f} heaviest class; {1e-9 * HIGH_PRESSURE:.1f} marks races"
-    source = "GMN and NSK, computed; rule of the field, no standard"
+    limit = f"{1e-9 * HIGH_PRESSURE:.1f} marks races"
+    source = "rule of the field, no standard"
+    if usual < HIGH_PRESSURE:
+        limit = f"{1e-9 * usual:.2f} heaviest class; {limit}"
+        source = f"GMN and NSK, computed; {source}"
     judgement: Judgement = "good"
     advice = ""
     if pressure > iso76.STATIC_PRESSURE:
@@ -178,7 +184,7 @@ def _static_safety(point: BearingPoint) -> Iterator[Verdict]:
 
 
 def _no_factors(point: BearingPoint, load: str) -> str:
-    angle = point.scene.bearing.contact_angle_deg
+    angle = point.scene.bearing.nominal_angle_deg
     return f"factors of {load} are known for contact angles of 14 to 46 deg, not {angle:g}; see ball loads"
 
 
@@ -227,59 +233,14 @@ def _life(point: BearingPoint) -> Iterator[Verdict]:
             yield judged_life("life_modified", "L10mr", factor * hours, required, source)
 
 
-def _preload(point: BearingPoint) -> Iterator[Verdict]:
-    preload = point.scene.mounted.preload_N
-    rpm = point.scene.operation.speed_rpm
-    advice, name = "", "axial load" if point.on_shaft else "preload"
-    # a computed load has three digits, a scene's own figure those that it is given with
-    shown = f"{point.axial:.3g}" if point.on_shaft else f"{point.axial:g}"
-    if point.axial < point.least_preload:
-        advice = (
-            f"{name} {shown} N: below the {point.least_preload:.3g} N that keep balls from skidding at "
-            f"{rpm:g} r/min (1.1 Z F_c tan(alpha), fitted to GMN's spring preloads): give more preload, "
-            "lower speed, or lighter balls"
-        )
-    source = "1.1 Z F_c tan(alpha): fit to GMN, +-9 %"
-    source += "" if point.scene.materials.steel_rings else ", with rings of steel"
-    yield Verdict(
-        "least_preload", f"{name} over skidding, N", point.axial, shown, f"{point.least_preload:.3g}",
-        source, "change" if advice else "good", advice,
-    )  # fmt: skip
-    label, found = "preload class, N", preload_classes(point.scene)
-    if found is None or preload == 0.0:
-        why = unclassed(point.scene) or "no preload"
-        yield unjudged("preload_class", label, why, preload, f"{preload:g}")
-        return
-    if point.scene.fit is not None and point.scene.fit.preload == "mounted":
-        why = "classes are of the loose bearing, and this preload is of the mounted one"
-        yield unjudged("preload_class", label, why, preload, f"{preload:g}")
-        return
-    heavy, advice = found.loads["heavy"], ""
-    own = makers.preload_class(preload, found.loads)
-    if own is None:
-        shown, share = f"{preload / heavy:.2g} x heavy", ""
-        if point.rating is not None:
-            share = f" ({preload / point.rating.dynamic:.3f} C)"
-        advice = (
-            f"preload {preload:g} N{share}: {preload / heavy:.2g} times the heavy class of {found.maker}, "
-            f"{heavy:g} N: give {heavy:g} N or less, unless it takes the place of a load"
-        )
-    else:
-        between = makers.CLASS_SLACK * preload < found.loads[own]
-        shown = f"up to {own}" if between else own
-    yield Verdict(
-        "preload_class", label, preload, f"{preload:g}: {shown}",
-        ", ".join(f"{one} {load:g}" for one, load in found.loads.items()),
-        f"{found.maker}; loose, at standstill and 20 degC; 10 % slack", "watch" if advice else "good", advice,
-    )  # fmt: skip
-
-
 def _speed(point: BearingPoint) -> Verdict:
     number, single = point.speed_number, point.speed_limit
     label, text = "n d_m, 1e6 mm r/min", f"{1e-6 * number:.2f}"
     if single is None:
         steel = point.scene.materials.steel_rings
         why = "no maker's limit at this contact angle" if steel else "makers' limits are for rings of steel"
+        if steel and point.scene.bearing.is_deep_groove:
+            why = "makers' limits here are of spindle bearings: ask for the maker's"
         return unjudged("speed", label, why, number, text)
     factor, mounted = 1.0, "on springs"
     if point.scene.mounted.preload_mode == "rigid":
@@ -346,7 +307,12 @@ def _spin(point: BearingPoint) -> Verdict:
     if spin > SPIN:
         advice = (
             f"spin over roll {text} at the {race} race: above {SPIN:g} (GMN's plots end there; no "
-            "standard) balls heat and smear: take a smaller contact angle, or more preload at this speed"
+            "standard) balls heat and smear: take "
+            + (
+                "less axial load, or a smaller clearance"
+                if point.scene.bearing.is_deep_groove
+                else "a smaller contact angle, or more preload at this speed"
+            )
         )
     return Verdict(
         "spin", label, spin, text, f"{SPIN:g}", "GMN; no standard", "watch" if advice else "good", advice

@@ -123,10 +123,25 @@ class Grid:
     seat_row: int
 
 
+def groove_circle(scene: Scene, body: int) -> tuple[float, float]:
+    """Return place along the axis and radius (m) of the circle of groove centres of a ring.
+
+    Balls on the pitch circle touch both grooves of an angular contact bearing at its contact angle. Both
+    circles of a deep groove bearing lie in its middle plane, nearer to each other by the radial clearance.
+    """
+    b = si(scene.bearing)
+    side = -1.0 if body == INNER else 1.0
+    reach = ((b.inner_conformity if body == INNER else b.outer_conformity) - 0.5) * b.ball_diameter
+    if scene.bearing.is_deep_groove:
+        return 0.0, b.pitch_diameter / 2 - side * (reach - 0.25 * scene.bearing.radial_clearance)
+    angle = scene.bearing.nominal_angle
+    return -side * reach * math.sin(angle), b.pitch_diameter / 2 - side * reach * math.cos(angle)
+
+
 def ring_section(scene: Scene, body: int) -> Section:
     """Section of the inner (0) or outer (1) ring of a scene.
 
-    The groove's circle is the one the contacts use: the ball touches it at the free contact angle. The
+    The groove's circle is the one the contacts use: the ball touches it at the nominal contact angle. The
     scene's effective diameter gives the ring's mass as a plain rectangle; the shoulders are where the
     grooved ring has that mass. Both have the same diameter, although an angular contact bearing has one of
     them relieved: the scene knows no better (assumed).
@@ -140,13 +155,8 @@ def ring_section(scene: Scene, body: int) -> Section:
     b = si(scene.bearing)
     side = -1.0 if body == INNER else 1.0
     conformity = b.inner_conformity if body == INNER else b.outer_conformity
-    reach = (conformity - 0.5) * b.ball_diameter
-    groove = Groove(
-        x=-side * reach * math.sin(b.contact_angle),
-        r=b.pitch_diameter / 2.0 - side * reach * math.cos(b.contact_angle),
-        radius=conformity * b.ball_diameter,
-        angle=side * b.contact_angle,
-    )
+    angle = side * scene.bearing.nominal_angle
+    groove = Groove(*groove_circle(scene, body), radius=conformity * b.ball_diameter, angle=angle)
     seat, effective = b.bore / 2.0, b.inner_ring_outer_diameter / 2.0
     if body == OUTER:
         seat, effective = b.outside_diameter / 2.0, b.outer_ring_inner_diameter / 2.0

@@ -339,6 +339,29 @@ def free_angle(
     return math.acos(min(1.0, (inner - outer) / (grooves - ball_diameter * warm_ball)))
 
 
+def clearance(
+    grooves: tuple[float, float],
+    ball_diameter: float,
+    inner_conformity: float,
+    outer_conformity: float,
+    growths: tuple[float, float, float] = (1.0, 1.0, 1.0),
+    races: tuple[float, float] = (0.0, 0.0),
+) -> tuple[float, float]:
+    """Return the radial clearance (m) with races that moved, negative where tight, and the free angle (rad).
+
+    Parameters
+    ----------
+    grooves : tuple of float
+        Radii of both circles of groove centres as drawn (m), inner and outer.
+    ball_diameter, inner_conformity, outer_conformity, growths, races
+        As of `free_angle`.
+    """
+    warm_inner, warm_outer, warm_ball = growths
+    apart = grooves[0] * warm_inner + races[0] - grooves[1] * warm_outer - races[1]
+    free = ball_diameter * (inner_conformity * warm_inner + outer_conformity * warm_outer - warm_ball)
+    return 2.0 * (free - apart), math.acos(min(1.0, apart / free))
+
+
 def mounting_kelvin(interference: float, seat_radius: float, expansion: float) -> float:
     """Return how many kelvins part ring and partner (K), to slip them on without force.
 

@@ -32,6 +32,12 @@ _STEEP = (
     (20.0, 0.57, 0.43, 1.00), (25.0, 0.68, 0.41, 0.87), (30.0, 0.80, 0.39, 0.76), (35.0, 0.95, 0.37, 0.66),
     (40.0, 1.14, 0.35, 0.57), (45.0, 1.34, 0.33, 0.50),
 )  # fmt: skip
+#: ISO 281, radial contact (deep groove, 0 deg, normal clearance): f0 Fa / C0, e and Y (X 0.56), clamped
+#: outside; from memory of makers' tables, which repeat the standard (NSK, SKF). Both laws of P meet at e.
+_RELATIVE_0 = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
+_E_0 = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
+_Y_0 = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
+_X_0 = 0.56
 _NEAR = 1.0  # deg: how far outside 15 to 45 deg these factors are used
 _SLOW = 1000.0  # r/min: below it the reference viscosity follows another law
 #: Factor e_C by cleanliness, for pitch diameters below and from 100 mm on: middle of ISO 281's ranges.
@@ -88,11 +94,15 @@ class Factors(NamedTuple):
 
 
 def factors(angle_deg: float, relative: float) -> Factors | None:
-    """Return e, X and Y of a single row; None below 14 and above 46 deg.
+    """Return e, X and Y of a single row; 0 deg: of a deep groove bearing; None below 14 and above 46 deg.
 
     Between the angles of the table they are linear, as the standard has it. ``relative``: f0 Fa / C0, which
     counts below 20 deg.
     """
+    if angle_deg == 0.0:
+        return Factors(
+            float(np.interp(relative, _RELATIVE_0, _E_0)), _X_0, float(np.interp(relative, _RELATIVE_0, _Y_0))
+        )
     if not 15.0 - _NEAR <= angle_deg <= 45.0 + _NEAR:
         return None
     slight = tuple(float(np.interp(relative, _RELATIVE, row)) for row in (_E_15, (_X_15,) * 8, _Y_15))

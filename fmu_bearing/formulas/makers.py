@@ -31,6 +31,10 @@ _NEAR = 1.0  # deg
 # bearings of 15 and 25 deg (1.08 and 1.13), which scatter by 9 %
 _SPRING = 1.1
 
+#: SKF's factor k_r of the least radial load of deep groove bearings, by dimension series; from memory.
+_LEAST_RADIAL = {"18": 0.015, "19": 0.02, "10": 0.025, "02": 0.025, "03": 0.03}
+_LEAST_RADIAL_OTHER = 0.025
+
 
 def at_known_angle(angle_deg: float) -> bool:
     """Whether a contact angle is one that makers' rules are for."""
@@ -67,3 +71,13 @@ def speed_limit(angle_deg: float, ceramic_balls: bool, grease: bool = False) -> 
 def least_preload(balls: int, angle: float, centrifugal: float) -> float:
     """Return the axial force (N) below which balls of this centrifugal force (N) skid; angle in rad."""
     return _SPRING * balls * abs(centrifugal) * math.tan(angle)
+
+
+def least_radial(series: str, nu: float, rpm: float, pitch: float) -> float:
+    """Return the radial load (N) below which balls of deep groove bearings skid: SKF's rule, from memory.
+
+    F = k_r (nu n / 1000)^(2/3) (d_m / 100)^2 kN, with the viscosity in mm2/s, r/min and the pitch diameter in
+    mm; SKF lets axial preload take its place. ``series``: dimension series.
+    """
+    factor = _LEAST_RADIAL.get(series, _LEAST_RADIAL_OTHER)
+    return 1e3 * factor * (1e-3 * nu * abs(rpm)) ** (2.0 / 3.0) * (1e-2 * pitch) ** 2

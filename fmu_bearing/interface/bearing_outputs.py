@@ -55,6 +55,9 @@ def internals(scene: Scene) -> list[Variable]:
         tilt = f"Tilt of the inner ring about {words} axis"
         table.append(read(f"inner_ring.tilt.{axis}", "local", tilt, "rad", nominal=1e-4))
     table += [*_contacts("inner"), *_contacts("outer"), *_fits(scene)]
+    if scene.bearing.is_deep_groove:
+        words = "Radial clearance that fits, rotation and heat leave; negative: balls are pressed"
+        table.append(read("clearance", "local", words, "m", display_unit="um", nominal=1e-5))
     table += [
         read("film.lambda_min", "local", "Thinnest oil film over the composite roughness", nominal=1.0),
         read("stiffness.axial", "local", f"Axial {_CONTACTS_ALONE}", "N/m"),

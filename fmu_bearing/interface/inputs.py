@@ -178,7 +178,12 @@ def _of_mounting(scene: Scene) -> list[Row]:
     pedestal = "Radial stiffness under the outer ring; the other directions keep their ratio to it"
     grown = "Temperature that expands the {} ring and, by half, the balls"
     rows = [
-        (U.PRELOAD, "preload", preload, {**_FORCE, "min": 0.0, "max": scene.bearing.most_preload}),
+        (
+            U.PRELOAD,
+            "preload",
+            preload,
+            {**_FORCE, "min": scene.bearing.least_preload, "max": scene.bearing.most_preload},
+        ),
         (U.PEDESTAL, "pedestal_stiffness", pedestal, _SPRING),
         (U.LOAD_Y, "radial_load.y", "Horizontal load on the inner ring", load),
         (U.LOAD_Z, "radial_load.z", "Upward load on the inner ring", load),

@@ -146,7 +146,7 @@ def _ratings(scene: Scene) -> list[Variable]:
         return []
     table = []
     greased = scene.lubricant.greased
-    limit = makers.speed_limit(bearing.contact_angle_deg, kind == "hybrid", greased)
+    limit = makers.speed_limit(bearing.nominal_angle_deg, kind == "hybrid", greased)
     if limit is not None:
         supply = "grease, on springs (NSK)" if greased else "oil, on springs (GMN, NSK)"
         words = f"Shaft speed up to which makers run such a bearing with {supply}"
@@ -164,6 +164,8 @@ def _ratings(scene: Scene) -> list[Variable]:
     for name, load in loads.items():
         words = f"Preload of the {name} class ({maker})"
         table.append(_constant(f"rating.preload_{name.replace(' ', '_')}", words, load, "N"))
+    if bearing.is_deep_groove:
+        return table
     words = "Contact pressure of makers' heaviest preload class (GMN, NSK; computed)"
     pressure = {"min": 0.0, "max": 1e12, "nominal": 1e9, "display_unit": "GPa"}
     table.append(_constant("rating.pressure_limit", words, makers.CLASS_PRESSURE[kind], "Pa", **pressure))

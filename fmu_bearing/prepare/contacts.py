@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipe
 
+from fmu_bearing.elastic.section import groove_circle
 from fmu_bearing.engine.choices import ROLLING_LAWS, TRACTION_LAWS, VISCOSITY_LAWS
 from fmu_bearing.engine.layout import P
 from fmu_bearing.formulas.hertz import PointContact, effective_modulus, point_contact
@@ -16,7 +17,7 @@ from fmu_bearing.scene.material import Material
 
 # SKF friction model (SKF rolling bearings catalogue 2018, p. 65 ff): inlet shear heating, starvation
 _SHEAR_HEATING = 1.84e-9
-_ANGULAR_CONTACT_KZ = 4.4
+_KZ = {"angular-contact": 4.4, "deep-groove": 3.1}  # single rows; that of deep groove ones from memory
 _CHANGE = 6.6  # M at which rigid surfaces and EHL weigh the same (Biboulet and Houpert 2010, eq. 32)
 
 
@@ -42,7 +43,7 @@ def oil(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.STARVATION] = (
         scene.lubricant.replenishment
         * (bore + outside)
-        * math.sqrt(_ANGULAR_CONTACT_KZ / (2.0 * (outside - bore)))
+        * math.sqrt(_KZ[scene.bearing.kind] / (2.0 * (outside - bore)))
     )
     p[P.STARVATION_HELD] = scene.lubricant.replenishment_held
     p[P.DRAG_FACTOR] = (
@@ -65,9 +66,9 @@ def balls(scene: Scene, p: NDArray[np.float64]) -> None:
 
 
 def races(scene: Scene, p: NDArray[np.float64]) -> None:
-    """Write the blocks of inner and outer race; constants of the contact hold at the free contact angle."""
+    """Write the blocks of inner and outer race; constants of the contact hold at the nominal angle."""
     b = si(scene.bearing)
-    d, dm, angle = b.ball_diameter, b.pitch_diameter, b.contact_angle
+    d = b.ball_diameter
     sides = (
         (-1.0, b.inner_conformity, scene.materials.inner_ring, b.inner_ring_outer_diameter),
         (1.0, b.outer_conformity, scene.materials.outer_ring, b.outer_ring_inner_diameter),
@@ -88,10 +89,8 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
         if scene.fidelity.terms.rolling_hysteresis:
             lost = _lost(material, scene.materials.balls)
             block[P.RACE_HYSTERESIS] = 3.0 / 16.0 * lost / hertz.ellipticity
-        reach = (conformity - 0.5) * d
         block[P.RACE_PROFILE_RADIUS] = 2.0 * conformity * d / (2.0 * conformity + 1.0)
-        block[P.RACE_GROOVE_X] = -side * reach * math.sin(angle)
-        block[P.RACE_GROOVE_RADIUS] = dm / 2 - side * reach * math.cos(angle)
+        block[P.RACE_GROOVE_X], block[P.RACE_GROOVE_RADIUS] = groove_circle(scene, race)
         block[P.RACE_GROOVE] = conformity * d
         block[P.RACE_EXPANSION] = ring.expansion
         height = side * (0.5 * shoulder - block[P.RACE_GROOVE_RADIUS]) / block[P.RACE_GROOVE]
@@ -99,7 +98,7 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
 
 
 def race_contacts(scene: Scene) -> tuple[PointContact, PointContact]:
-    """Hertzian contacts of a ball with inner and outer race, at the free contact angle."""
+    """Hertzian contacts of a ball with inner and outer race, at the nominal contact angle."""
     return point_contact(*_surfaces(scene, 0)), point_contact(*_surfaces(scene, 1))
 
 
@@ -108,7 +107,7 @@ def _surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
     b, ball = si(scene.bearing), si(scene.materials.balls)
     ring = si((scene.materials.inner_ring, scene.materials.outer_ring)[race])
     conformity = (b.inner_conformity, b.outer_conformity)[race]
-    gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+    gamma = b.ball_diameter * math.cos(scene.bearing.nominal_angle) / b.pitch_diameter
     curvature = gamma / (1.0 - gamma) if race == 0 else -gamma / (1.0 + gamma)
     modulus = effective_modulus(
         ring.youngs_modulus, ring.poisson_ratio, ball.youngs_modulus, ball.poisson_ratio

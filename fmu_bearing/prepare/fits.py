@@ -90,7 +90,7 @@ def loose(scene: Scene) -> Scene:
         return scene
     b = scene.bearing
     apart = 1e-3 * (b.inner_conformity + b.outer_conformity - 1.0) * b.ball_diameter_mm
-    mounted = math.radians(b.contact_angle_deg)
+    mounted = b.nominal_angle
     angle, changed = mounted, scene
     for _ in range(_ROUNDS):
         inner, outer = (

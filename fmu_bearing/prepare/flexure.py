@@ -60,7 +60,8 @@ def groove_centre(scene: Scene, mode: RingMode) -> NDArray[np.float64]:
     reach = conformity * bearing.ball_diameter * (1.0 if mode.body == 0 else -1.0)
     x, r, t = mode.groove
     # from the contact to the centre; a turn about t takes r to -x and x to r
-    dx, dr = reach * math.sin(bearing.contact_angle), reach * math.cos(bearing.contact_angle)
+    angle = scene.bearing.nominal_angle
+    dx, dr = reach * math.sin(angle), reach * math.cos(angle)
     return np.array([x - mode.groove_tilt * dr, r + mode.groove_tilt * dx, t])
 
 

@@ -361,7 +361,7 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
         viscosity = scene.lubricant.viscosity_of_lands
         p[P.LAND_VISCOSITY] = viscosity or 0.0
         if viscosity is None:  # the cage turns with the balls, which roll without slip
-            gamma = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
+            gamma = b.ball_diameter * math.cos(scene.bearing.nominal_angle) / b.pitch_diameter
             sliding = 1.0 + gamma if c.guidance == "inner" else 1.0 - gamma
             p[P.LAND_SLIDE] = 0.5 * sliding * p[P.LAND_RADIUS]
     p[P.LAND_STOP_STIFFNESS] = _STOP_STIFFNESS

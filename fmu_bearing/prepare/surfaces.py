@@ -24,6 +24,9 @@ from fmu_bearing.scene.imperfections import HIGHEST_ORDER, Imperfections
 #: Highest zonal order of a ball, a bound on cost: on the 7003C it sounds at 10 kHz at 2,700 r/min.
 HIGHEST_BALL_ORDER = BALL_ORDERS
 _LOWEST_BALL_ORDER = 2  # order 1 moves the ball's middle
+#: Mean load of all balls over radial load per ball, without clearance: the means over the angle of cos^1.5
+#: and cos^2.5 in the loaded half (point contact, Harris 2006, ch. 7).
+_MEAN_OF_RADIAL = 0.2782 / 0.2288
 _PROFILE = 20_001  # places at which the profile of a ball is searched for its extremes
 
 
@@ -68,14 +71,19 @@ def mean_patches(scene: Scene) -> tuple[Patch, Patch]:
 
     Balance of one ball under an equal share of the preload and its centrifugal force at the kinematic orbit
     speed (Harris 2006, ch. 3, without gyroscopic moment). Radial loads, temperatures and what rigid preload
-    gains with speed are left out: the width goes with the cube root of the load.
+    gains with speed are left out: the width goes with the cube root of the load. Deep groove bearings live by
+    radial loads: there the mean over the balls of what these put on them is added.
     """
     b = si(scene.bearing)
     contacts = race_contacts(scene)
     mass, _ = bodies.ball(scene)
     orbit = 2.0 * math.pi * frequencies(scene, si(scene.operation).speed).f_c
     pull = mass * 0.5 * b.pitch_diameter * orbit**2
-    axial = scene.mounted.preload_N / b.ball_count
+    axial = abs(scene.mounted.preload_N) / b.ball_count
+    across, free = 0.0, scene.bearing.free_angle
+    if scene.bearing.is_deep_groove:
+        across = _MEAN_OF_RADIAL * math.hypot(scene.mounted.radial_load_y_N, scene.mounted.radial_load_z_N)
+        across /= b.ball_count
     reach = [(conformity - 0.5) * b.ball_diameter for conformity in (b.inner_conformity, b.outer_conformity)]
 
     def loads(angle: float) -> tuple[float, float, float]:
@@ -90,16 +98,16 @@ def mean_patches(scene: Scene) -> tuple[Patch, Patch]:
             for r, load, contact in zip(reach, (inner, outer), contacts, strict=True)
         ]
         apart = lengths[0] * math.cos(angle) + lengths[1] * math.cos(outer_angle)
-        return apart - sum(reach) * math.cos(b.contact_angle)
+        return apart - sum(reach) * math.cos(free)
 
     if axial <= 0.0:
-        contact_loads, angles = (0.0, pull), (b.contact_angle, 0.0)
+        contact_loads, angles = (across, across + pull), (0.0 if across else free, 0.0)
     else:
         low, high = 1e-3, 0.5 * math.pi - 1e-6
         meets = closes(low) > 0.0 > closes(high)
         inner_angle = float(brentq(closes, low, high, xtol=1e-12)) if meets else high
         inner, outer, outer_angle = loads(inner_angle)
-        contact_loads, angles = (inner, outer), (inner_angle, outer_angle)
+        contact_loads, angles = (inner + across, outer + across), (inner_angle, outer_angle)
     patches = []
     for side, load, angle, contact in zip((-1.0, 1.0), contact_loads, angles, contacts, strict=True):
         root = math.sqrt((load / contact.stiffness) ** (2.0 / 3.0))
@@ -168,4 +176,5 @@ def form_rows(amplitudes: NDArray[np.float64]) -> NDArray[np.float64]:
 def frequencies(scene: Scene, speed: float) -> KinematicFrequencies:
     """Kinematic frequencies (Hz) at a shaft speed (rad/s)."""
     b = si(scene.bearing)
-    return kinematic_frequencies(speed, b.ball_count, b.ball_diameter, b.pitch_diameter, b.contact_angle)
+    angle = scene.bearing.nominal_angle
+    return kinematic_frequencies(speed, b.ball_count, b.ball_diameter, b.pitch_diameter, angle)

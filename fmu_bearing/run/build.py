@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 
-from fmu_bearing.cautions import loose
+from fmu_bearing.cautions import is_loose, loose
 from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
 from fmu_bearing.modal.campbell import doubts
@@ -27,7 +27,7 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
     if scene.fidelity.model == "auto":
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
-    if resolved.mounting is not None and not resolved.mounting.preload_N > 0.0:
+    if is_loose(resolved):
         tell(f"caution: {loose(resolved.fidelity.model)}")
     notes = []
     if doubted := _doubt(resolved):

@@ -2,14 +2,21 @@
 
 import math
 from collections.abc import Iterator
+from typing import Literal, get_args
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
+from pydantic_core import PydanticCustomError
 
 from fmu_bearing.engine.choices import Guidance
-from fmu_bearing.formulas import iso76
+from fmu_bearing.formulas import clearances, iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
 
 MOST_BALLS = 36
+Kind = Literal["angular-contact", "deep-groove"]
+ANGULAR_CONTACT, DEEP_GROOVE = get_args(Kind)
+#: Keys of which one gives the clearance of a deep groove bearing.
+CLEARANCE_KEYS = ("clearance", "radial_clearance_um")
+_STEEPEST = 45.0  # deg: of the angle that the clearance of a deep groove bearing leaves
 _MOST_RPM, _MOST_SPEED = 1e5, 2.6e6  # r/min, mm r/min: see `Bearing.most_speed`
 _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
 
@@ -68,7 +75,13 @@ class BallSprings(Part):
 
 
 class Bearing(Part):
-    """A single-row angular contact ball bearing."""
+    """A single-row ball bearing: an angular contact one, or a deep groove one with radial clearance.
+
+    It has two angles. The nominal one is what ratings, kinematics and contact constants take: the
+    contact angle of an angular contact bearing, 0 of a deep groove one. The free one is that of balls that
+    just touch both races of the unloaded bearing, by which the groove centres are placed; it is the contact
+    angle, or what the clearance leaves.
+    """
 
     designation: Label = Field(examples=["7003C"], description="Name of the bearing.")
     bore_mm: float = Field(ge=1, le=1000, examples=[17.0], description="Bore of the inner ring, mm.")
@@ -81,9 +94,24 @@ class Bearing(Part):
     )
     ball_diameter_mm: float = Field(ge=0.5, le=120, examples=[4.5], description="Diameter of a ball, mm.")
     ball_count: int = Field(ge=3, le=MOST_BALLS, examples=[12], description="Number of balls.")
-    contact_angle_deg: float = Field(
-        ge=5, le=45, examples=[15.0], description="Contact angle of the unloaded bearing, deg."
-    )
+    kind: Kind = Field(
+        default=ANGULAR_CONTACT, examples=[ANGULAR_CONTACT],
+        description="Angular contact bearing, by its contact angle, or deep groove bearing, by its radial "
+        "clearance.",
+    )  # fmt: skip
+    contact_angle_deg: float | None = Field(
+        default=None, validate_default=True, ge=5, le=45, examples=[15.0],
+        description="Contact angle of the unloaded bearing; not of a deep groove one, deg.",
+    )  # fmt: skip
+    clearance: clearances.Group | None = Field(
+        default=None, examples=["CN"],
+        description="Group of the radial clearance of a deep groove bearing, of which the middle is taken.",
+    )  # fmt: skip
+    radial_clearance_um: float | None = Field(
+        default=None, validate_default=True, ge=-100, le=1000, examples=[12.0],
+        description="Radial clearance of a deep groove bearing before it is mounted, in place of its group; "
+        "negative: balls are pressed, um.",
+    )  # fmt: skip
     inner_conformity: float = Field(
         ge=0.505, le=0.6, examples=[0.515], description="Groove radius of the inner race over ball diameter."
     )
@@ -112,16 +140,80 @@ class Bearing(Part):
         default=None, description="Springs between the balls instead of a cage; absent: none."
     )
 
+    @field_validator("contact_angle_deg")
+    @classmethod
+    def _has_angle(cls, value: float | None, others: ValidationInfo) -> float | None:
+        if value is None and others.data.get("kind") == ANGULAR_CONTACT:
+            raise PydanticCustomError("missing", "an angular contact bearing has a contact angle")
+        return value
+
+    @field_validator("radial_clearance_um")
+    @classmethod
+    def _has_clearance(cls, value: float | None, others: ValidationInfo) -> float | None:
+        known = others.data
+        absent = value is None and known.get("clearance", "") is None
+        if absent and known.get("kind") == DEEP_GROOVE:
+            raise PydanticCustomError("missing", "a deep groove bearing has a radial clearance")
+        return value
+
+    @property
+    def is_deep_groove(self) -> bool:
+        """Whether it is a deep groove bearing, which carries axial loads both ways."""
+        return self.kind == DEEP_GROOVE
+
+    @property
+    def nominal_angle_deg(self) -> float:
+        """Contact angle as ratings, kinematics and contact constants take it, deg; 0 of deep groove ones."""
+        return self.contact_angle_deg or 0.0
+
+    @property
+    def nominal_angle(self) -> float:
+        """`nominal_angle_deg`, rad."""
+        return math.radians(self.nominal_angle_deg)
+
+    @property
+    def radial_clearance(self) -> float:
+        """Radial clearance of the deep groove bearing before it is mounted, on the diameter, m."""
+        if self.radial_clearance_um is not None:
+            return 1e-6 * self.radial_clearance_um
+        found = None if self.clearance is None else clearances.limits(self.clearance, self.bore_mm)
+        return 0.0 if found is None else 1e-6 * found.middle
+
+    @property
+    def free_angle(self) -> float:
+        """Angle (rad) of balls that just touch both races as drawn; 0 where they are pressed."""
+        if not self.is_deep_groove:
+            return self.nominal_angle
+        apart = 1e-3 * (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter_mm
+        return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * self.radial_clearance / apart)))
+
+    @property
+    def free_angle_deg(self) -> float:
+        """`free_angle`, deg."""
+        return math.degrees(self.free_angle) if self.is_deep_groove else self.nominal_angle_deg
+
+    @property
+    def angle_words(self) -> str:
+        """Contact angle, or radial clearance, in words."""
+        if not self.is_deep_groove:
+            return f"contact angle {self.contact_angle_deg:g} deg"
+        group = "" if self.clearance is None else f", {self.clearance}"
+        return f"radial clearance {1e6 * self.radial_clearance:.4g} um{group}"
+
     @property
     def for_ratings(self) -> tuple[int, float, float, float]:
         """Number of balls, ball and pitch diameter (mm) and contact angle (rad), as ratings take them."""
-        angle = math.radians(self.contact_angle_deg)
-        return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, angle
+        return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, self.nominal_angle
 
     @property
     def most_preload(self) -> float:
         """Largest axial force (N) that may be given: twice C0 by ISO 76, 10 kN at least."""
         return max(_MOST_PRELOAD, self._twice_static)
+
+    @property
+    def least_preload(self) -> float:
+        """Least axial force (N) that may be given: 0, of bearings that carry both ways minus the largest."""
+        return -self.most_preload if self.is_deep_groove else 0.0
 
     @property
     def most_radial(self) -> float:
@@ -150,6 +242,7 @@ class Bearing(Part):
         yield from below(self, "pitch_diameter_mm", "outer_ring_inner_diameter_mm")
         yield from below(self, "outer_ring_inner_diameter_mm", "outside_diameter_mm")
         yield from self._ball_conflicts()
+        yield from self._clearance_conflicts()
         if self.cage is not None:
             yield from self._cage_conflicts(self.cage)
         if self.cage is not None and self.ball_springs is not None:
@@ -167,6 +260,37 @@ class Bearing(Part):
         if self.ball_count > fits:
             yield Conflict(
                 "ball_count", f"does not fit the pitch circle: at most {fits} balls of {ball:g} mm"
+            )
+
+    def _clearance_conflicts(self) -> Iterator[Conflict]:
+        """Yield keys of the other kind of bearing, and a clearance that the grooves cannot have."""
+        if not self.is_deep_groove:
+            for key in CLEARANCE_KEYS:
+                if getattr(self, key) is not None:
+                    yield Conflict(
+                        key, 'is of deep groove bearings: leave it out, or give kind = "deep-groove"'
+                    )
+            return
+        if self.contact_angle_deg is not None:
+            yield Conflict(
+                "contact_angle_deg",
+                "is of angular contact bearings: a deep groove one has clearance or radial_clearance_um",
+            )
+        if self.clearance is not None:
+            if self.radial_clearance_um is not None:
+                yield Conflict("clearance", "cannot be given with radial_clearance_um: keep one")
+            elif clearances.limits(self.clearance, self.bore_mm) is None:
+                yield Conflict(
+                    "clearance",
+                    f"is known for bores of {clearances.LEAST_BORE:g} to {clearances.MOST_BORE:g} mm: give "
+                    "radial_clearance_um",
+                )
+        if self.free_angle_deg > _STEEPEST:
+            most = 2e3 * (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter_mm
+            most *= 1.0 - math.cos(math.radians(_STEEPEST))
+            yield Conflict(
+                "radial_clearance_um",
+                f"must be below {most:.3g}: balls in these grooves would touch beyond {_STEEPEST:g} deg",
             )
 
     def _cage_conflicts(self, cage: Cage) -> Iterator[Conflict]:

@@ -77,6 +77,11 @@ def conformity_from_stiffness(
     from fmu_bearing.formulas.axial import StiffnessRange, conformities  # with SciPy, which few scenes need
 
     b, m = found.bearing, found.materials
+    if b.is_deep_groove:
+        raise SceneError(
+            f"{found.name}: makers print no axial stiffness of deep groove bearings; give "
+            "bearing.inner_conformity and bearing.outer_conformity"
+        )
     low, high = limits(Bearing.model_fields["inner_conformity"])
     if not abs(offset) < high - low:
         raise SceneError(
@@ -85,7 +90,7 @@ def conformity_from_stiffness(
         )
     count = HOLDERS[of]
     elastic = elastic_of(m.inner_ring), elastic_of(m.outer_ring), elastic_of(m.balls)
-    shape = b.ball_count, b.ball_diameter_mm, b.pitch_diameter_mm, b.contact_angle_deg
+    shape = b.ball_count, b.ball_diameter_mm, b.pitch_diameter_mm, b.nominal_angle_deg
     try:
         return Conformities(
             *conformities(stiffness_N_um / count, preload_N, *shape, elastic, offset, (low, high))
@@ -94,6 +99,6 @@ def conformity_from_stiffness(
         raise SceneError(
             f"stiffness {stiffness_N_um:g} N/um of a {of} at {preload_N:g} N is refused: conformities of "
             f"{low:g} to {high:g} give {count * problem.least:.4g} to {count * problem.most:.4g} N/um with "
-            f"{b.ball_count} balls of {b.ball_diameter_mm:g} mm at {b.contact_angle_deg:g} deg ({m.kind}); "
+            f"{b.ball_count} balls of {b.ball_diameter_mm:g} mm at {b.nominal_angle_deg:g} deg ({m.kind}); "
             "check the preload, whether it is of a pair or of one bearing, materials and balls"
         ) from None

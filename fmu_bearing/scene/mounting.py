@@ -121,8 +121,9 @@ class Mounting(Part):
     """Preload, radial load, pedestal, and the bodies fixed to the rings."""
 
     preload_N: float = Field(
-        ge=0, le=1e6, examples=[500.0],
-        description="Axial force on the inner ring towards +X; up to 2 C0, 10 kN at least, N.",
+        ge=-1e6, le=1e6, examples=[500.0],
+        description="Axial force on the inner ring towards +X; up to 2 C0, 10 kN at least; below 0, towards "
+        "-X, with deep groove bearings alone, N.",
     )  # fmt: skip
     preload_mode: Literal["force", "rigid"] = Field(
         default="force", examples=["force"],

@@ -58,7 +58,7 @@ def nsk_size(bearing: Bearing) -> nsk.Size | None:
     """
     shape = bearing.bore_mm, bearing.outside_diameter_mm, bearing.width_mm
     for size in nsk.sizes().values():
-        near = abs(bearing.contact_angle_deg - size.angle) <= _NEAR
+        near = abs(bearing.nominal_angle_deg - size.angle) <= _NEAR
         if near and shape == (size.bore, size.outside, size.width):
             if bearing.designation == size.name:
                 return size
@@ -76,7 +76,7 @@ def classes(bearing: Bearing) -> Classes | None:
     size = nsk_size(bearing)
     if size is not None:
         return Classes("NSK", {name: one.force for name, one in size.preload.items()})
-    angle = bearing.contact_angle_deg
+    angle = bearing.nominal_angle_deg
     if not at_known_angle(angle):
         return None
     rating = dynamic_rating(*bearing.for_ratings)
@@ -197,13 +197,19 @@ def preload(
     return Preload(load, f"{preload_N.words}; {words}")
 
 
+def _refuse_deep_groove(bearing: Bearing, key: str) -> None:
+    if bearing.is_deep_groove:
+        raise PreloadError(f"{key} is of angular contact bearings, not of deep groove ones: give {FORCE}")
+
+
 def _of_class(wanted: Any, bearing: Bearing, key: str) -> Preload:
+    _refuse_deep_groove(bearing, key)
     by_class = classes(bearing)
     known = CLASS_NAMES if by_class is None else tuple(by_class.loads)
     if wanted not in known:
         more = "; extra light is a class of NSK's sizes" if wanted == "extra light" else ""
         raise PreloadError(f"{key} = {shown(wanted)} is refused; allowed: {', '.join(known)}{more}")
-    angle = bearing.contact_angle_deg
+    angle = bearing.nominal_angle_deg
     if by_class is None:
         low, high = ANGLES
         raise PreloadError(
@@ -219,6 +225,7 @@ def _of_class(wanted: Any, bearing: Bearing, key: str) -> Preload:
 
 
 def _of_offset(offset: Any, bearing: Bearing, materials: Materials, key: str) -> Preload:
+    _refuse_deep_groove(bearing, key)
     number = isinstance(offset, int | float) and not isinstance(offset, bool)
     if not number or not 0.0 <= offset <= _MOST:
         raise PreloadError(f"{key} = {shown(offset)} is refused; allowed: 0 to {_MOST:g} um")
@@ -238,7 +245,7 @@ def _axial(bearing: Bearing, materials: Materials) -> "Axial":
     from fmu_bearing.formulas.axial import axial
 
     return axial(
-        bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, bearing.contact_angle_deg,
+        bearing.ball_count, bearing.ball_diameter_mm, bearing.pitch_diameter_mm, bearing.nominal_angle_deg,
         (bearing.inner_conformity, bearing.outer_conformity),
         (elastic_of(materials.inner_ring), elastic_of(materials.outer_ring), elastic_of(materials.balls)),
     )  # fmt: skip

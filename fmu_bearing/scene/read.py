@@ -13,6 +13,7 @@ from fmu_bearing.files import real_path
 from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
+from fmu_bearing.scene.bearing import CLEARANCE_KEYS
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named_files
 from fmu_bearing.scene.exclusions import conflicts_of
@@ -298,6 +299,10 @@ def _make_room(data: dict[str, Any], given: Mapping[str, Any]) -> None:
         named = tables[-1:] in (["bearing"], ["lubricant"]) or "materials" in tables[:-1]
         if last == "catalogue" and named:
             part.clear()
+        elif name is not None and tables == ["bearing"] and last in CLEARANCE_KEYS:
+            for other in CLEARANCE_KEYS:
+                if f"bearing.{other}" not in given:
+                    part.pop(other, None)
         elif name is not None and key in _PRELOADS and _PRELOADS[key] not in given:
             part.pop(FORCE, None)
         elif key == "imperfections.grade" and isinstance(name, str):
@@ -422,6 +427,8 @@ def _fill(
         return
     entry = copy.deepcopy(known[wanted].values)
     entry = _beside_harmonics(entry, given) if key == "grade" else entry
+    if path == ("bearing",) and not given.keys().isdisjoint(CLEARANCE_KEYS):
+        entry = {name: value for name, value in entry.items() if name not in CLEARANCE_KEYS}
     nested = {
         name: {**value, **given[name]}
         for name, value in entry.items()

@@ -81,6 +81,13 @@ class Tables(Part):
         yield from self._sizes()
         yield from self._thermal()
         yield from self._set()
+        if self.bearing.is_deep_groove and self.fit is not None and self.fit.contact_angle == "mounted":
+            table = "mounting" if self.spindle is None else "spindle"
+            yield Conflict(
+                f"{table}.fit.contact_angle",
+                "is of angular contact bearings: the clearance of a deep groove one is that before it is "
+                "mounted; leave it out",
+            )
         own = None if self.mounting is None else self.mounting.housing
         if own is not None and own.diameter_mm <= self.bearing.outside_diameter_mm:
             limit = self.bearing.outside_diameter_mm
@@ -161,7 +168,8 @@ class Tables(Part):
         words = "twice the static rating C0 or more"
         preload, across = SizeLimit(0.0, axial, "N", words), SizeLimit(-radial, radial, "N", words)
         if self.mounting is not None:
-            limits |= {"mounting.preload_N": preload}
+            least = self.bearing.least_preload
+            limits |= {"mounting.preload_N": preload._replace(low=least)}
             limits |= {f"mounting.radial_load_{axis}_N": across for axis in "yz"}
         if self.spindle is not None:
             if self.spindle.preload is not None:

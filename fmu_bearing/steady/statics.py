@@ -84,7 +84,7 @@ class BearingLoad(Result):
 
     @property
     def axial(self) -> float:
-        """Axial load that it carries, N; never negative but for rounding."""
+        """Axial load that it carries, N; never negative but for rounding, and of deep groove bearings."""
         return self.sign * float(self.force[0])
 
     @property
@@ -210,7 +210,10 @@ class Statics(Result):
                 sentences.append(f"{_STATES[key]} the preload of the set is lost: its bearings are loose")
         for bearing in self.bearings:
             name = self.scene.assembly.name(bearing.number)
-            if bearing.axial < _UNLOADED:
+            if self.scene.bearing.is_deep_groove:  # its loaded zone is part of the circle
+                if math.hypot(bearing.axial, bearing.radial) < _UNLOADED:
+                    sentences.append(f"{name} is unloaded: its balls skid at speed; give it a load")
+            elif bearing.axial < _UNLOADED:
                 sentences.append(f"{name} is unloaded: its balls skid at speed; raise the preload")
             elif bearing.unloaded:
                 sentences.append(f"{name}: {bearing.unloaded} of its balls carry nothing")

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from fmu_bearing.cautions import loose
+from fmu_bearing.cautions import is_loose, loose
 from fmu_bearing.elastic.section import BENDING
 from fmu_bearing.extras import need
 from fmu_bearing.prepare.sound_block import sound_key
@@ -117,8 +117,7 @@ def plan_of(
     scenes = _scenes(scene, axes, points)
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # reported once, and not as the reason of every point
-    mounted = (one for one in scenes if one.mounting is not None)
-    for model in dict.fromkeys(one.fidelity.model for one in mounted if not one.mounted.preload_N > 0.0):
+    for model in dict.fromkeys(one.fidelity.model for one in scenes if is_loose(one)):
         warnings.warn(loose(model), stacklevel=3)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)

@@ -251,7 +251,7 @@ def radiators_of(scene: Scene, housing: Housing | None = None) -> Radiators:
         outer_ring=Ring(bearing.outside_diameter, bearing.outer_ring_inner_diameter, bearing.width),
         cage=cage,
         housing=housing,
-        contact_angle=bearing.contact_angle,
+        contact_angle=scene.bearing.nominal_angle,
         shaft=scene.mounted.rotor is not None,
         baffle=scene.sound is not None and scene.sound.radiator == "baffle",
     )

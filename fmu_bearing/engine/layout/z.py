@@ -17,7 +17,7 @@ BEARING_OUTPUTS = (
     "contact.inner.shoulder_margin", "contact.outer.shoulder_margin", "friction_torque_mean",
     "contact.free_angle", "fit.inner.interference", "fit.inner.pressure", "fit.inner.hoop_stress",
     "fit.inner.race_growth", "fit.outer.interference", "fit.outer.pressure", "fit.outer.hoop_stress",
-    "fit.outer.race_growth",
+    "fit.outer.race_growth", "clearance",
 )  # fmt: skip
 INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
 OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
@@ -58,6 +58,7 @@ FIT_PRESSURE = BEARING_OUTPUTS.index("fit.inner.pressure") - FIT  # Pa
 FIT_HOOP = BEARING_OUTPUTS.index("fit.inner.hoop_stress") - FIT  # Pa
 FIT_GROWTH = BEARING_OUTPUTS.index("fit.inner.race_growth") - FIT  # m
 FIT_SIZE = BEARING_OUTPUTS.index("fit.outer.interference") - FIT
+CLEARANCE = BEARING_OUTPUTS.index("clearance")  # m, radial, on diameter
 BALLS = len(BEARING_OUTPUTS)  # m/s: ball[j].velocity.x|y|z at BALLS + PER_BALL j
 PER_BALL = 3
 

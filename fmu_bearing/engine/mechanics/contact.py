@@ -15,6 +15,12 @@ from fmu_bearing.engine.mechanics.triples import added, scaled
 
 
 @kernel
+def carries_both_ways(p):
+    """Whether a bearing is a deep groove one: both circles of groove centres lie in its middle plane."""
+    return p[P.RACES + P.RACE_GROOVE_X] == 0.0
+
+
+@kernel
 def contact_axes(sx, sr, n, h):
     """Return distance (m) from the groove's centre, one over it, sine and cosine of the contact angle, e, m.
 

@@ -10,7 +10,7 @@ from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, C, L, P, R, S, W, Y, Z
-from fmu_bearing.engine.mechanics.contact import approach_under
+from fmu_bearing.engine.mechanics.contact import approach_under, carries_both_ways
 from fmu_bearing.engine.statics.stiffness import series_stiffness
 
 
@@ -44,10 +44,27 @@ def kept(p, c, s, race, j):
 
 
 @kernel
+def nearest_shoulder(p, s, race):
+    """Least angle (rad) by which an ellipse at a race with two shoulders ends before the nearer one."""
+    numbers = P.RACES + race * P.RACE_SIZE
+    least = p[numbers + P.RACE_SHOULDER]
+    for j in range(int(p[P.BALLS])):
+        at = S.CONTACTS + race * R.KEPT + j
+        if s[at + R.KEPT_LOAD] > 0.0:
+            approach = approach_under(p[numbers + P.RACE_STIFFNESS], s[at + R.KEPT_LOAD])
+            half = p[numbers + P.RACE_HALF_LENGTH] * math.sqrt(approach)
+            angle = math.asin(min(1.0, abs(s[at + R.KEPT_SINA])))
+            reach = math.asin(min(1.0, half / p[numbers + P.RACE_PROFILE_RADIUS]))
+            least = min(least, p[numbers + P.RACE_SHOULDER] - angle - reach)
+    return least
+
+
+@kernel
 def contacts(p, s, z):
     """Write loads, angles, pressures, shoulder margins, film over roughness and stiffness between the rings.
 
-    The margin is the angle (rad) by which the ellipse of the most loaded contact ends before its shoulder.
+    The margin is the angle (rad) by which the ellipse of the most loaded contact ends before its shoulder; of
+    a deep groove bearing the least of all contacts, each to its nearer shoulder.
     Loads are those that the balls feel, with sizes, surfaces and damping; pressures are those of the
     approach. Film: Hamrock and Dowson (1977), minimum film, with the rolling speed of a ball that does not
     slip.
@@ -91,3 +108,5 @@ def contacts(p, s, z):
         half = p[numbers + P.RACE_HALF_LENGTH] * math.sqrt(approach)
         reach = math.asin(min(1.0, half / p[numbers + P.RACE_PROFILE_RADIUS]))
         z[Z.SHOULDER + race] = p[numbers + P.RACE_SHOULDER] - z[at + Z.ANGLE_MEAN] - reach
+        if carries_both_ways(p):
+            z[Z.SHOULDER + race] = nearest_shoulder(p, s, race)

@@ -100,6 +100,16 @@ def fits(p, s, z):
 
 
 @kernel
+def clearance(s, z):
+    """Write the radial clearance (m) that fits, rotation and heat leave; negative: balls are pressed."""
+    c = s[S.C : S.C + C.SIZE]
+    one = C.RACES
+    other = C.RACES + C.RACE_SIZE
+    apart = c[one + C.GROOVE_RADIUS] - c[other + C.GROOVE_RADIUS]
+    z[Z.CLEARANCE] = 2.0 * (c[one + C.FREE] + c[other + C.FREE] - apart)
+
+
+@kernel
 def flexure(p, s, z, mics):
     """Velocities (m/s) of the flexural coordinates, after the balls and so many microphones."""
     count = 2 * int(p[P.MODES])
@@ -132,6 +142,7 @@ def observe_motion(p, s, z, mics):
     losses(s, z)
     if p[P.FITS] != 0.0:
         fits(p, s, z)
+    clearance(s, z)
     flexure(p, s, z, mics)
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]

@@ -14,6 +14,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.dense import eliminate, invert
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, SP, ST, C, P, Q, S, W
+from fmu_bearing.engine.mechanics.contact import carries_both_ways
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import pedestal_matrix
 from fmu_bearing.engine.spindle.port import clear, fix_rows
@@ -324,7 +325,9 @@ def keep_stiffness(p, s, w):
 def begin_rest(p, s, w, speed):
     """Begin the unknowns at the coordinates; of a single bearing where axial load and pedestal put its rings.
 
-    Where there is no rest under axial load alone, the guess is where that search ended.
+    Where there is no rest under axial load alone, the guess is where that search ended. A deep groove bearing
+    without axial load begins in its middle: from where it touches aside, a ring that is free to tilt may end
+    tilted about its loaded zone.
     """
     ws = members.set_work(p, w)
     z = start_vector(p, SP.UNKNOWNS)
@@ -343,7 +346,10 @@ def begin_rest(p, s, w, speed):
         ws[place + Q.Z] = down
         ws[place + Q.INNER_BY] = p[P.MISALIGNMENT_Y]
         ws[place + Q.INNER_BZ] = p[P.MISALIGNMENT_Z]
-    ws[z + Q.X] = s[S.PLACE] if p[P.RIGID] != 0.0 else ws[z + Q.X] + axial[ST.AXIAL_SHIFT]
+    shift = axial[ST.AXIAL_SHIFT]
+    if c[C.PRELOAD] == 0.0 and carries_both_ways(p):
+        shift = 0.0
+    ws[z + Q.X] = s[S.PLACE] if p[P.RIGID] != 0.0 else ws[z + Q.X] + shift
 
 
 @kernel
@@ -358,7 +364,8 @@ def rest(p, s, w, speed, share):
     if status != OK and not members.has_shaft(p):
         c = s[S.C : S.C + C.SIZE]
         load = c[C.PRELOAD]
-        c[C.PRELOAD] += 1.0 + 0.05 * (abs(load) + abs(c[C.LOAD_Y]) + abs(c[C.LOAD_Z]))
+        more = 1.0 + 0.05 * (abs(load) + abs(c[C.LOAD_Y]) + abs(c[C.LOAD_Z]))
+        c[C.PRELOAD] += more if load >= 0.0 else -more
         begin_rest(p, s, w, speed)
         status = balance(p, s, w, speed, share)
         c[C.PRELOAD] = load

@@ -30,26 +30,34 @@ def axial_force(p, c, speed, shift, x, r):
 
 
 @kernel
+def axial_pull(p, c, speed, way, shift, x, r):
+    """As `axial_force`, in the mirror where ``way`` is -1: for a force on the inner ring towards -X."""
+    force, x, r, size = axial_force(p, c, speed, way * shift, way * x, r)
+    return way * force, way * x, r, size
+
+
+@kernel
 def quasistatic(p, c, speed, out):
     """Equilibrium under the axial preload at ``speed`` (rad/s); status code.
 
     ``out``: places ``ST.AXIAL_SHIFT`` to ``ST.AXIAL_RESIDUAL``. Bracketing and bisection-safe secant steps:
-    bounded work.
+    bounded work. A preload towards -X, which deep groove bearings carry, too, is found in the mirror.
     """
-    target = max(c[C.PRELOAD], TOUCHING)
+    way = -1.0 if c[C.PRELOAD] < 0.0 else 1.0
+    target = max(way * c[C.PRELOAD], TOUCHING)
     low = -2e-5
     high = 1e-5
     x = 0.0
     r = 0.0
     force = 0.0
     for _ in range(40):
-        force, x, r, _ = axial_force(p, c, speed, high, 0.5 * high, r)
+        force, x, r, _ = axial_pull(p, c, speed, way, high, 0.5 * high, r)
         if force >= target:
             break
         low = high
         high += 2e-5
     above = force - target
-    force, x, r, size = axial_force(p, c, speed, low, 0.5 * low, 0.0)
+    force, x, r, size = axial_pull(p, c, speed, way, low, 0.5 * low, 0.0)
     below = force - target
     for _ in range(_BACK):  # tight fits push the free place back
         if below <= 0.0:
@@ -57,7 +65,7 @@ def quasistatic(p, c, speed, out):
         high = low
         above = below
         low *= 2.0
-        force, x, r, size = axial_force(p, c, speed, low, 0.5 * low, 0.0)
+        force, x, r, size = axial_pull(p, c, speed, way, low, 0.5 * low, 0.0)
         below = force - target
     # where nothing pushes the rings together the balls lie in the outer race alone
     shift = low
@@ -68,7 +76,7 @@ def quasistatic(p, c, speed, out):
             shift = low - below * (high - low) / (above - below)
             if shift <= low + margin or shift >= high - margin:
                 shift = 0.5 * (low + high)
-            force, x, r, size = axial_force(p, c, speed, shift, x, r)
+            force, x, r, size = axial_pull(p, c, speed, way, shift, x, r)
             here = force - target
             if here < 0.0:
                 low = shift
@@ -78,6 +86,8 @@ def quasistatic(p, c, speed, out):
                 above = here
             if abs(here) < 1e-9 * (1.0 + target) or high - low < 1e-18:
                 break
+    shift *= way
+    x *= way
     ball = ball_state(p, c, speed, upright(shift), x, r)
     out[ST.AXIAL_SHIFT] = shift
     out[ST.AXIAL_X] = x

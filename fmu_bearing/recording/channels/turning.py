@@ -62,7 +62,7 @@ def rolling(
         if angle is None:
             kept = [values for name, values in outputs.items()
                     if name.startswith(head) and name.endswith(_ANGLES)]  # fmt: skip
-            angle = float(np.mean(kept)) if kept else float(b.contact_angle)
+            angle = float(np.mean(kept)) if kept else bearing.scene.bearing.nominal_angle
         found.append(
             kinematic_frequencies(speed, int(b.ball_count), b.ball_diameter, b.pitch_diameter, angle)
         )

@@ -41,7 +41,7 @@ def _drawing(scene: Scene) -> Chart:
             )  # fmt: skip
         start += length
     half, pitch = 0.5 * bearing.width_mm, 0.5 * bearing.pitch_diameter_mm
-    slope = math.tan(math.radians(bearing.contact_angle_deg))
+    slope = math.tan(bearing.nominal_angle)
     for one, centre in zip(spindle.bearing, pressure_centres(scene), strict=True):
         x = one.position_mm
         beyond = x + one.sign * (outer - pitch) * slope
@@ -73,7 +73,7 @@ def pressure_centres(scene: Scene) -> list[float]:
     With the nominal contact angle and pitch diameter, as makers give it.
     """
     bearing = scene.bearing
-    reach = 0.5 * bearing.pitch_diameter_mm * math.tan(math.radians(bearing.contact_angle_deg))
+    reach = 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
     return [one.position_mm - one.sign * reach for one in set_of(scene).bearing]
 
 

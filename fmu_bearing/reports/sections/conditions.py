@@ -54,7 +54,7 @@ def _operation(subject: Subject) -> Table:
     b, rpm, imperfections = scene.bearing, subject.speed / RPM, scene.imperfections
     rows = [
         ["bearing", f"{bearings_words(scene)}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} "
-         f"mm, {b.ball_count} balls of {b.ball_diameter_mm:g} mm, contact angle {b.contact_angle_deg:g} deg"],
+         f"mm, {b.ball_count} balls of {b.ball_diameter_mm:g} mm, {b.angle_words}"],
         ["materials", materials_words(scene)],
         ["shaft speed", f"{rpm:,.0f} r/min" + _variation(subject)],
         *(_on_shaft(scene) if subject.several else _mounted(scene)),

@@ -12,6 +12,7 @@ from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
+from fmu_bearing.engine.mechanics.contact import carries_both_ways
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.follow import copy_rows
@@ -144,7 +145,8 @@ def rests_without_shoulder(p, w):
     for b in range(members.bearing_count(p)):
         along = ws[members.scratch(p, b) + SP.START_FORCE]
         total += abs(along)
-        most = max(most, along)
+        if not carries_both_ways(members.parameters(p, b)):
+            most = max(most, along)
     return most > _BACKWARD * total
 
 

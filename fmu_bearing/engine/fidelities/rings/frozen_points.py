@@ -25,6 +25,7 @@ from fmu_bearing.engine.fidelities.full.start import start
 from fmu_bearing.engine.fidelities.rings.rest import find_levers
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import EQ, PT, SP, ST, STRIDE, C, L, P, Q, S, U, W, Y
+from fmu_bearing.engine.mechanics.contact import carries_both_ways
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import (
     bearing_conditions,
@@ -147,7 +148,9 @@ def freeze_point(p, u, b, at_once, s, w):
     bearing_inputs(p, u, b, given)
     show_rest(p, b, s, w)
     at = members.scratch(p, b)
-    carried = max(-ws[at + SP.START_FORCE], TOUCHING)
+    carried = -ws[at + SP.START_FORCE]
+    if carried > -TOUCHING or not carries_both_ways(pb):
+        carried = max(carried, TOUCHING)
     if together:
         given[U.PRELOAD] = carried
     turning = frozen_conditions(pb, given, speed, lv, c)

@@ -12,7 +12,8 @@ import typer
 from fmu_bearing.cli.base import FOUND, Refusal, app, check_new, print_json, refusals, tell
 from fmu_bearing.cli.options import Catalogues, Force, Json, SceneFile
 from fmu_bearing.files import write_whole
-from fmu_bearing.scene import Scene, SceneError, read_scene
+from fmu_bearing.formulas.clearances import GROUPS
+from fmu_bearing.scene import Scene, SceneError, deep_groove, read_scene
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import Entry, entries, entry_text
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
@@ -34,6 +35,7 @@ KINDS = ("bearings", "materials", "lubricants", "grades")
 _SAID = (
     "mounting.preload_N", "spindle.preload.preload_N", "spindle.load.force_x_N", "spindle.shaft.sections_mm",
     "operation.speed_rpm", "sound.radiator", "materials.balls", "bearing.contact_angle_deg",
+    "mounting.radial_load_z_N",
 )  # fmt: skip
 
 
@@ -76,6 +78,13 @@ def new(
     preload: Annotated[
         float | None,
         typer.Option(help="N; default: light class or more, as verdicts and modes ask; assumed."),
+    ] = None,
+    radial_load: Annotated[
+        float | None,
+        typer.Option(help="N, downwards; default: 0, of a deep groove bearing 0.05 C, assumed."),
+    ] = None,
+    clearance: Annotated[
+        str | None, typer.Option(metavar="|".join(GROUPS), help="Radial clearance of a deep groove bearing.")
     ] = None,
     preload_class: Annotated[
         str | None,
@@ -120,6 +129,8 @@ def new(
     as_json: Json = False,
 ) -> None:
     """Write a scene from the catalogue, or from boundary dimensions with the rest estimated.
+
+    A deep groove bearing has a clearance and a radial load in the place of contact angle and preload.
 
     One bearing on its mounting, or with --arrangement a set on one shaft whose sections are assumed. A
     preload class is the offset of the loose rings' faces; the loads of a set follow from it. Bearings that
@@ -167,6 +178,7 @@ def new(
             preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
             distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
             stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
+            clearance=clearance, **({} if radial_load is None else {"radial_load_N": radial_load}),
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [origin for origin in origins(path) if origin.assumed]
@@ -342,14 +354,20 @@ def _show_bearings(known: Mapping[str, Entry]) -> None:
         "ball_count",
         "ball_diameter_mm",
     )
-    rows = [[name, *(f"{entry.values[key]:g}" for key in keys)] for name, entry in known.items()]
+    rows = [
+        [name, *(f"{entry.values[key]:g}" if key in entry.values else "-" for key in keys)]
+        for name, entry in known.items()
+    ]
     show_table("bearings", ("name", "d, mm", "D, mm", "B, mm", "angle", "balls", "ball, mm"), rows)
-    tell(f"balls of {PREFIX}... are derived; one in full: `fmu-bearing scene catalogue bearings NAME`")
+    tell(
+        f"balls of {PREFIX}... and of deep groove bearings (-) are derived; one in full: `fmu-bearing scene "
+        "catalogue bearings NAME`"
+    )
 
 
 def _show_entry(name: str, entry: Entry, as_json: bool) -> None:
     """Print an entry with its remarks, and what a maker prints of it."""
-    size = sizes().get(name)
+    size = sizes().get(name) or deep_groove.sizes().get(name)
     printed = None if size is None else size.printed()
     if as_json:
         print_json({"values": entry.values, "printed": printed})
@@ -357,7 +375,7 @@ def _show_entry(name: str, entry: Entry, as_json: bool) -> None:
     typer.echo(entry_text(entry, name).rstrip())
     if printed is None:
         return
-    classes = printed.pop("preload")
+    classes = printed.pop("preload", {})
     typer.echo("\n# printed by NSK")
     for key, value in printed.items():
         typer.echo(f"# {key} = {value:g}")

@@ -1,16 +1,18 @@
 """A new scene at a sound operating point: speed and preload by makers' rules where they are not given."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
+from fmu_bearing.formulas import iso281
 from fmu_bearing.modal.equations.remarks import UNSTEADY
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
 from fmu_bearing.scene.nsk import sizes
-from fmu_bearing.scene.own_bearing import Dimensions
+from fmu_bearing.scene.own_bearing import Dimensions, is_deep_groove
 from fmu_bearing.scene.preload import CLASS, OFFSET, PreloadError, preload
 
 _SPEED_SHARE = 0.5  # of the limiting speed
@@ -18,6 +20,9 @@ _SPEED_NUMBER = 0.75e6  # mm r/min, where no maker gives a limit
 _PRELOAD_SHARE = 1.2  # of the least preload, which scatters by 9 %
 _RAISED, _LOWERED = 1.1, 0.9  # a step of the preload, of the speed
 _SLOWEST = 0.6  # of the speed by the rule: the search for one without cautions ends there
+#: mm r/min: n d_m of deep groove bearings with grease that makers allow (from memory), and a light load over
+#: C (chosen), by which a new scene of one is made.
+_DEEP_SPEED_NUMBER, _LIGHT = 0.5e6, 0.05
 _SPRING = "spring_N"
 _WHIRL = "whirl"
 #: Cautions that more preload cures.
@@ -41,6 +46,8 @@ def new_scene(
     would grow by itself. At a speed that is given the preload stays below what makers would caution of.
     Sets follow the same rules: the class is that of a pair, of which the load of each bearing follows.
 
+    A deep groove bearing has no preload unless one is given, but a radial load: 0.05 C where none is given.
+
     Parameters
     ----------
     name : str
@@ -52,8 +59,9 @@ def new_scene(
         Takes a line where the preload of a set is searched for, which may take a minute.
     **given
         As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
-        ``preload_class``, ``preload_offset_um``, ``folder``; ``stiffness_N_um``, ``stiffness_preload_N``,
-        ``stiffness_of``; for a set ``arrangement``, ``distance_mm``, ``spring_N``.
+        ``preload_class``, ``preload_offset_um``, ``folder``, ``radial_load_N``, ``clearance``;
+        ``stiffness_N_um``, ``stiffness_preload_N``, ``stiffness_of``; for a set ``arrangement``,
+        ``distance_mm``, ``spring_N``.
 
     Raises
     ------
@@ -78,12 +86,14 @@ def new_scene(
     """
 
     def text(speed: float, force: float, **rules: Any) -> str:
-        return template.new_scene(name, bearing, speed_rpm=speed, preload_N=force, **given, **rules)
+        return template.new_scene(name, bearing, speed_rpm=speed, preload_N=force, **(given | rules))
 
     others = [key for key in (CLASS, OFFSET, _SPRING) if given.get(key) is not None]
     if preload_N is not None and others:
         raise SceneError(f"preload_N = {preload_N:g} cannot be given with {others[0]}: give one of both")
     preloaded = preload_N is not None or bool(others)
+    if is_deep_groove(bearing):
+        return _deep_groove(text, name, speed_rpm, preload_N, given)
     if speed_rpm is not None and preloaded:
         return text(speed_rpm, preload_N or 0.0)
     # speed and force of the draft are replaced below
@@ -108,6 +118,23 @@ def new_scene(
             )
             speed = slower
     return text(speed, force, speed_rule=speed_rule, preload_rule=preload_rule)
+
+
+def _deep_groove(
+    text: Callable[..., str], name: str, speed: float | None, preload_N: float | None, given: dict[str, Any]
+) -> str:
+    """Return the text of a scene of a deep groove bearing; ``text``: makes it of a speed and a preload."""
+    force, rules = preload_N or 0.0, dict[str, Any]()
+    bearing = read_scene_text(text(1e3, force), name, given.get("folder")).bearing
+    if speed is None:
+        speed = min(
+            _rounded(_SPEED_SHARE * _DEEP_SPEED_NUMBER / bearing.pitch_diameter_mm), bearing.most_speed
+        )
+        rules["speed_rule"] = f"half of n d_m of {1e-6 * _DEEP_SPEED_NUMBER:g}e6 mm r/min, usual with grease"
+    if force == 0.0 and given.get("radial_load_N") is None:
+        rules["radial_load_N"] = _rounded(_LIGHT * iso281.dynamic_rating(*bearing.for_ratings))
+        rules["radial_rule"] = f"{_LIGHT:g} C, a light load"
+    return text(speed, force, **rules)
 
 
 def _speed(scene: Scene, bearing: str | Dimensions) -> tuple[float, str]:

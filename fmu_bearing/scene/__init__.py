@@ -4,11 +4,12 @@
 ``catalogue``     files: bearings, materials, lubricants, grades, and NSK's sizes with printed ratings
 ``estimate``      a bearing from its boundary dimensions
 ``nsk``           NSK's sizes: printed figures, derived balls, entries of the catalogue
+``deep_groove``   deep groove bearings of series 60, 62, 63: printed ratings, derived balls, entries
 ``dimension_series`` boundary dimensions by series (ISO 15)
 ``conformity``    conformities that give a printed stiffness
 ``symbols``       what the signs of makers' designations mean, with sources
 ``designation``   what a designation says; which name a misspelt or short one may mean
-``entries``       entries by name: the package's, NSK's, those of users' files
+``entries``       entries by name: the package's, makers' sizes, those of users' files
 ``own_bearing``   a bearing of one's own: dimensions, what its designation says, its balls
 ``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene

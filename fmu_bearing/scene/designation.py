@@ -28,6 +28,7 @@ _ALIKE = 0.5  # likeness of letters below which a suggestion is a guess
 _MOST = 3  # names that a suggestion lists
 
 ANGULAR = "angular contact ball bearing"
+DEEP_GROOVE = "deep groove ball bearing"
 MAKERS = ("NSK", "SKF", "FAG", "NTN", "GMN", "SNFA")
 _NAMED = re.compile(rf"^({'|'.join(MAKERS)})[\s_-]*")
 #: Makers' forms: of each size, what is before and behind it.
@@ -82,13 +83,14 @@ _PLAIN = re.compile(
     r"^(?P<series>718|719|70|72|73|74|79)(?P<bore>\d\d)(?!\d)[ -]?(?P<angle>A5|AC|C|A|B|E|)(?P<rest>.*)$"
 )
 _TOLERANCE = re.compile(r"P([A-Z]?)(\d)")
-#: Kinds of bearings that are not modelled, by how their designations begin (ISO, SKF, NSK, FAG).
+#: Kinds of bearings beside angular contact ones, by how their designations begin (ISO, SKF, NSK, FAG).
 _OTHERS = (
     (r"(?:NU|NJ|NUP|NN|NNU|NNC|NCF|NF|N|RNU|RN)(?=\d)", "cylindrical roller bearing"),
     (r"(?:QJF?)(?=\d)", "four-point contact ball bearing"),
     (r"(?:R?NA|NKI?S?|HK|BK|K)(?=\d)", "needle roller bearing"),
     (r"C[234][0-9]{3}(?!\d)", "toroidal roller bearing"),
-    (r"[SW]?(?:6\d{2,4}|16\d{3}|4[23]\d\d)(?!\d)", "deep groove ball bearing"),
+    (r"[SW]?(?:6\d{2,4}|16\d{3})(?!\d)", DEEP_GROOVE),
+    (r"4[23]\d\d(?!\d)", "double-row deep groove ball bearing"),
     (r"(?:234[47]\d\d|BT[WM]\d+)", "double-direction angular contact thrust ball bearing"),
     (r"(?:32|33|52|53)\d\d(?!\d)", "double-row angular contact ball bearing"),
     (r"(?:1[0234]|2[23])\d\d(?!\d)", "self-aligning ball bearing"),
@@ -114,7 +116,7 @@ class Designation(NamedTuple):
     maker : str
         Empty: makers write it in the same way.
     kind : str
-        ``"angular contact ball bearing"``, or another that is not modelled.
+        ``"angular contact ball bearing"``, or another one.
     series : str
     bore : float or None
         In mm.
@@ -200,7 +202,7 @@ _OWN: dict[str, Callable[["re.Match[str]"], object]] = {
 
 
 def _other_kind(text: str) -> str:
-    """Return the kind of bearing that is not modelled and that a designation names; empty: none."""
+    """Return the kind of bearing that a designation names beside angular contact ones; empty: none."""
     folded = _folded(text)
     makers = "|".join((*MAKERS, "INA", "KOYO", "TIMKEN", "SNR", "NACHI"))
     return next((kind for form, kind in _OTHERS if re.match(rf"(?:{makers})?(?:{form})", folded)), "")
@@ -347,9 +349,26 @@ def _not_there(wanted: str, known: Sequence[str]) -> str:
     if size is not None:
         series = getattr(read_designation(wanted), "series", "")
         return f"it is of series {series}, and the catalogue has 70 and 79 (719): {_by_dimensions(*size[1:])}"
-    if kind := _other_kind(wanted):
-        return f"it is a {kind}, which is not modelled: single-row angular contact ball bearings are; "
+    kind = _other_kind(wanted)
+    if kind == DEEP_GROOVE:
+        return _deep_groove(wanted, known)
+    if kind:
+        return (
+            f"it is a {kind}, which is not modelled: single-row angular contact and deep groove ball "
+            "bearings are; "
+        )
     return ""
+
+
+def _deep_groove(wanted: str, known: Sequence[str]) -> str:
+    """Say which entry a deep groove bearing may mean, by its figures, or how it is given."""
+    of_size = [name for name in known if name.isdigit() and re.search(rf"(?<!\d){name}(?!\d)", wanted)]
+    if of_size:
+        return f"did you mean '{of_size[0]}', with the clearance as bearing.clearance? "
+    return (
+        "it is a deep groove ball bearing, of which the catalogue has 60, 62 and 63 with bores of 10 to 50 "
+        "mm: give another one in a file of your own (`catalogues`); "
+    )
 
 
 def _by_dimensions(series: str, bore: float, contact_angle: float | None) -> str:

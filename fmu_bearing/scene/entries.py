@@ -16,7 +16,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import CATALOGUE, text_of
 from fmu_bearing.files import real_path
-from fmu_bearing.scene import nsk
+from fmu_bearing.scene import deep_groove, nsk
 from fmu_bearing.scene.base import Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.problems import explain, shown
@@ -80,9 +80,9 @@ def _of_package(kind: str) -> Mapping[str, Entry]:
     text = resources.files("fmu_bearing.scene").joinpath("catalogue", f"{kind}.toml").read_text("utf-8")
     by_name = {name: Entry(values, text) for name, values in tomllib.loads(text).items()}
     if kind == "bearings":
-        for name, size in nsk.sizes().items():
-            text = nsk.entry_text(size)
-            by_name[name] = Entry(tomllib.loads(text)[name], text)
+        made = {name: nsk.entry_text(size) for name, size in nsk.sizes().items()}
+        made |= {name: deep_groove.entry_text(size) for name, size in deep_groove.sizes().items()}
+        by_name |= {name: Entry(tomllib.loads(text)[name], text) for name, text in made.items()}
     return by_name
 
 

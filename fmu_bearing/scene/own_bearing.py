@@ -3,8 +3,9 @@
 import re
 from dataclasses import dataclass, replace
 
+from fmu_bearing.scene import bearing as bearings
 from fmu_bearing.scene.base import SceneError
-from fmu_bearing.scene.designation import ANGULAR, Designation, read_designation
+from fmu_bearing.scene.designation import ANGULAR, DEEP_GROOVE, Designation, read_designation
 from fmu_bearing.scene.entries import entries
 from fmu_bearing.scene.estimate import Balls, balls_by_rule, balls_of_ratings, check_dimensions
 from fmu_bearing.scene.nsk import sizes
@@ -88,12 +89,25 @@ def meant(bearing: str | Dimensions, designation: str | None = None) -> Designat
     if designation is None or len(re.findall("[0-9]", designation)) < _DIGITS:
         return None
     said = read_designation(designation) or Designation(designation, "", ANGULAR, "", unread=designation)
+    if said.kind == DEEP_GROOVE:
+        if is_deep_groove(bearing):
+            return None
+        raise SceneError(
+            f"{designation} is a deep groove ball bearing: give one of the catalogue, as --bearing 6205, or "
+            "one of a file of your own (--catalogue)"
+        )
     if said.kind != ANGULAR:
         raise SceneError(
-            f"{designation} is a {said.kind}, and this package models angular contact ball bearings: leave "
-            "the designation out to model one of these dimensions"
+            f"{designation} is a {said.kind}, and this package models angular contact and deep groove ones: "
+            "leave the designation out to model one of these dimensions"
         )
     return said
+
+
+def is_deep_groove(bearing: str | Dimensions) -> bool:
+    """Whether a bearing is a deep groove one of a catalogue."""
+    entry = None if isinstance(bearing, Dimensions) else entries("bearings").get(bearing)
+    return entry is not None and entry.values.get("kind") == bearings.DEEP_GROOVE
 
 
 def ask(said: Designation | None, bearing: str | Dimensions, kind: str | None) -> None:

@@ -14,6 +14,7 @@ from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.bearing import CLEARANCE_KEYS
+from fmu_bearing.scene.deep_groove import sizes
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named_files
 from fmu_bearing.scene.exclusions import conflicts_of
@@ -439,9 +440,9 @@ def _fill(
 
 def _named(known: Mapping[str, Entry]) -> str:
     """Return names of entries; makers' sizes, which are many, by the first of them."""
-    sizes = [name for name in known if name.startswith(PREFIX)]
-    others = [name for name in known if name not in sizes]
-    more = [f"{len(sizes)} from {sizes[0]} on (`fmu-bearing scene catalogue`)"] if sizes else []
+    made = [name for name in known if name.startswith(PREFIX)], [name for name in known if name in sizes()]
+    others = [name for name in known if not any(name in of_maker for of_maker in made)]
+    more = [f"{len(one)} from {one[0]} on (`fmu-bearing scene catalogue`)" for one in made if one]
     return ", ".join([*others, *more])
 
 

@@ -6,13 +6,23 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from fmu_bearing.scene import deep_groove
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.conformity import conformity_from_stiffness
 from fmu_bearing.scene.designation import Designation
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
 from fmu_bearing.scene.nsk import sizes
-from fmu_bearing.scene.own_bearing import Dimensions, angle_of, ask, balls_of, kind_of, meant, with_angle
+from fmu_bearing.scene.own_bearing import (
+    Dimensions,
+    angle_of,
+    ask,
+    balls_of,
+    is_deep_groove,
+    kind_of,
+    meant,
+    with_angle,
+)
 from fmu_bearing.scene.preload import CLASS, FORCE, OFFSET, preload, preload_key
 from fmu_bearing.scene.read import Scene, read_scene_text
 from fmu_bearing.scene.scene import SLOW_RPM, Tables
@@ -26,6 +36,7 @@ MATERIALS = {
 }
 #: How the rule of a conformity begins that a printed stiffness gives.
 FITTED = "fitted to the stiffness given"
+_NORMAL_GRADE = "P0"  # of a deep groove bearing without another one
 _GRADE = "P4"  # where neither a value nor a designation says
 _FAR_STIFFNESS = 3e7  # N/m: of the far bearing whose lever holds the ring against tilting
 _WAVES_RPM = 3000.0  # waves up to 20 kHz are then of orders up to 400
@@ -42,6 +53,8 @@ def new_scene(
     kind: str | None = None,
     speed_rpm: float = 20_000.0,
     preload_N: float = 300.0,
+    radial_load_N: float = 0.0,
+    clearance: str | None = None,
     grade: str | None = None,
     lubricant: str = "spindle-oil",
     sound: bool = True,
@@ -57,6 +70,7 @@ def new_scene(
     stiffness_of: str = "pair",
     speed_rule: str = "",
     preload_rule: str = "",
+    radial_rule: str = "",
 ) -> str:
     """Return the text of a scene file with these values, which reads back without a refusal.
 
@@ -70,8 +84,13 @@ def new_scene(
         A bearing of the catalogue, or dimensions from which the rest is estimated.
     kind : str, optional
         ``steel``, ``hybrid`` (steel rings, ceramic balls) or ``full-ceramic``; default: what the designation
-        says, see `read_designation`; without a designation hybrid, assumed.
+        says, see `read_designation`; without a designation hybrid, assumed; a deep groove bearing is of
+        steel.
     speed_rpm, preload_N : float
+    radial_load_N : float
+        Of a single bearing, downwards.
+    clearance : str, optional
+        Group of the clearance of a deep groove bearing, as ``"C3"``; default: the catalogue's, CN.
     grade : str, optional
         Name in the catalogue; default: what the designation says, else P4.
     lubricant : str
@@ -102,8 +121,8 @@ def new_scene(
     folder : Path, optional
         Where the scene will be written, for the path of the user's file that has the bearing; default: the
         current folder.
-    speed_rule, preload_rule : str, optional
-        Why speed and preload are what they are: marked as assumed.
+    speed_rule, preload_rule, radial_rule : str, optional
+        Why speed, preload and radial load are what they are: marked as assumed.
 
     Raises
     ------
@@ -117,11 +136,18 @@ def new_scene(
         raise SceneError("give one of preload_class, preload_offset_um and spring_N: each is the preload")
     if arrangement is None and (distance_mm is not None or spring_N is not None):
         raise SceneError("a distance of ball planes and springs are of a set: give its arrangement, as 'DB'")
+    deep = is_deep_groove(bearing)
+    if clearance is not None and not deep:
+        raise SceneError(f"a clearance ('{clearance}') is of a deep groove bearing of a catalogue, as 6205")
+    if arrangement is not None and (deep or radial_load_N):
+        what = "deep groove bearings" if deep else "a radial load"
+        raise SceneError(f"new scenes of sets are without {what}: write [spindle] and its load by hand")
     said = meant(bearing, designation)
     ask(said, bearing, kind)
+    kind = kind or ("steel" if deep else None)
     materials = _materials(kind, said)
     kind = kind or kind_of(said)
-    tolerance = grade or (said and said.tolerance) or _GRADE
+    tolerance = grade or (said and said.tolerance) or (_NORMAL_GRADE if deep else _GRADE)
     bearing = bearing if isinstance(bearing, str) else with_angle(bearing, said)
     size, pitch = _size(bearing)
     if (stiffness_N_um is None) != (stiffness_preload_N is None):
@@ -137,11 +163,14 @@ def new_scene(
     tables = _bearing(
         bearing, designation or (bearing if isinstance(bearing, str) else name), kind, fitted, said
     )
+    if clearance is not None:
+        tables = [f'{tables[0]}\nclearance = "{clearance}"', *tables[1:]]
     line = _preload(preload_N, preload_class, preload_offset_um) + _remark(preload_rule)
     places = [0.0]
     if arrangement is None:
         mounted = [_MOUNTING.format(
             preload=line,
+            radial=f"{0.0 - float(radial_load_N)}{_remark(radial_rule)}",
             tilt=float(f"{_FAR_STIFFNESS * (1e-3 * pitch) ** 2:.3g}"),
             far=f"{_FAR_STIFFNESS:g}",
         )]  # fmt: skip
@@ -258,7 +287,8 @@ def _bearing(
     """Return the tables of the bearing; ``fitted``: lines by key that win over catalogue and estimates."""
     if isinstance(bearing, str):
         more = "".join(f"\n{key} = {line}" for key, line in fitted.items())
-        return (f'[bearing]\ncatalogue = "{bearing}"{_MADE[bearing in sizes()]}\n'
+        made = _MADE[bearing in sizes()] or _MADE_DEEP[bearing in deep_groove.sizes()]
+        return (f'[bearing]\ncatalogue = "{bearing}"{made}\n'
                 f'designation = "{designation}"{more}',)  # fmt: skip
     d = bearing
     angle = " # assumed: no designation says" if d.angle is None else ""
@@ -290,6 +320,8 @@ def _lines(
 #: Behind the name of a catalogue entry: whether it is a maker's size.
 _MADE = {True: " # sizes and angle are NSK's print; balls are derived, all else is assumed", False: ""}
 
+_MADE_DEEP = {True: " # sizes are of ISO 15; balls are derived from print, all else is assumed", False: ""}
+
 _MOUNTING = """[mounting]
 {preload}
 pedestal_stiffness_N_m = 1e8 # assumed
@@ -297,7 +329,7 @@ pedestal_axial_ratio = 1.0 # assumed
 pedestal_rotational_ratio_mm2 = 200.0 # assumed
 pedestal_damping_ratio = 0.05 # assumed
 radial_load_y_N = 0.0
-radial_load_z_N = 0.0
+radial_load_z_N = {radial}
 # How tight the rings sit on shaft and in housing is in [mounting.fit]; without it they are as drawn.
 
 [mounting.tilt_support] # assumed: a far bearing of {far} N/m, one pitch diameter away

@@ -22,11 +22,7 @@ WAY = (
 @pytest.mark.parametrize(
     ("wanted", "kind"),
     [
-        ("6205", "a deep groove ball bearing"),
-        ("608", "a deep groove ball bearing"),
-        ("SKF 6309-2Z", "a deep groove ball bearing"),
-        ("16005", "a deep groove ball bearing"),
-        ("61805", "a deep groove ball bearing"),
+        ("4205", "a double-row deep groove ball bearing"),
         ("NU210", "a cylindrical roller bearing"),
         ("NU 210 ECP", "a cylindrical roller bearing"),
         ("N1010", "a cylindrical roller bearing"),
@@ -41,10 +37,33 @@ WAY = (
     ],
 )
 def test_other_kinds_of_bearings_are_named(wanted, kind):
-    words = f"it is {kind}, which is not modelled: single-row angular contact ball bearings are; "
+    words = (
+        f"it is {kind}, which is not modelled: single-row angular contact and deep groove ball bearings are; "
+    )
     assert suggestion(wanted, entries("bearings")) == words
     # a user's own catalogue may have such a name
     assert suggestion(wanted, [wanted.lower(), "7003C"]) != words
+
+
+@pytest.mark.parametrize(
+    ("wanted", "name"),
+    [
+        ("SKF 6309-2Z", "6309"),
+        ("6205-2RS", "6205"),
+        ("6006zz C3", "6006"),
+        ("608", ""),
+        ("16005", ""),
+        ("61805", ""),
+    ],
+)
+def test_deep_groove_bearings_by_their_figures(wanted, name):
+    words = suggestion(wanted, entries("bearings"))
+    if name:
+        assert words == f"did you mean '{name}', with the clearance as bearing.clearance? "
+    else:
+        assert words.startswith(
+            "it is a deep groove ball bearing, of which the catalogue has 60, 62 and 63 with "
+        )
 
 
 @pytest.mark.parametrize(
@@ -176,7 +195,10 @@ def test_a_designation_says_angle_balls_cage_and_class(text):
 )  # fmt: skip
 def test_other_kinds_are_said_and_refused(text, kind):
     assert read_designation(text).kind == kind
-    with pytest.raises(SceneError, match=f"{text} is a {kind}, and this package models angular contact"):
+    other = (
+        "give one of the catalogue" if kind.startswith("deep") else "and this package models angular contact"
+    )
+    with pytest.raises(SceneError, match=f"{text} is a {kind}[,:] {other}"):
         new_scene("a", Dimensions(25.0, 52.0, 15.0), designation=text)
 
 

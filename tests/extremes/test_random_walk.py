@@ -145,6 +145,24 @@ def test_a_short_walk_of_32_balls(fidelity, method, start, moves):
     walk("7009C-full-ceramic", start, moves, fidelity, method, MOST_BALLS)
 
 
+#: The gate scene's balls and rings as those of a deep groove bearing, by its clearance (um).
+DEEP_GROOVE = {"bearing.kind": "deep-groove", "bearing.contact_angle_deg": None}
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("clearance", [12.0, -2.0])
+@pytest.mark.parametrize(("fidelity", "method"), COMPUTED)
+@settings(max_examples=5, **HEALTH)
+@given(start=STARTS, moves=st.lists(MOVES, min_size=1, max_size=6), towards=st.sampled_from([1.0, -1.0]))
+def test_a_short_walk_of_a_deep_groove_bearing(fidelity, method, clearance, start, moves, towards):
+    """Axial loads point both ways, from one step to the next, too."""
+    start = {name: towards * value if name == "preload" else value for name, value in start.items()}
+    signs = [towards * (-1.0) ** k if name == "preload" else 1.0 for k, (name, _, _) in enumerate(moves)]
+    moves = [(name, sign * value, h) for sign, (name, value, h) in zip(signs, moves, strict=True)]
+    changes = DEEP_GROOVE | {"bearing.radial_clearance_um": clearance}
+    walk("7003C-bare", start, moves, fidelity, method, changes)
+
+
 #: Walks that take balls off the inner race: a ring that is 118 K colder at once, no preload at full speed.
 OFF_THE_RACE = {
     "7009C-full-ceramic": (

@@ -204,9 +204,8 @@ def settled(run: Instance, seconds: float) -> Means:
         rows.append([run.get(name) for name in names])
     samples = dict(zip(names, np.array(rows).T, strict=True))
     torque, cage = (float(samples[name].mean()) for name in names[:2])
-    heat = heat_of(
-        lambda name: float(samples[name].mean()), run.model.scene.operation.speed_rpm * RPM, cage=True
-    )
+    scene = run.model.scene
+    heat = heat_of(lambda name: float(samples[name].mean()), scene.operation.speed_rpm * RPM, scene.bearing)
     path = samples[names[2]] + 1j * samples[names[3]]
     return Means(torque, cage, heat, *moved(path - path.mean(), _SAMPLE))
 

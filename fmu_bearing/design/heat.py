@@ -8,6 +8,7 @@ from fmu_bearing.design.measured import Range
 from fmu_bearing.design.torque_range import TorqueRange
 from fmu_bearing.results.base import Result
 from fmu_bearing.results.table import number
+from fmu_bearing.scene.bearing import Bearing
 
 #: Where power is lost, and what the loss warms, in words.
 ARISES = {
@@ -15,6 +16,7 @@ ARISES = {
     "rolling": "rolling resistance",
     "cage": "cage: pockets and lands",
     "drag": "drag on the balls",
+    "seals": "seals",
 }
 GOES = {"inner_ring": "inner ring", "outer_ring": "outer ring", "oil": "oil and balls"}
 _SHARES = {"sliding": "contacts"}  # names of the engine's shares that differ
@@ -24,8 +26,8 @@ _SHARES = {"sliding": "contacts"}  # names of the engine's shares that differ
 class Heat(Result):
     """Power (W) that the shaft loses to friction, all of which becomes heat.
 
-    The first four add up to `total`, and so do the last three: half of what a contact loses warms its ring,
-    all else oil and balls.
+    Five sources add up to `total`, and so do the last three: half of what a contact loses warms its ring,
+    what seals lose the inner one, all else oil and balls.
     """
 
     quantities = tuple(f"{name} [W]" for name in ("total", *ARISES, *GOES, "inner_race", "outer_race"))
@@ -43,16 +45,18 @@ class Heat(Result):
     """To the rings."""
     oil: float
     """To oil and balls."""
+    seals: float = 0.0
+    """Lips of the seals, all of it to the inner ring."""
 
     @property
     def total(self) -> float:
         """All of it, W."""
-        return self.sliding + self.rolling + self.cage + self.drag
+        return self.sliding + self.rolling + self.cage + self.drag + self.seals
 
     @property
     def inner_race(self) -> float:
         """What the contacts of the inner race lose, W."""
-        return 2.0 * self.inner_ring
+        return 2.0 * (self.inner_ring - self.seals)
 
     @property
     def outer_race(self) -> float:
@@ -60,7 +64,7 @@ class Heat(Result):
         return 2.0 * self.outer_ring
 
 
-def heat_of(output: Callable[[str], float], speed: float, cage: bool) -> Heat:
+def heat_of(output: Callable[[str], float], speed: float, bearing: Bearing) -> Heat:
     """Return the heat of a settled bearing.
 
     Parameters
@@ -69,10 +73,12 @@ def heat_of(output: Callable[[str], float], speed: float, cage: bool) -> Heat:
         Value of an output of the bearing by its name.
     speed : float
         Of the shaft, rad/s.
-    cage : bool
-        Whether it has one, whose share is an output; else dampers between balls lose what is left.
+    bearing : Bearing
+        Of a cage and of seals, where it has them, the share is an output; without a cage dampers between
+        balls lose what is left.
     """
-    shares = [name for name in ARISES if cage or name != "cage"]
+    has = {"cage": bearing.cage is not None, "seals": bearing.seal is not None}
+    shares = [name for name in ARISES if has.get(name, True)]
     arises = {name: speed * output(f"friction_torque_share.{_SHARES.get(name, name)}") for name in shares}
     goes = {name: output(f"heat.{name}") for name in GOES}
     return Heat(**{"cage": sum(goes.values()) - sum(arises.values())} | arises | goes)
@@ -112,7 +118,10 @@ def heat_table(
         columns = ("", *(f"bearing {k + 1}" for k in range(len(heats))), "all")
         torques, heats = [*torques, sum(torques)], [*heats, heat_in_all(heats)]
     words = {"inner_race": "of it in the inner race", "outer_race": "of it in the outer race"}
-    words = ARISES | {"total": "in all"} | words | {name: f"of it to {_the(name)}" for name in GOES}
+    arises = {
+        name: text for name, text in ARISES.items() if name != "seals" or any(one.seals for one in heats)
+    }
+    words = arises | {"total": "in all"} | words | {name: f"of it to {_the(name)}" for name in GOES}
     rows = [[f"{text}, W", *(f"{getattr(heat, name):.2f}" for heat in heats)] for name, text in words.items()]
     rows = [["friction torque, N mm", *(f"{torque:.2f}" for torque in torques)], *rows]
     if ranges is not None:

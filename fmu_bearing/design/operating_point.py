@@ -294,7 +294,7 @@ def _figures(
         iso281.viscosity_ratio(nu, rpm, pitch), abs(rpm) * pitch, speed_limit(scene),
         least_load(scene, centrifugal, nu), rating(scene, axial_of(scene, load), load.radial, rpm),
         reference_life(scene, *load.ball_loads), settled.get(one.prefix + "friction_torque"),
-        heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM, scene.bearing.cage is not None),
+        heat_of(lambda name: settled.get(one.prefix + name), rpm * RPM, scene.bearing),
         _gyroscopic_friction(part, load.ball_loads), load, one.prefix != "",
     )  # fmt: skip
 

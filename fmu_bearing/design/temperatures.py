@@ -194,9 +194,8 @@ def _conduction(ring: float | None, ball: float | None) -> float:
 def _heats(scene: Scene) -> tuple[Heat, ...]:
     """Return the heat of each settled bearing."""
     settled, speed = started(scene, fidelity="response"), scene.operation.speed_rpm * RPM
-    cage = scene.bearing.cage is not None
     return tuple(
-        heat_of(lambda name, prefix=bearing.prefix: settled.get(prefix + name), speed, cage)  # type: ignore[misc]
+        heat_of(lambda name, prefix=bearing.prefix: settled.get(prefix + name), speed, bearing.scene.bearing)  # type: ignore[misc]
         for bearing in scene.bearings()
     )
 

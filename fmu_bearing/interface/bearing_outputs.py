@@ -184,14 +184,18 @@ def _torque_shares(scene: Scene) -> list[Variable]:
         ("rolling", "rolling resistance"),
         ("cage", "the cage's pockets and lands"),
         ("drag", "drag on the balls"),
+        ("seals", "seals"),
     ]
+    left_out = {"cage"} if scene.bearing.cage is None else set()
+    if scene.bearing.seal is None:
+        left_out.add("seals")
     how = "power lost there over the shaft speed, 0 at standstill"
     return [
         read(
             f"friction_torque_share.{name}", "local", f"Share of {words} in the friction torque: {how}", "N.m"
         )
         for name, words in shares
-        if name != "cage" or scene.bearing.cage is not None
+        if name not in left_out
     ]
 
 

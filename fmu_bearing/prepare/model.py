@@ -283,6 +283,7 @@ def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.ROTATIONAL_RATIO] = mounting.pedestal_rotational_ratio
     p[P.PEDESTAL_ZETA] = mounting.pedestal_damping_ratio
     p[P.PEDESTAL_Y : P.PEDESTAL_Y + 6] = pedestal_axes(scene.mounted)
+    p[P.SEAL_TORQUE] = scene.bearing.seal_torque / 1e3  # N mm
     for support in bodies.supports(scene.mounted, inner.mass, inner.transverse):
         p[P.SUPPORT_STIFFNESS : P.SUPPORT_STIFFNESS + Q.OUTER] += support.stiffness
         p[P.SUPPORT_DAMPING : P.SUPPORT_DAMPING + Q.OUTER] += support.damping

@@ -17,6 +17,7 @@
 ``words``         a scene in a line: materials, supply, temperatures
 ``base``          base class of all tables: frozen, strict, reports all conflicts at once; `SceneError`
 ``bearing``       geometry of rings, balls and cage
+``seal``          its seals: kind, diameter of the lips, or their torque
 ``material``      elastic and thermal constants; catalogue names
 ``lubricant``     oil, traction and film constants
 ``mounting``      preload, loads, pedestal, rotor, housing, bending of the rings

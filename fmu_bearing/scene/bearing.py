@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from fmu_bearing.engine.choices import Guidance
 from fmu_bearing.formulas import clearances, iso76
 from fmu_bearing.scene.base import Conflict, Label, Part, below
+from fmu_bearing.scene.seal import Seal
 
 MOST_BALLS = 36
 Kind = Literal["angular-contact", "deep-groove"]
@@ -19,6 +20,7 @@ CLEARANCE_KEYS = ("clearance", "radial_clearance_um")
 _STEEPEST = 45.0  # deg: of the angle that the clearance of a deep groove bearing leaves
 _MOST_RPM, _MOST_SPEED = 1e5, 2.6e6  # r/min, mm r/min: see `Bearing.most_speed`
 _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
+_LEAST_ANGULAR = 12.0  # deg: makers' angular contact bearings have 12 to 45; flatter ones are deep groove
 
 
 class Cage(Part):
@@ -139,6 +141,7 @@ class Bearing(Part):
     ball_springs: BallSprings | None = Field(
         default=None, description="Springs between the balls instead of a cage; absent: none."
     )
+    seal: Seal | None = Field(default=None, description="Seals; absent: an open bearing, or shields.")
 
     @field_validator("contact_angle_deg")
     @classmethod
@@ -206,6 +209,25 @@ class Bearing(Part):
         return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, self.nominal_angle
 
     @property
+    def deep_groove(self) -> bool:
+        """Whether it has the seals of a deep groove bearing."""
+        return (self.contact_angle_deg or 0.0) < _LEAST_ANGULAR
+
+    @property
+    def lip_diameter(self) -> float | None:
+        """Diameter (mm) on which the lips of its seals rub; None where no kind of seal says."""
+        return None if self.seal is None else self.seal.lip(self.deep_groove, *self._diameters)
+
+    @property
+    def seal_torque(self) -> float:
+        """Torque (N mm) of all its seals while it turns."""
+        return 0.0 if self.seal is None else self.seal.torque(self.deep_groove, *self._diameters)
+
+    @property
+    def _diameters(self) -> tuple[float, float]:
+        return self.bore_mm, self.outside_diameter_mm
+
+    @property
     def most_preload(self) -> float:
         """Largest axial force (N) that may be given: twice C0 by ISO 76, 10 kN at least."""
         return max(_MOST_PRELOAD, self._twice_static)
@@ -250,6 +272,8 @@ class Bearing(Part):
                 "ball_springs",
                 "replace a cage and cannot be given with one: write cage = false, or leave them out",
             )
+        if self.seal is not None:
+            yield from self.seal.misfits(self.deep_groove, *self._diameters)
 
     def _ball_conflicts(self) -> Iterator[Conflict]:
         ball, pitch = self.ball_diameter_mm, self.pitch_diameter_mm

@@ -208,6 +208,7 @@ def setup(p, c, mounting, wave=spline):
         rest=rest,
         bumps=c[C.OVERSIZE_SCALE] * ball_amplitudes(p) if p[P.BALL_WAVES] else None,
         neighbours=(p[P.SPRINGS], p[P.SPRING_DAMPING]) if p[P.SPRINGS] and not p[P.CAGE] else None,
+        seals=p[P.SEAL_TORQUE],
     )
 
 

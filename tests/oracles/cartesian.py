@@ -71,19 +71,24 @@ def equations(setup: Setup, state: State, spin_rate: float = 0.0) -> Answer:
         oil += on_land(loads, 1.0) + on_land(loads, -1.0)
     if setup.neighbours is not None:
         oil += between_balls(loads)
-    torque = -loads.moment[count + INNER] @ axis(state.bodies[INNER])
+    slide = state.rates[INNER, 3] - state.rates[OUTER, 3]
+    rubbing = setup.seals * slide / (1.0 + slide**8) ** 0.125
+    torque = rubbing - loads.moment[count + INNER] @ axis(state.bodies[INNER])
     balls = np.empty((count, 6))
     for j in range(count):
         balls[j], drag = ball_motion(setup, state.balls[j], loads.force[j], loads.moment[j])
         oil += drag
     spring_loss = [rate @ damper @ rate for rate, damper in zip(state.rates, setup.dampers, strict=True)]
     heats = np.array([contact[0] / 2.0 + spring_loss[0], contact[1] / 2.0 + spring_loss[1], oil])
+    heats[INNER] += rubbing * slide
     bodies = np.zeros((3, 6))
     for k in range(3 if setup.pocket is not None else 2):
         outside = -setup.springs[k] @ (state.bodies[k] - setup.rest[k]) - setup.dampers[k] @ state.rates[k]
         outside[:3] += setup.load[k]
         if k == INNER:
             outside[:3] += unbalance(setup, state, spin_rate)
+        if k == OUTER:
+            outside[3] += rubbing
         bodies[k] = body_motion(setup, state, loads, k, outside)
     if setup.pocket is not None:
         bodies[CAGE] = heavy_spot(setup, state, loads, bodies[CAGE])

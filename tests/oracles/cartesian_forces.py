@@ -7,7 +7,7 @@ What is the model's choice and not physics is written out here too:
 
 * small tilts: axis ``n = (1 - (by^2 + bz^2)/2, bz, -by)``, angular velocity ``spin n + (0, by', bz')``; the
   azimuth of a ball on a body is read in the plane YZ;
-* speeds are rounded where they change sign: entrainment over 1e-4 m/s, rolling over 1 rad/s;
+* speeds are rounded where they change sign: entrainment over 1e-4 m/s, rolling and seals over 1 rad/s;
 * a land is a plane at a fixed distance from the centre of either body: the cage's axial float is left out;
   beyond the dry stop the film keeps the thickness it has there.
 """
@@ -111,6 +111,7 @@ class Setup:
     bumps: np.ndarray | None = None  # m: zonal harmonics of the balls from order 1 on
     rest: np.ndarray = field(default_factory=lambda: np.zeros((3, 6)))  # where the springs are slack
     neighbours: tuple[float, float] | None = None  # N/m and N s/m between adjacent balls
+    seals: float = 0.0  # N m
 
 
 @dataclass(frozen=True)

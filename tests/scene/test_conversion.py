@@ -23,6 +23,7 @@ CASES = [
     ("max_internal_step_us", 20.0, "max_internal_step", 2e-5),
     ("radial_load_y_N", 3.0, "radial_load_y", 3.0),
     ("pedestal_stiffness_N_m", 1e8, "pedestal_stiffness", 1e8),
+    ("torque_N_mm", 70.0, "torque", 0.07),
     ("stiffness_N_m_rad", 1e5, "stiffness", 1e5),
     ("pocket_damping_N_s_m", 0.02, "pocket_damping", 0.02),
     ("amount_g_mm", 0.1, "amount", 1e-7),

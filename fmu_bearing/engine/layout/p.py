@@ -125,6 +125,7 @@ LAND_STOP_FRICTION = _at()
 LAND_STOP_SLIP = _at()  # m/s
 SPRINGS = _at()  # N/m between adjacent balls; 0: none
 SPRING_DAMPING = _at()  # N s/m
+SEAL_TORQUE = _at()  # N m: of all seals of the bearing while it turns; 0: none
 MODE_STEP = _at()  # s: longest internal step that resolves the modes
 TURN_RATE = _at()  # rad per rad of the shaft: fastest whirl where no waves, sound or cage ask for short steps
 WAVE_RATE = _at()  # rad per rad of the shaft: the fastest phase of a wave under the balls; 0: none

@@ -17,7 +17,7 @@ BEARING_OUTPUTS = (
     "contact.inner.shoulder_margin", "contact.outer.shoulder_margin", "friction_torque_mean",
     "contact.free_angle", "fit.inner.interference", "fit.inner.pressure", "fit.inner.hoop_stress",
     "fit.inner.race_growth", "fit.outer.interference", "fit.outer.pressure", "fit.outer.hoop_stress",
-    "fit.outer.race_growth", "clearance",
+    "fit.outer.race_growth", "clearance", "friction_torque_share.seals",
 )  # fmt: skip
 INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
 OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")
@@ -51,6 +51,7 @@ WHIRL_RADIUS = BEARING_OUTPUTS.index("cage.whirl_radius")  # m
 WHIRL_SPEED = BEARING_OUTPUTS.index("cage.whirl_speed")  # rad/s
 SHOULDER = BEARING_OUTPUTS.index("contact.inner.shoulder_margin")  # rad: inner, outer
 TORQUE_CONTACTS = BEARING_OUTPUTS.index("friction_torque_share.contacts")  # N m, then rolling, cage, drag
+TORQUE_SEALS = BEARING_OUTPUTS.index("friction_torque_share.seals")  # N m
 FREE_ANGLE = BEARING_OUTPUTS.index("contact.free_angle")  # rad
 FIT = BEARING_OUTPUTS.index("fit.inner.interference")  # four of the inner, four of the outer ring
 FIT_INTERFERENCE = 0  # m on diameter: places among a ring's four

@@ -13,6 +13,7 @@
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes
 ``cage``          pockets and land guidance
 ``springs``       springs between neighbouring balls in place of a cage
+``seals``         torque of the seals between the rings
 ``flexure``       flexural modes of the rings
 ``bodies``        forces on rings and cage that do not come through the balls
 ``equations``     the right-hand side: accelerations, power and heat

@@ -7,6 +7,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, F, P, Q, W, Y
 from fmu_bearing.engine.mechanics.cage import guiding_land
+from fmu_bearing.engine.mechanics.seals import seal_friction
 
 
 @kernel
@@ -208,5 +209,7 @@ def body_equations(p, c, y, angle, speed, speed_rate, w, f):
     else:
         for i in range(Q.SIZE - Q.CAGE):
             f[F.BODY + Q.CAGE + i] = 0.0
+    if p[P.SEAL_TORQUE] != 0.0:
+        seal_friction(p, y, speed, f)
     inner_ring(p, c, y, angle, speed, speed_rate, f)
     outer_ring(p, c, y, f)

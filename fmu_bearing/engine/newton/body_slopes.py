@@ -12,6 +12,7 @@ from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.bodies import cage_at_land, guiding_ring, ring_spin
 from fmu_bearing.engine.mechanics.cage import guiding_land
+from fmu_bearing.engine.mechanics.seals import seal_slope
 
 # steps of the differences: small against clearance and surface speeds, large against rounding
 _PLACE = 1e-6  # of the clearance
@@ -223,6 +224,8 @@ def body_slopes(p, c, y, speed, jac):
         jac[across] -= c[C.PEDESTAL_YZ] / p[P.OUTER_MASS]
         jac[across + Q.SIZE] -= c[C.DAMPING_YZ] / p[P.OUTER_MASS]
     support(p, outer + Q.TURN, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_SPIN], jac)
+    if p[P.SEAL_TORQUE] != 0.0:
+        support(p, outer + Q.TURN, 0.0, seal_slope(p, speed - y[Y.V0 + outer + Q.TURN]), jac)
     support(p, outer + Q.BY, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_ROTATIONAL], jac)
     support(p, outer + Q.BZ, c[C.PEDESTAL_ROTATIONAL], c[C.DAMPING_ROTATIONAL], jac)
     if p[P.CAGE] != 0.0:

@@ -5,8 +5,10 @@ Costs nothing inside a step: once per communication point, from what the evaluat
 
 import math
 
+from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import STRIDE, F, P, R, S, W, Y
+from fmu_bearing.engine.layout import STRIDE, F, P, Q, R, S, W, Y
+from fmu_bearing.engine.mechanics.seals import seal_moment
 
 _TURNING_2 = 1.0  # rad2/s2: rolling rounded over 1 rad/s, as in the rolling resistance
 _ENTRAINED_2 = 1e-8  # m2/s2: entrainment rounded over 1e-4 m/s, likewise
@@ -43,6 +45,15 @@ def drag_loss(p, s):
         around = (p[P.PITCH_RADIUS] + s[S.Y + Y.R + j]) * s[S.Y + Y.OM + j]
         total += p[P.DRAG_FACTOR] * abs(around) * around * around
     return total
+
+
+@kernel
+def seal_loss(p, s):
+    """Power (W) that the seals lose; only fidelity full counts how the outer ring turns."""
+    slide = s[S.SPEED]
+    if p[P.FIDELITY] == FULL:
+        slide -= s[S.Y + Y.V0 + Q.OUTER + Q.TURN]
+    return seal_moment(p, slide) * slide
 
 
 @kernel

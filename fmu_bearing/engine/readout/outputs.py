@@ -9,6 +9,7 @@ from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.contacts import contacts, knows_balls
+from fmu_bearing.engine.readout.losses import seal_loss
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound.meter import levels
 
@@ -66,7 +67,7 @@ def balls(p, s, z):
 
 
 @kernel
-def losses(s, z):
+def losses(p, s, z):
     """Sliding of the contacts, and friction torque by source: the power lost there over the shaft speed."""
     speed = abs(s[S.SPEED])
     for i in range(2):
@@ -74,6 +75,9 @@ def losses(s, z):
         z[Z.SLIP + i] = s[S.SLIP + i]
     for i in range(S.LOSSES):
         z[Z.TORQUE_CONTACTS + i] = s[S.LOSS + i] / s[S.SPEED] if speed > STANDSTILL else 0.0
+    z[Z.TORQUE_SEALS] = 0.0
+    if p[P.SEAL_TORQUE] != 0.0 and speed > STANDSTILL:
+        z[Z.TORQUE_SEALS] = seal_loss(p, s) / s[S.SPEED]
 
 
 @kernel
@@ -139,7 +143,7 @@ def observe_motion(p, s, z, mics):
     if knows_balls(p, s):
         balls(p, s, z)
         contacts(p, s, z)
-    losses(s, z)
+    losses(p, s, z)
     if p[P.FITS] != 0.0:
         fits(p, s, z)
     clearance(s, z)

@@ -9,6 +9,7 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, R, S, T, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.equations import inner_pose, outer_pose
 from fmu_bearing.engine.mechanics.race import normal_contact, waviness
+from fmu_bearing.engine.mechanics.seals import seal_moment
 from fmu_bearing.engine.mechanics.trigonometry import ball_angles, wrap
 from fmu_bearing.engine.newton.jacobian import is_angle
 
@@ -74,6 +75,11 @@ def publish_moving(p, lv, speed, speed_rate, y, f):
     f[F.TORQUE] = frozen_torque(lv, speed)
     for i in range(3):
         f[F.HEAT + i] = lv[L.HEAT + i]
+    if p[P.SEAL_TORQUE] != 0.0:
+        rubbing = seal_moment(p, speed)
+        f[F.WORK] += rubbing * speed
+        f[F.TORQUE] += rubbing
+        f[F.HEAT] += rubbing * speed
 
 
 @kernel

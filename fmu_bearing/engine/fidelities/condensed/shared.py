@@ -27,6 +27,7 @@ from fmu_bearing.engine.fidelities.steps import advance_clock
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, S, T, W, Y
+from fmu_bearing.engine.mechanics.seals import seal_moment
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.newton.body_slopes import land_slopes
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -132,7 +133,7 @@ def build_operator(p, s, w):
 
 
 @kernel
-def advance(s, h):
+def advance(p, s, h):
     """Time, angle, speed, the shaft's work and the sums of heat at the end of the step."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
     mean_speed = s[S.SPEED] + 0.5 * h * s[S.SPEED_RATE]
@@ -143,6 +144,13 @@ def advance(s, h):
     for i in range(3):
         s[S.HEAT + i] += h * lv[L.HEAT + i]
         s[S.WORK] += h * lv[L.HEAT + i]
+    if p[P.SEAL_TORQUE] != 0.0:
+        impulse = h * seal_moment(p, mean_speed)
+        work = impulse * mean_speed
+        s[S.SHAFT_WORK] += work
+        s[S.TORQUE_TIME] += impulse
+        s[S.HEAT] += work
+        s[S.WORK] += work
 
 
 @kernel

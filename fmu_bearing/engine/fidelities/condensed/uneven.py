@@ -15,6 +15,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, STRIDE, C, F, L, P, Q, S, T, W, Y
 from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.mechanics.equations import right_hand_side
+from fmu_bearing.engine.mechanics.seals import seal_moment
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.steady.point import (
     EVEN_BALLS,
@@ -60,11 +61,15 @@ def summarise_frozen(p, s, y, f, w):
 def freeze_losses(p, c, y, speed, turning, s, w):
     """Put what is lost at the state ``y`` to ``lv`` and ``s``; its right-hand side stays in ``w``.
 
-    ``speed`` of the shaft (rad/s) for which, ``turning`` at which it is found.
+    But for what the seals lose, which no state of the balls changes (`publish.publish_moving`). ``speed`` of
+    the shaft (rad/s) for which, ``turning`` at which it is found.
     """
     lv = s[S.CONDENSED :]
     f = w[T.FROZEN_F : T.FROZEN_F + F.SIZE]
     right_hand_side(p, c, y, 0.0, turning, 0.0, w, f)
+    if p[P.SEAL_TORQUE] != 0.0:
+        slide = turning - y[Y.V0 + Q.OUTER + Q.TURN]
+        f[F.HEAT] -= seal_moment(p, slide) * slide
     summarise_frozen(p, s, y, f, w)
     share = speed / turning
     for i in range(_HEATS):
@@ -80,6 +85,8 @@ def freeze_losses(p, c, y, speed, turning, s, w):
         twist = p[P.OUTER_POLAR] * f[F.BODY + turn]
         twist += c[C.PEDESTAL_ROTATIONAL] * y[Y.Q0 + turn] + c[C.DAMPING_SPIN] * y[Y.V0 + turn]
     lv[L.TWIST] = share * twist
+    if p[P.SEAL_TORQUE] != 0.0:
+        lv[L.TWIST] += seal_moment(p, speed)
 
 
 @kernel

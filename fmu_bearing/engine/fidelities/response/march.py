@@ -182,7 +182,7 @@ def turn_all(p, s, h):
 def advance_all(p, s, h):
     """Time, angle, speed and sums of all bearings at the end of the step ``h`` (s)."""
     for b in range(members.bearing_count(p)):
-        advance(members.state(p, s, b), h)
+        advance(members.parameters(p, b), members.state(p, s, b), h)
 
 
 @kernel

@@ -50,7 +50,7 @@ def wait(p, s, w, h):
     if p[P.SOUND_SIZE] != 0.0:
         emit_rings(p, s, w, h)
     for b in range(members.bearing_count(p)):
-        advance(members.state(p, s, b), h)
+        advance(members.parameters(p, b), members.state(p, s, b), h)
 
 
 @kernel

@@ -257,14 +257,17 @@ def _skids(model: Model, fidelity: str) -> tuple[Caution, ...]:
         f"lubricant.traction_max = {p[P.MU]:g}: contacts carry {1e3 * most:.3g} N mm of friction torque at "
         f"most{at}, and balls that roll, as in fidelity {fidelity}, need "
     )
+    # the drive turns the seals, not the balls
+    seals = sum(bearing.scene.bearing.seal_torque for bearing in model.scene.bearings())
+    rubbed = f" N mm, of which the seals take {seals:.3g}: " if seals else " N mm: "
     after = (
-        " N mm: in fidelity full they skid; cage speed, torque and the lines of cage and balls mean little "
+        f"{rubbed}in fidelity full they skid; cage speed, torque and the lines of cage and balls mean little "
         "here; give more traction or preload, or fidelity full"
     )
     place = Z.TORQUE
     if SP.has_shaft(p):
         place = first_output(model.scene, len(model.scene.bearings())) + SP.Z_TORQUE
-    limit = max(most, _FRICTIONLESS)
+    limit = max(most, _FRICTIONLESS) + seals / 1e3
     return tuple(Caution(place, sign * limit, 1e3, before, after, above=sign > 0.0) for sign in (1.0, -1.0))
 
 

@@ -14,6 +14,7 @@
 ``fit_verdicts``     verdicts on the seats
 ``measured``         how far figures were from what others measured
 ``preload_verdicts`` verdicts on the preload, or on the load of a deep groove bearing
+``seal_verdicts``    verdict on the lips of the seals
 ``verdict``          figure, limit, source and judgement
 ``verdicts``         the verdicts on each bearing, and on all together
 ``fresh``            `new_scene`: a scene at an operating point that the verdicts find good

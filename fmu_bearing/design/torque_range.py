@@ -27,6 +27,7 @@ from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.lubricant import Lubricant
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.member import still_of
+from fmu_bearing.scene.seal import Seal
 from fmu_bearing.scene.values import limits
 from fmu_bearing.steady.rest import parts, started
 from fmu_bearing.threads import one_thread
@@ -59,6 +60,9 @@ SUPPLY = (("starved", 6e-8), ("flooded", 3e-8))
 #: (KRW, p. 117); the ends are 1.5 to 1.7 apart. Fresh grease churns at two to five times f0 (HR 1, p. 56): in
 #: no end.
 GREASED = ("settled", "flooded")
+#: Shares of the seals' torque. SKF calls its formula approximate and prints no spread; lips that have not run
+#: in, a shaft off centre, grease and wear move it (assumed).
+SEALS = (0.5, 1.5)
 
 #: What `TorqueRange.table` shows, in words.
 CAPTION = "friction torque, N mm, with one input at its low and its high end"
@@ -281,6 +285,15 @@ def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     return ("none", {"fidelity.terms.land_film": False}), (f"in {words} mm", halves)
 
 
+def _seals(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
+    torque = scene.bearing.seal_torque
+    if scene.bearing.seal is None or torque == 0.0:
+        return None
+    return _ends(
+        {"bearing.seal.torque_N_mm": _within(Seal, "torque_N_mm", share * torque)} for share in SEALS
+    )
+
+
 def _supply(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
     return None if scene.lubricant.greased else _inlets(p, (SUPPLY[0][0], SUPPLY[1][0]))
 
@@ -304,6 +317,7 @@ _INPUTS: dict[str, tuple[str, Callable[[Scene, NDArray[np.float64]], _Ends | Non
     "conformity": ("conformities", _conformity),
     "viscosity": ("viscosity at 20 degC, Pa s", _viscosity),
     "hysteresis": ("hysteresis loss", _hysteresis),
+    "seals": ("torque of the seals, N mm", _seals),
     "lands": ("oil between cage and lands", _lands),
     "supply": ("oil at the inlets", _supply),
     "grease": ("grease at the inlets", _grease),

@@ -14,6 +14,7 @@ from fmu_bearing.design.mounted import preloads
 from fmu_bearing.design.operating_point import RINGS, BearingPoint, OperatingPoint
 from fmu_bearing.design.preload_verdicts import preload_verdicts
 from fmu_bearing.design.rating import preload_classes, unclassed, unrated
+from fmu_bearing.design.seal_verdicts import seal_verdicts
 from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.modal.campbell.doubts import whirl_words
@@ -68,6 +69,7 @@ def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
         *_life(bearing),
         *preload_verdicts(bearing),
         _speed(bearing),
+        *seal_verdicts(bearing),
     ]
     judged += [*_film(bearing), _spin(bearing), _gyroscopic(bearing), _shoulder(bearing)]
     judged += fit_verdicts(bearing)

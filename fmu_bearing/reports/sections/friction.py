@@ -13,6 +13,7 @@ _SHARES = {
     "rolling": (ARISES["rolling"], "outer_ring"),
     "cage": (ARISES["cage"], "cage"),
     "drag": (ARISES["drag"], "balls"),
+    "seals": (ARISES["seals"], "mark"),
 }
 _HEATS = {
     "inner_ring": (GOES["inner_ring"], "inner_ring"),
@@ -37,11 +38,12 @@ def friction(subject: Subject) -> Section:
     names = {f"heat.{key}": value for key, value in _HEATS.items()}
     if subject.has(*names):
         total = sum(subject.mean(name) for name in names)
+        seals = "what seals lose the inner ring, " if subject.has("friction_torque_share.seals") else ""
         chart = _over_time(
             subject, "heat", "Heat by where it goes", names, "W",
             f"Heat to inner ring, outer ring and oil over time; {total:.3g} W in all in the mean.",
-            "Means over each communication step. Half of what a contact loses heats its ring, all else goes "
-            "to oil and balls.",
+            f"Means over each communication step. Half of what a contact loses heats its ring, {seals}all "
+            "else goes to oil and balls.",
         )  # fmt: skip
         blocks.append(chart)
     blocks += [_table(subject), *_settled(subject)]

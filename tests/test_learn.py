@@ -11,7 +11,8 @@ from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import preload_classes
 from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.design.verdicts import GYROSCOPIC, HIGH_PRESSURE, verdicts
-from fmu_bearing.formulas import iso76, iso281, makers
+from fmu_bearing.engine.constants import RPM
+from fmu_bearing.formulas import iso76, iso281, makers, seals
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.recording.record import record
 from fmu_bearing.scene import read_scene
@@ -102,6 +103,19 @@ def settled(scene, preload=None, speed=None, water=None):
     given = {key: value for key, value in values.items() if value is not None}
     found = temperatures(read_scene(scene).replace(given), cooling=water)
     return found.places, operating_point(found.scene)
+
+
+@functools.cache
+def sealed():
+    """Steady temperatures with contact seals at 10,000 r/min."""
+    return temperatures(
+        read_scene(SPINDLE).replace({"bearing.seal.kind": "RS1", "operation.speed_rpm": 10e3})
+    )
+
+
+def lip():
+    """Diameter on which the lips rub, mm."""
+    return sealed().scene.bearing.lip_diameter
 
 
 CERAMIC_ON_SHAFT = EXAMPLES.parent / "fits" / "7003C-ceramic.toml"
@@ -222,6 +236,12 @@ FIGURES = {
         "29.53 ```": lambda: 1e3 * at_end("grease", "high", greased()),
         "1.54 times": lambda: 2.0 / 1.3,
         "1.49 times": lambda: 2.0 / 1.34,
+        "18.2 N mm by": lambda: sealed().scene.bearing.seal_torque,
+        "55.2 degC, without": lambda: sealed().places[1, "inner_ring"],
+        "31.7 degC, where": lambda: settled(SPINDLE, speed=10e3)[0][1, "inner_ring"],
+        "21.38 W. A": lambda: settled(SPINDLE, speed=10e3)[1].heat.total,
+        "25.3 m/s,": lambda: lip() / 2e3 * 20e3 * RPM,
+        "11049 r/min": lambda: seals.LIP_SPEED / (lip() / 2e3 * RPM),
         "32.7 degC, its": lambda: settled(SET)[0][0, "shaft"],
         "22.8 degC. The": lambda: settled(SET)[0][0, "housing"],
         "9.9 K.": lambda: settled(SET)[0][0, "shaft"] - settled(SET)[0][0, "housing"],

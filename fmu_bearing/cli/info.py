@@ -83,7 +83,7 @@ def info(
     _show_heat(point)
     if warm is not None:
         _show_temperatures(warm)
-    _show_verdicts(judgements, len(point.bearings))
+    _show_verdicts(judgements, len(point.bearings), point.scene)
     typer.echo("computed figures over what others measured or print:")
     for figure, words in measured_elsewhere().items():
         typer.echo(f"{figure}: {words}")
@@ -189,9 +189,9 @@ def _show_heat(point: "OperatingPoint") -> None:
     show(CAPTION, *point.torque_range.table())
 
 
-def _show_verdicts(judgements: "tuple[Verdict, ...]", bearings: int) -> None:
+def _show_verdicts(judgements: "tuple[Verdict, ...]", bearings: int, scene: "Scene") -> None:
     """Print the verdicts: of several bearings side by side, what is not good marked, then on the whole."""
-    from fmu_bearing.design.verdicts import shared_label, side_by_side
+    from fmu_bearing.design.verdicts import shared_label, shared_limit, side_by_side
     from fmu_bearing.results.table import show
 
     one_by_one = ("figure", "value", "verdict", "limit (source)")
@@ -206,7 +206,7 @@ def _show_verdicts(judgements: "tuple[Verdict, ...]", bearings: int) -> None:
         cells = [
             "" if one is None else one.text + (f" {one.judgement}" if one.advice else "") for one in same
         ]
-        rows.append([shared_label(first), *cells, first.limit])
+        rows.append([shared_label(first), *cells, shared_limit(same, scene)])
     show("verdicts", ("figure", *(f"bearing {k + 1}" for k in range(bearings)), "limit"), rows)
     show("verdicts on the set", one_by_one, together)
 

@@ -19,6 +19,7 @@ from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_ho
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.modal.campbell.doubts import whirl_words
 from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.scene import Scene
 
 #: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, not a standard.
 HIGH_PRESSURE = 2.0e9
@@ -79,6 +80,12 @@ def bearing_verdicts(bearing: BearingPoint) -> list[Verdict]:
 def shared_label(one: Verdict) -> str:
     """Return the label of a figure for a row of several bearings, whose gravest race may differ."""
     return one.label.split(":")[0].replace(", inner race", "").replace(", outer race", "")
+
+
+def shared_limit(same: Iterable[Verdict | None], scene: Scene) -> str:
+    """Return the limit of a figure for a row of several bearings; of ones that differ each limit."""
+    limits = [one.limit for one in same if one is not None]
+    return " / ".join(dict.fromkeys(limits)) if scene.differing else limits[0]
 
 
 def side_by_side(judged: Iterable[Verdict]) -> Iterator[list[Verdict | None]]:

@@ -200,10 +200,10 @@ class Recording(ChannelHistory):
         need("matplotlib", "a picture")  # refused before the sound is computed
         spectrum = self.spectrum(positions, radiation_model, resolution)
         shown = spectrum.frequency <= highest
-        kinematics = None if self.scene is None else self.kinematics()
+        kinematics = self.common_kinematics
         levels = {name: spectrum[name][shown] for name in spectrum}
         first = next(iter(levels.values()))
-        lines = [] if kinematics is None else strongest(self, spectrum.frequency[shown], first)
+        lines = [] if self.scene is None else strongest(self, spectrum.frequency[shown], first)
         return spectrum_picture(
             spectrum.frequency[shown], levels, kinematics, title, self.excitation_end, lines
         )

@@ -20,7 +20,6 @@ CLEARANCE_KEYS = ("clearance", "radial_clearance_um")
 _STEEPEST = 45.0  # deg: of the angle that the clearance of a deep groove bearing leaves
 _MOST_RPM, _MOST_SPEED = 1e5, 2.6e6  # r/min, mm r/min: see `Bearing.most_speed`
 _MOST_PRELOAD, _MOST_RADIAL = 1e4, 3e3  # N: of small bearings, as inputs of FMUs always had
-_LEAST_ANGULAR = 12.0  # deg: makers' angular contact bearings have 12 to 45; flatter ones are deep groove
 
 
 class Cage(Part):
@@ -209,19 +208,14 @@ class Bearing(Part):
         return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, self.nominal_angle
 
     @property
-    def deep_groove(self) -> bool:
-        """Whether it has the seals of a deep groove bearing."""
-        return (self.contact_angle_deg or 0.0) < _LEAST_ANGULAR
-
-    @property
     def lip_diameter(self) -> float | None:
         """Diameter (mm) on which the lips of its seals rub; None where no kind of seal says."""
-        return None if self.seal is None else self.seal.lip(self.deep_groove, *self._diameters)
+        return None if self.seal is None else self.seal.lip(self.is_deep_groove, *self._diameters)
 
     @property
     def seal_torque(self) -> float:
         """Torque (N mm) of all its seals while it turns."""
-        return 0.0 if self.seal is None else self.seal.torque(self.deep_groove, *self._diameters)
+        return 0.0 if self.seal is None else self.seal.torque(self.is_deep_groove, *self._diameters)
 
     @property
     def _diameters(self) -> tuple[float, float]:
@@ -273,7 +267,7 @@ class Bearing(Part):
                 "replace a cage and cannot be given with one: write cage = false, or leave them out",
             )
         if self.seal is not None:
-            yield from self.seal.misfits(self.deep_groove, *self._diameters)
+            yield from self.seal.misfits(self.is_deep_groove, *self._diameters)
 
     def _ball_conflicts(self) -> Iterator[Conflict]:
         ball, pitch = self.ball_diameter_mm, self.pitch_diameter_mm

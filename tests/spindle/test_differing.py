@@ -4,18 +4,22 @@ A 7002C with steel balls (9 of them, or as many as the catalogue has) behind 700
 """
 
 import math
+import warnings
 
 import numpy as np
 import pytest
 
-from fmu_bearing import modes, operating_point, simulate, statics
+from fmu_bearing import modes, operating_point, read_scene, record, report, simulate, statics
 from fmu_bearing.engine.layout import SP, F, P, U
 from fmu_bearing.engine.status import BAD_INPUT
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.prepare.sound_block import sound_blocks
+from fmu_bearing.recording.measurements.measure import known_lines
+from fmu_bearing.reports.sections.arrangement import pressure_centres
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.mounting import Mounting
+from tests.conftest import ROOT
 from tests.engine.condensed import FIDELITIES
 from tests.marks import heavy_but
 from tests.modal.test_set_modes import decays
@@ -30,6 +34,7 @@ from tests.spindle.test_rings import LOAD, compared, wavy
 from tests.spindle.test_runs import answers_as_the_dense_system, beam, follows_the_oracle, loaded
 from tests.spindle.test_sound import MicrophoneSignals, pair as sounding_pair, sound
 
+MOTOR = ROOT / "examples" / "spindle_set" / "7003C-7002C.toml"
 SMALL = {"spindle.bearing[2].bearing": "NSK-7002C", "spindle.bearing[2].materials.balls": "GCr15"}
 NO_CAGE = {"bearing.cage": None, "spindle.bearing[2].bearing.cage": None}
 #: Waves small enough for the linear answer, see test_response.
@@ -283,3 +288,43 @@ def test_each_point_has_its_own_ratings_frequencies_and_film():
     ranges = found.torque_range
     for one, ends in zip(found.bearings, ranges.bearings, strict=True):
         assert ends.low < one.friction_torque < ends.high
+
+
+@pytest.fixture(scope="module")
+def heard():
+    given = read_scene(MOTOR).replace({"fidelity.model": "response"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return record(given, 0.03, progress=False)
+
+
+def test_lines_are_named_by_the_bearing_that_makes_them(heard):
+    """Balls pass at 2,005 Hz in the pair and at 1,776 Hz behind: no mean of both is a line of either."""
+    first, _, third = heard.bearing_kinematics()
+    assert third.f_o == pytest.approx(11 * third.f_c, rel=1e-9) and third.f_o < 0.9 * first.f_o
+    lines = {line.name: line.frequency for line in known_lines(heard, 5e3)}
+    assert lines["f_o of bearing 3"] == pytest.approx(third.f_o, rel=1e-9)
+    assert lines["f_o - f_r of bearing 1"] == pytest.approx(first.f_o - first.f_r, rel=1e-9)
+    assert lines["2 f_r"] == pytest.approx(800.0, rel=1e-9)
+    with pytest.raises(ValueError, match=r"7003C-7002C: its bearings differ.*bearing_kinematics"):
+        heard.kinematics()
+    assert list(heard.kinematics_by_name()) == ["bearing 1", "bearing 2", "bearing 3"]
+
+
+def test_a_report_draws_each_in_its_own_size():
+    given = read_scene(MOTOR)
+    places = pressure_centres(given)
+    b = given.geometries[2]
+    reach = 0.5 * b.pitch_diameter_mm * math.tan(math.radians(b.contact_angle_deg))
+    assert places[2] == pytest.approx(141.0 + reach, rel=1e-12)
+    assert places[2] - 141.0 < 47.0 - places[1]
+
+
+@pytest.mark.heavy
+def test_a_report_of_bearings_that_differ(tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made = report(read_scene(MOTOR).replace({"fidelity.model": "response"}), tmp_path / "a.html")
+    page = made.read_text("utf-8")
+    for words in ("2 x 7003C + 1 x NSK-7002C", "of bearing 3", "No Campbell diagram", "15 x 32 x 9 mm"):
+        assert words in page, words

@@ -130,6 +130,21 @@ class Turning(ABC):
         every = self.bearing_kinematics(speed, contact_angle)
         return KinematicFrequencies(*np.mean(every, axis=0).tolist())
 
+    def kinematics_by_name(self, speed: float | None = None) -> dict[str, KinematicFrequencies]:
+        """Return frequencies (Hz) by whose they are; ``speed`` as for `kinematics`.
+
+        Of equal bearings their mean, under ""; of bearings that differ each one's, ``bearing 1`` and so on.
+        """
+        if not self._known().differing:
+            return {"": self.kinematics(speed)}
+        every = self.bearing_kinematics(speed)
+        return {f"bearing {number}": one for number, one in enumerate(every, start=1)}
+
+    @property
+    def common_kinematics(self) -> KinematicFrequencies | None:
+        """`kinematics`; None without a scene, and where its bearings differ."""
+        return None if self.scene is None or self.scene.differing else self.kinematics()
+
     def bearing_kinematics(
         self, speed: float | None = None, contact_angle: float | None = None
     ) -> tuple[KinematicFrequencies, ...]:

@@ -175,7 +175,7 @@ def known_lines(recording: ChannelHistory, highest: float) -> list[KinematicLine
     lines: dict[str, KinematicLine] = {}
     for number, (one, whirl) in enumerate(zip(every, whirls, strict=True), start=1):
         for line in kinematic_lines(one, highest, whirl=whirl):
-            shared = line.name.endswith("f_r") and " f_" not in line.name.removesuffix("f_r")
+            shared = set(line.name.removesuffix("f_r")) <= set("0123456789 ")  # a multiple of f_r alone
             name = line.name if shared else f"{line.name} of bearing {number}"
             lines[name] = replace(line, name=name)
     return sorted(lines.values(), key=lambda line: line.frequency)

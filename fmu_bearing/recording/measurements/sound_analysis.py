@@ -276,7 +276,7 @@ def spectra_picture(recording: ChannelHistory, analysis: SoundAnalysis) -> "Figu
 
     audible = analysis.frequency <= 20_000.0
     still = recording.scene is not None and not recording.changes_speed
-    kinematics = recording.kinematics() if still else None
+    kinematics = recording.common_kinematics if still else None
     shown = {name: levels[0][audible] for name, levels in analysis.spectra.items()}
     frequency, end = analysis.frequency[audible], recording.excitation_end
     return pictures.spectrum_picture(frequency, shown, kinematics, analysis.names[0], end, analysis.lines)
@@ -325,7 +325,7 @@ def _orders(
     write_csv(folder / "orders.csv", *tables.order_table(orders))
     if not drawn:
         return ["orders.csv"]
-    kinematics = None if recording.scene is None else recording.kinematics()
+    kinematics = recording.common_kinematics
     picture = pictures.order_picture(orders, kinematics, name, recording.excitation_end)
     pictures.save(picture, folder / "orders.png")
     return ["orders.csv", "orders.png"]

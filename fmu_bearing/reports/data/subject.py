@@ -126,10 +126,10 @@ class Subject:
         return float(np.mean(self.output(name)))
 
     @cached_property
-    def kinematics(self) -> KinematicFrequencies:
-        """Kinematic frequencies (Hz); `Absent` without scene."""
+    def kinematics(self) -> dict[str, KinematicFrequencies]:
+        """Kinematic frequencies (Hz) by whose they are, see `kinematics_by_name`; `Absent` without scene."""
         assert self.scene is not None
-        return self.recording.kinematics()
+        return self.recording.kinematics_by_name()
 
     @property
     def speed(self) -> float:

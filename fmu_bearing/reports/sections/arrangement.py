@@ -29,8 +29,7 @@ def arrangement(subject: Subject) -> Section:
 
 def _drawing(scene: Scene) -> Chart:
     """Shaft and bearings to scale, with the lines of contact."""
-    spindle, bearing = set_of(scene), scene.bearing
-    inner, outer = 0.5 * bearing.bore_mm, 0.5 * bearing.outside_diameter_mm
+    spindle = set_of(scene)
     figure = look.figure(300, showlegend=False)
     start = 0.0
     for length, diameter, bore in spindle.shaft.sections_mm:
@@ -40,9 +39,10 @@ def _drawing(scene: Scene) -> Chart:
                 line={"color": "#7F7F7F", "width": 1}, layer="below",
             )  # fmt: skip
         start += length
-    half, pitch = 0.5 * bearing.width_mm, 0.5 * bearing.pitch_diameter_mm
-    slope = math.tan(bearing.nominal_angle)
-    for one, centre in zip(spindle.bearing, pressure_centres(scene), strict=True):
+    for one, bearing, centre in zip(spindle.bearing, scene.geometries, pressure_centres(scene), strict=True):
+        inner, outer = 0.5 * bearing.bore_mm, 0.5 * bearing.outside_diameter_mm
+        half, pitch = 0.5 * bearing.width_mm, 0.5 * bearing.pitch_diameter_mm
+        slope = math.tan(bearing.nominal_angle)
         x = one.position_mm
         beyond = x + one.sign * (outer - pitch) * slope
         for side in (1.0, -1.0):
@@ -56,9 +56,10 @@ def _drawing(scene: Scene) -> Chart:
             )  # fmt: skip
     places = [one.position_mm for one in spindle.bearing]
     labels = [f"bearing {k + 1}, carries {one.carries}" for k, one in enumerate(spindle.bearing)]
-    for side in (pitch, -pitch):
+    pitches = [0.5 * bearing.pitch_diameter_mm for bearing in scene.geometries]
+    for side in (1.0, -1.0):
         figure.add_scatter(
-            x=places, y=[side] * len(places), mode="markers", text=labels, hoverinfo="text",
+            x=places, y=[side * pitch for pitch in pitches], mode="markers", text=labels, hoverinfo="text",
             marker={"size": 9, "color": look.colour("balls")},
         )  # fmt: skip
     figure.update_xaxes(axis("from the nose, mm"))
@@ -72,9 +73,11 @@ def pressure_centres(scene: Scene) -> list[float]:
 
     With the nominal contact angle and pitch diameter, as makers give it.
     """
-    bearing = scene.bearing
-    reach = 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
-    return [one.position_mm - one.sign * reach for one in set_of(scene).bearing]
+    return [
+        one.position_mm
+        - one.sign * 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
+        for one, bearing in zip(set_of(scene).bearing, scene.geometries, strict=True)
+    ]
 
 
 def _bearings(statics: Statics) -> Table:

@@ -2,6 +2,7 @@
 
 import math
 
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.prepare.step_limits import longest_internal_step
 from fmu_bearing.reports.data.subject import Subject
@@ -9,6 +10,7 @@ from fmu_bearing.reports.page.blocks import Absent, Block, Folded, Section, Tabl
 from fmu_bearing.reports.sections.assumptions import assumed_table
 from fmu_bearing.reports.sections.kinematic_marks import OTHER_NAMES
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.member import set_of
 from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words
 
@@ -51,16 +53,14 @@ def conditions(subject: Subject) -> Section:
 
 def _operation(subject: Subject) -> Table:
     scene = subject.scene
-    b, rpm, imperfections = scene.bearing, subject.speed / RPM, scene.imperfections
+    rpm, imperfections = subject.speed / RPM, scene.imperfections
     rows = [
-        ["bearing", f"{bearings_words(scene)}: {b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} "
-         f"mm, {b.ball_count} balls of {b.ball_diameter_mm:g} mm, {b.angle_words}"],
+        ["bearing", f"{bearings_words(scene)}: {_sizes(scene)}"],
         ["materials", materials_words(scene)],
         ["shaft speed", f"{rpm:,.0f} r/min" + _variation(subject)],
         *(_on_shaft(scene) if subject.several else _mounted(scene)),
         ["lubrication and temperatures", conditions_words(scene)],
-        ["cage", "none" if b.cage is None else f"{b.cage.width_mm:g} mm wide, pockets of "
-        f"{b.cage.pocket_diameter_mm:g} mm"],
+        ["cage", "; ".join(dict.fromkeys(_cage(one.cage) for one in scene.geometries))],
         ["imperfections", "none: a perfect bearing" if imperfections is None else
          f"seed {imperfections.seed}, unbalance {imperfections.unbalance_um:g} um, balls within "
          f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders from {imperfections.lowest_order} "
@@ -71,6 +71,21 @@ def _operation(subject: Subject) -> Table:
         ["sound", _sound(subject)],
     ]  # fmt: skip
     return Table("Operating point and method", ["", ""], rows)
+
+
+def _sizes(scene: Scene) -> str:
+    """Return the sizes of each kind of bearing."""
+    return "; ".join(dict.fromkeys(
+        f"{b.bore_mm:g} x {b.outside_diameter_mm:g} x {b.width_mm:g} mm, {b.ball_count} balls of "
+        f"{b.ball_diameter_mm:g} mm, {b.angle_words}"
+        for b in scene.geometries
+    ))  # fmt: skip
+
+
+def _cage(cage: Cage | None) -> str:
+    return "none" if cage is None else (
+        f"{cage.width_mm:g} mm wide, pockets of {cage.pocket_diameter_mm:g} mm"
+    )  # fmt: skip
 
 
 def _mounted(scene: Scene) -> list[list[str]]:
@@ -123,10 +138,11 @@ def _sound(subject: Subject) -> str:
 
 
 def _kinematics(subject: Subject) -> Table:
-    recording, kinematics = subject.recording, subject.kinematics
+    recording, kinematics = subject.recording, subject.kinematics.values()
     each, whirls, rows = recording.bearing_kinematics(), recording.whirls(), []
-    for name, value in kinematics._asdict().items():
-        order = f"{value / kinematics.f_r:.4f}" if kinematics.f_r else ""
+    for name in KinematicFrequencies._fields:
+        orders = [f"{getattr(one, name) / one.f_r:.4f}" for one in kinematics if one.f_r]
+        order = " / ".join(dict.fromkeys(orders))
         cells = [f"{getattr(one, name):.2f}" for one in each]
         rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], *cells, order])
     if not all(map(math.isnan, whirls)):

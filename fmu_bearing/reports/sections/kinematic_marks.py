@@ -26,25 +26,32 @@ def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) ->
         kinematics = subject.kinematics
     except Absent:
         return
-    for name, base in kinematics._asdict().items():
-        multiples = [n for n in range(1, HARMONICS + 1) if 0.0 < n * base <= highest]
-        if not multiples:
-            continue
-        x, y, text = [], [], []
-        for n in multiples:
-            words = f"{name if n == 1 else f'{n} {name}'} = {n * base:.1f} Hz"
-            x += [n * base, n * base, np.nan]
-            y += [0.0, 1.0, np.nan]
-            text += [words, words, ""]
-        figure.add_scatter(
-            x=small(x), y=small(y), text=text, mode="lines", yaxis="y9", name=label(name),
-            line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"},
-            hovertemplate="%{text}<extra></extra>",
-            visible=True if name in _AT_FIRST else "legendonly",
-        )  # fmt: skip
+    for whose, found in kinematics.items():
+        for name, base in found._asdict().items():
+            _mark(figure, name, base, whose, highest)
     figure.update_layout(
         yaxis9={"overlaying": "y", "range": [0.0, 1.0], "visible": False, "fixedrange": True}
     )
+
+
+def _mark(figure: Any, name: str, base: float, whose: str, highest: float) -> None:
+    """Add a trace of upright lines at the multiples of one frequency (Hz); ``whose``: of which bearing."""
+    multiples = [n for n in range(1, HARMONICS + 1) if 0.0 < n * base <= highest]
+    if not multiples:
+        return
+    of_one = whose and f" of {whose}"
+    x, y, text = [], [], []
+    for n in multiples:
+        words = f"{name if n == 1 else f'{n} {name}'}{of_one} = {n * base:.1f} Hz"
+        x += [n * base, n * base, np.nan]
+        y += [0.0, 1.0, np.nan]
+        text += [words, words, ""]
+    figure.add_scatter(
+        x=small(x), y=small(y), text=text, mode="lines", yaxis="y9", name=label(name) + of_one,
+        line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"},
+        hovertemplate="%{text}<extra></extra>",
+        visible=True if name in _AT_FIRST else "legendonly",
+    )  # fmt: skip
 
 
 def _mark_end(figure: Any, end: float | None, highest: float) -> None:

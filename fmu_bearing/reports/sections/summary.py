@@ -225,7 +225,7 @@ def _length(subject: Subject) -> list[str]:
     """Whether the recording is long enough for means."""
     duration = subject.recording.size / subject.recording.rate
     try:
-        cage = subject.kinematics.f_c
+        cage = min(one.f_c for one in subject.kinematics.values())
     except Absent:
         return []
     if cage > 0.0 and duration * cage < _TURNS:

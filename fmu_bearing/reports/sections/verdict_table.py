@@ -7,10 +7,11 @@ import numpy as np
 
 from fmu_bearing.design.operating_point import RINGS, OperatingPoint
 from fmu_bearing.design.verdict import Verdict, overall
-from fmu_bearing.design.verdicts import cautions, shared_label, side_by_side, verdicts
+from fmu_bearing.design.verdicts import cautions, shared_label, shared_limit, side_by_side, verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent, Overall, Table
+from fmu_bearing.scene import Scene
 
 #: What the run itself is judged by, where it was kept: its extremes, as the figures above the table.
 _EXTREMES = {"pressure_max": np.max, "shoulder_margin": np.min}
@@ -55,7 +56,9 @@ def judged(subject: Subject) -> Judged | None:
     judgements, several = verdicts(point), subject.several
     state = "perfect bearings in their steady state" if several else "perfect bearing in its steady state"
     caption = f"Verdicts at {subject.speed / RPM:,.0f} r/min: {ran}{state}"
-    columns, rows = _side_by_side(judgements, list(subject.prefixes)) if several else _one_by_one(judgements)
+    columns, rows = (
+        _side_by_side(judgements, list(subject.prefixes), point.scene) if several else _one_by_one(judgements)
+    )
     return Judged(judgements, Table(caption, columns, rows, note=_note(point, judgements), stacked=True))
 
 
@@ -65,7 +68,9 @@ def _one_by_one(judgements: Iterable[Verdict]) -> tuple[list[str], list[list[str
     return ["", "value", "verdict", "limit", "source of the limit"], rows
 
 
-def _side_by_side(judgements: Sequence[Verdict], bearings: list[str]) -> tuple[list[str], list[list[str]]]:
+def _side_by_side(
+    judgements: Sequence[Verdict], bearings: list[str], scene: Scene
+) -> tuple[list[str], list[list[str]]]:
     """Return columns and a row per figure, with its verdict on each bearing, or on all together."""
     whole: list[list[Verdict | None]] = [
         [*(None for _ in bearings), one] for one in judgements if one.bearing is None
@@ -74,7 +79,7 @@ def _side_by_side(judgements: Sequence[Verdict], bearings: list[str]) -> tuple[l
     for same in [*([*each, None] for each in side_by_side(judgements)), *whole]:
         first = next(one for one in same if one is not None)
         cells = ["" if one is None else f"{one.text} ({one.judgement})" for one in same]
-        rows.append([shared_label(first), *cells, first.limit, first.source])
+        rows.append([shared_label(first), *cells, shared_limit(same, scene), first.source])
     return ["", *bearings, "all together", "limit", "source of the limit"], rows
 
 

@@ -114,19 +114,19 @@ def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
     if subject.recording.scene is None:
         return
     ends = np.array([rpm[0], rpm[-1]])
-    base = subject.recording.kinematics(speed=RPM)  # at 1 r/min
-    for name in _LINES:
-        figure.add_scatter(
-            x=small(getattr(base, name) * ends), y=small(ends), mode="lines", name=name,
-            line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, showlegend=False,
-            hovertemplate=name + "<extra></extra>",
-        )  # fmt: skip
-        inside = getattr(base, name) * ends[1] < _HIGHEST
-        figure.add_annotation(
-            x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=name,
-            showarrow=False,
-            yanchor="bottom", font={"size": 12},
-        )  # fmt: skip
+    for whose, base in subject.recording.kinematics_by_name(speed=RPM).items():  # at 1 r/min
+        for name in _LINES:
+            words = f"{name} of {whose}" if whose and name != "f_r" else name
+            figure.add_scatter(
+                x=small(getattr(base, name) * ends), y=small(ends), mode="lines", name=words,
+                line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, showlegend=False,
+                hovertemplate=words + "<extra></extra>",
+            )  # fmt: skip
+            inside = getattr(base, name) * ends[1] < _HIGHEST
+            figure.add_annotation(
+                x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=words,
+                showarrow=False, yanchor="bottom", font={"size": 12},
+            )  # fmt: skip
 
 
 def _over_speed(microphones: Microphones) -> Chart:

@@ -26,9 +26,9 @@ from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.prepare.bodies import ball
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.results import rates
+from fmu_bearing.results.balls import Readable
 from fmu_bearing.results.base import Quantity, Result
-from fmu_bearing.run import rates
-from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneSource, scene_of, si
 from fmu_bearing.scene.fit import held_loose
 from fmu_bearing.scene.member import SceneBearing, still_of

@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import Q, S, Y
-from fmu_bearing.instance import Instance
-from fmu_bearing.run import rates as run_rates
-from fmu_bearing.run.rates import RatesWatch
+from fmu_bearing.results import rates as run_rates
+from fmu_bearing.results.balls import Readable
+from fmu_bearing.results.rates import RatesWatch
 from fmu_bearing.scene import Scene
 
 _AT_TILT = S.Y + Y.Q0 + Q.OUTER + Q.BY  # rad, about y and z
@@ -16,9 +16,9 @@ _AT_TILT = S.Y + Y.Q0 + Q.OUTER + Q.BY  # rad, about y and z
 OUTER_TILTS = ("outer_ring.tilt.y", "outer_ring.tilt.z")
 
 
-def outer_tilt(instance: Instance) -> NDArray[np.float64]:
+def outer_tilt(bearing: Readable) -> NDArray[np.float64]:
     """Return the tilt of the outer ring of a single bearing (rad, about y and z)."""
-    return instance.s[_AT_TILT : _AT_TILT + 2]
+    return bearing.s[_AT_TILT : _AT_TILT + 2]
 
 
 class AxisWatch(RatesWatch):
@@ -28,10 +28,10 @@ class AxisWatch(RatesWatch):
         super().__init__()
         self._tilts: list[NDArray[np.float64]] = []
 
-    def __call__(self, instance: Instance) -> None:
+    def __call__(self, bearing: Readable) -> None:
         """Read the present state."""
-        super().__call__(instance)
-        self._tilts.append(outer_tilt(instance).copy())
+        super().__call__(bearing)
+        self._tilts.append(outer_tilt(bearing).copy())
 
     def outputs(self, scene: Scene) -> dict[str, NDArray[np.float64]]:
         """Return the values of all calls by name; of a single bearing tilts, too."""

@@ -11,8 +11,8 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.instance import Instance
 from fmu_bearing.metrology.axis_watch import frequencies, outer_tilt
 from fmu_bearing.prepare.model import prepare
+from fmu_bearing.results.rates import RatesWatch
 from fmu_bearing.run.march import begin, march, to_points, underway
-from fmu_bearing.run.rates import RatesWatch
 from fmu_bearing.scene import Scene
 
 #: Points per revolution: with 128 in place of 256 the width of the plot read 13 % less (7003C, 2000 r/min).

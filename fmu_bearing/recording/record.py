@@ -23,11 +23,11 @@ from fmu_bearing.prepare.sound_block import from_lines
 from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.channels.turning import WHIRL
 from fmu_bearing.recording.recording import Recording
+from fmu_bearing.results.rates import RatesWatch
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.figures import of_each
 from fmu_bearing.run.inputs import Signal
 from fmu_bearing.run.march import begin, march, to_points, underway
-from fmu_bearing.run.rates import RatesWatch
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.sound import Microphone, Sound

@@ -11,6 +11,8 @@
 ``spectra``         spectra of variables and of microphones, with names and units
 ``series``          variables over time, with names and units
 ``time_pictures``   pictures of them
+``balls``           place, load and angle of every ball, read from the state
+``rates``           how fast the balls orbit and spin, read from the state
 ``result``          `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
 ==================  ===========================================================================
 """

@@ -4,8 +4,6 @@
 ``input_file``    CSV files of inputs: columns, units, decimal commas
 ``inputs``        inputs over time, checked against their ranges
 ``settings``      `Setting`: one way to compute a scene
-``balls``         place, load and angle of every ball, read from the state
-``rates``         how fast the balls orbit and spin, read from the state
 ``march``         a bearing stepped from point to point, read at each; progress, Ctrl-C
 ``figures``       figures of a run: the table of their names, units and how they are read
 ``metrics``       figures that compare runs

@@ -16,7 +16,7 @@ from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.lengths import parts_of
 from fmu_bearing.prepare.model import prepare
 from fmu_bearing.progress import Tell, silent
-from fmu_bearing.run.balls import Reader
+from fmu_bearing.results.balls import Reader
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.member import still_of
 

@@ -19,9 +19,9 @@ from fmu_bearing.modal.equations.remarks import remarks
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.spindle import supports
 from fmu_bearing.progress import Tell, silent
+from fmu_bearing.results.balls import Readable
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.table import tenths
-from fmu_bearing.run.balls import Readable
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
 from fmu_bearing.scene.member import set_of

@@ -24,7 +24,7 @@ from fmu_bearing.acoustics.analysis.origins import (
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.results.base import Quantity, Result
-from fmu_bearing.run.rates import by_cage
+from fmu_bearing.results.rates import by_cage
 from fmu_bearing.scene import Scene
 from fmu_bearing.vibration_test.reading import Reading, share
 from fmu_bearing.vibration_test.rig import BANDS, BENDING, bands

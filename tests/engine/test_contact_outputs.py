@@ -9,7 +9,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import F, P, S
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
-from fmu_bearing.run.balls import Reader
+from fmu_bearing.results.balls import Reader
 from tests.engine.helpers import quiet
 from tests.oracles import B7003C
 from tests.oracles.hertz import race_contact

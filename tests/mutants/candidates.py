@@ -58,7 +58,9 @@ ROOMS = {
         "tests/modal/test_stiffness.py", "tests/design/test_set_stiffness.py", "tests/modal/test_static.py",
         "tests/cli/test_set_stiffness.py", "tests/cli/test_stiffness.py",
     ),
-    "run/rates": ("tests/run/test_rates.py", "tests/run/test_figures.py", "tests/recording/test_places.py"),
+    "results/rates": (
+        "tests/results/test_rates.py", "tests/run/test_figures.py", "tests/recording/test_places.py",
+    ),
     "formulas": ("tests/formulas/", "tests/design/"),
     "prepare": ("tests/prepare/", "tests/engine/test_fits.py"),
     "steady": ("tests/design/test_set", "tests/modal/", "tests/spindle/"),

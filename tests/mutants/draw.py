@@ -23,7 +23,7 @@ ROOMS = {
                  "design/heat.py"),
     "metrology": ("metrology",),
     "vibration_test": ("vibration_test",),
-    "realtime": ("run/realtime.py", "run/step_times.py", "run/paces.py", "run/rates.py"),
+    "realtime": ("run/realtime.py", "run/step_times.py", "run/paces.py", "results/rates.py"),
     "statics_of_sets": ("steady", "engine/spindle/rest.py", "engine/spindle/steady.py",
                         "engine/statics/mounted.py", "engine/statics/rigid_preload.py", "engine/steady"),
     "engine": ("engine/mechanics", "engine/newton", "engine/fidelities/full", "engine/fidelities/rings",

@@ -17,7 +17,7 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import thinned
 from fmu_bearing.reports.sections.ball_contacts import by_place
 from fmu_bearing.reports.sections.ring_motion import velocity_spectrum
-from fmu_bearing.run.balls import RACES, name_of
+from fmu_bearing.results.balls import RACES, name_of
 from tests.reports.reading import numbers
 
 

@@ -28,7 +28,7 @@ from fmu_bearing.reports.modes import modes_section
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent
 from fmu_bearing.reports.sections.arrangement import axial, warmth
-from fmu_bearing.run.balls import RACES, name_of
+from fmu_bearing.results.balls import RACES, name_of
 from fmu_bearing.run.simulate import simulate
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.words import materials_words

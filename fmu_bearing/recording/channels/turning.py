@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
-from fmu_bearing.run.rates import by_cage, frequencies, rates_of
+from fmu_bearing.results.rates import by_cage, frequencies, rates_of
 from fmu_bearing.scene import Scene, si
 
 #: Variables that are kept of a cage that moves by itself.

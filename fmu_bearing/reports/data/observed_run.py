@@ -8,7 +8,7 @@ from fmu_bearing.interface.table import variables
 from fmu_bearing.metrology.axis_watch import AxisWatch
 from fmu_bearing.progress import Stopped
 from fmu_bearing.recording.record import Recording, record
-from fmu_bearing.run.balls import Watch
+from fmu_bearing.results.balls import Watch
 from fmu_bearing.scene import Scene
 from fmu_bearing.steady.rest import Part, parts
 

@@ -11,7 +11,7 @@ from fmu_bearing.reports.data.curves import curve, curve_words
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
-from fmu_bearing.run.balls import RACES, name_of
+from fmu_bearing.results.balls import RACES, name_of
 
 _BINS = 72  # of the circle
 _WHAT = {"load": ("contact load", "N", 1.0), "angle": ("contact angle", "deg", 180.0 / math.pi)}

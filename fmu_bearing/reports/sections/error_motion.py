@@ -12,7 +12,7 @@ from fmu_bearing.metrology.nose import resampled
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
-from fmu_bearing.run.rates import rates_of
+from fmu_bearing.results.rates import rates_of
 
 _SHOWN = ("fixed y", "fixed z", "rotating", "axial")
 _DRAWN = 20  # revolutions of a plot

@@ -16,7 +16,7 @@ from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Card
-from fmu_bearing.run.balls import RACES
+from fmu_bearing.results.balls import RACES
 
 Tile = dict[str, Any]
 Figure = tuple[str, str, str, str | Callable[[float], str], Callable[[], float]]

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.engine.layout import P, S, Y
-from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.lengths import parts_of
-from fmu_bearing.run.balls import Readable
+from fmu_bearing.results.balls import Readable
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.bearing import Bearing
 
@@ -29,11 +28,11 @@ class RatesWatch:
         self._places: list[NDArray[np.int_]] | None = None  # of rates in the state
         self._rates: list[NDArray[np.float64]] = []
 
-    def __call__(self, instance: Instance) -> None:
+    def __call__(self, bearing: Readable) -> None:
         """Read the present state."""
         if self._places is None:
-            self._places = _places(instance)
-        self._rates.append(np.array([_means(instance.s[places]) for places in self._places]))
+            self._places = _places(bearing)
+        self._rates.append(np.array([_means(bearing.s[places]) for places in self._places]))
 
     @property
     def rates(self) -> NDArray[np.float64]:
@@ -95,10 +94,10 @@ def _names(scene: Scene) -> list[tuple[str, str]]:
     return [(bearing.prefix + orbit, bearing.prefix + spin) for bearing in scene.bearings()]
 
 
-def _places(instance: Instance) -> list[NDArray[np.int_]]:
+def _places(bearing: Readable) -> list[NDArray[np.int_]]:
     """Return the places of the rates in the state, of each bearing an array of shape (4, balls)."""
-    everything = np.arange(len(instance.s))
+    everything = np.arange(len(bearing.s))
     return [
-        np.array([everything[at_s][S.Y + row : S.Y + row + int(instance.p[at_p][P.BALLS])] for row in _ROWS])
-        for at_p, at_s in parts_of(instance.p)
+        np.array([everything[at_s][S.Y + row : S.Y + row + int(bearing.p[at_p][P.BALLS])] for row in _ROWS])
+        for at_p, at_s in parts_of(bearing.p)
     ]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing.engine.layout import P, S, Y
-from fmu_bearing.run.rates import ball_rates, frequencies
+from fmu_bearing.results.rates import ball_rates, frequencies
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])

@@ -23,6 +23,8 @@ EXTRAS = {
     "ziglang": "cross",
     "SALib": "salib",
 }
+#: What the extra ``elastic`` is for, in its error message.
+BENDING = "bending of the rings (table `flexure`)"
 
 
 class MissingExtra(ImportError):

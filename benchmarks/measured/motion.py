@@ -7,8 +7,8 @@ import numpy as np
 from benchmarks.measured.sources import Value
 from fmu_bearing import new_scene, simulate, with_fidelity
 from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, power_spectral_density
-from fmu_bearing.reports.sections.ring_motion import BANDS
 from fmu_bearing.scene import read_scene_text
+from fmu_bearing.vibration_test import rig
 
 #: rad: contact angles of a deep groove bearing whose clearance and load are not known.
 ANGLES = (0.0, np.radians(10.0))
@@ -45,5 +45,5 @@ def bands(grade: str, seed: int = 1, duration: float = 1.0) -> dict[str, float]:
     frequency, density = power_spectral_density(settled, 1.0 / _STEP, 10.0)
     return {
         name: 1e6 * float(np.sqrt(density[(frequency >= low) & (frequency < high)].sum() * frequency[1]))
-        for name, (low, high) in zip(_NAMES, BANDS, strict=True)
+        for name, (low, high) in zip(_NAMES, rig.bands(scene).values(), strict=True)
     }

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.accuracy.alternatives import Alternative
-from fmu_bearing.formulas import iso281
+from fmu_bearing.design import verdict
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.table import Table
 from fmu_bearing.scene import Scene
@@ -283,9 +283,9 @@ def shown_level(change: float, digits: int = 3) -> str:
 
 
 def shown_hours(life: float) -> str:
-    """Return a life (h) with three digits, beyond `iso281.MOST_HOURS` without them."""
+    """Return a rating life (h) with three digits, see `design.verdict.shown_hours`."""
     figure = f"{float(f'{life:.3g}'):,.10g}"
-    return f"{iso281.BEYOND_HOURS if life > iso281.MOST_HOURS else figure} h"
+    return f"{verdict.shown_hours(life, figure)} h"
 
 
 def shown_ratio(ratio: float) -> str:

@@ -288,8 +288,7 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Show every value of a scene with its unit, range and origin, and which values are assumed."""
-    from fmu_bearing.elastic.section import BENDING
-    from fmu_bearing.extras import available
+    from fmu_bearing.extras import BENDING, available
     from fmu_bearing.results.table import show as show_table
 
     with refusals():

@@ -54,9 +54,9 @@ def unjudged(key: str, label: str, why: str, value: float | None = None, text: s
     return Verdict(key, label, value, text, "none", why, "not judged")
 
 
-def shown_hours(hours: float) -> str:
-    """Return a rating life (h) as it is shown, beyond `iso281.MOST_HOURS` without its figure."""
-    return iso281.BEYOND_HOURS if hours > iso281.MOST_HOURS else f"{hours:.0f}"
+def shown_hours(hours: float, figure: str = "") -> str:
+    """Return a rating life (h) as ``figure`` or in whole hours, beyond `iso281.MOST_HOURS` without either."""
+    return iso281.BEYOND_HOURS if hours > iso281.MOST_HOURS else figure or f"{hours:.0f}"
 
 
 def judged_life(

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix, kron
 from scipy.sparse.linalg import eigsh
 
-from fmu_bearing.elastic.section import BENDING, Grid
-from fmu_bearing.extras import need
+from fmu_bearing.elastic.section import Grid
+from fmu_bearing.extras import BENDING, need
 
 if TYPE_CHECKING:
     from skfem import Basis

@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from fmu_bearing.extras import need
+from fmu_bearing.extras import BENDING, need
 from fmu_bearing.scene import Scene, si
 
 if TYPE_CHECKING:
     from skfem import MeshQuad2
 
-#: What the extra ``elastic`` is for, in its error message.
-BENDING = "bending of the rings (table `flexure`)"
 INNER, OUTER = 0, 1  # bodies, as the engine counts them
 RACES = ("inner", "outer")
 

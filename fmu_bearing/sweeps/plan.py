@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fmu_bearing.cautions import is_loose, loose
-from fmu_bearing.elastic.section import BENDING
-from fmu_bearing.extras import need
+from fmu_bearing.extras import BENDING, need
 from fmu_bearing.prepare.sound_block import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.figures import Figure

@@ -69,7 +69,6 @@ def draw(study: Tradeoff, path: pathlib.Path) -> None:
     figure.draw_without_rendering()  # the layout is settled: labels are placed in pixels
     for ax, best, points in drawn:
         _label(ax, best, points)
-    path.parent.mkdir(parents=True, exist_ok=True)
     save(figure, path)
 
 
@@ -110,15 +109,16 @@ def _label(ax: "Axes", best: Sequence[Point], points: Sequence[Point]) -> None:
         return
     pixels = ax.transData.transform([point[1:] for point in points])
     unit = ax.figure.dpi / 72.0
-    taken = [(x - 5 * unit, y - 5 * unit, x + 5 * unit, y + 5 * unit) for x, y in pixels]
+    Bbox = need("matplotlib.transforms", "the chart").Bbox
+    taken = [Bbox.from_bounds(x - 5 * unit, y - 5 * unit, 10 * unit, 10 * unit) for x, y in pixels]
     for row, speed, error in best:
         words = _words(row)
         x, y = ax.transData.transform((speed, error))
         width, height = 4.3 * unit * len(words), 9.0 * unit
         for shift, right in itertools.product((0, 11, -11, 22, -22, 33, -33, 44, -44, 55), (True, False)):
             left = x + 9 * unit if right else x - 9 * unit - width
-            box = (left, y + shift * unit - height / 2, left + width, y + shift * unit + height / 2)
-            if not any(_overlap(box, other) for other in taken):
+            box = Bbox.from_bounds(left, y + shift * unit - height / 2, width, height)
+            if not box.count_overlaps(taken):
                 break
         taken.append(box)
         ax.annotate(
@@ -126,11 +126,6 @@ def _label(ax: "Axes", best: Sequence[Point], points: Sequence[Point]) -> None:
             fontsize=7.5, ha="left" if right else "right", va="center", color="0.2",
             arrowprops={"arrowstyle": "-", "color": "0.75", "linewidth": 0.6} if shift else None,
         )  # fmt: skip
-
-
-def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
-    """Whether two boxes (left, bottom, right, top) overlap."""
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
 def _words(row: Row) -> str:

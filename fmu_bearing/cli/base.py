@@ -10,7 +10,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -211,6 +211,14 @@ class Writing(list[Path]):
         """Begin to write; several blocks in turn may."""
         return self
 
+    def draw(self, figure: Callable[[], Any], path: Path | None) -> None:
+        """Save a picture where one is asked for."""
+        if path is not None:
+            from fmu_bearing.results.picture_parts import save
+
+            save(figure(), path)
+            self.append(path)
+
     def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> bool:
         """Keep the first error of the operating system for `end`."""
         if not isinstance(error, OSError):
@@ -259,8 +267,3 @@ def print_json(result: Any) -> None:
     from fmu_bearing.results.base import as_json
 
     typer.echo(as_json(result))
-
-
-def named(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[dict[str, str]]:
-    """Rows of a table with their columns' names."""
-    return [dict(zip(columns, row, strict=True)) for row in rows]

@@ -44,13 +44,11 @@ def compare(
     """
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.studies.compare import compare as compare_them
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show
     from fmu_bearing.scene import read_scene
 
     with refusals():
-        if plot is not None:
-            check_new(force, check_picture(plot))
+        check_new(force, plot)
         for source in (a, b):  # an unknown microphone is reported before the runs
             if microphone is not None and source.suffix == ".toml":
                 named_places(read_scene(source).microphones, microphone)
@@ -69,9 +67,7 @@ def compare(
         with Writing() as files:
             if output is not None:
                 files += comparison.save(output, microphone)
-            if plot is not None:
-                save(comparison.plot(microphone), plot)
-                files.append(plot)
+            files.draw(partial(comparison.plot, microphone), plot)
     if as_json:
         print_json(
             comparison.summary() | {"finding": None if finding is None else finding.summary(), "files": files}

@@ -53,7 +53,6 @@ def error_motion(
     from fmu_bearing.files import check_folder
     from fmu_bearing.metrology.at_speed import DIRECTIONS
     from fmu_bearing.metrology.error_motion import FILES, error_motion as computed
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
@@ -65,8 +64,6 @@ def error_motion(
         for speed in rpm or ():
             base.shaft_speed(speed, given, "--speeds")
         check_folder(output)
-        if plot is not None:
-            check_picture(plot)
         base.check_new_in(force, output, *FILES)
         base.check_new(force, plot)
         chosen, inputs = changed(given, settings)
@@ -78,9 +75,7 @@ def error_motion(
         drawn = available("matplotlib", "a picture", "no polar.png", base.tell)
         with base.Writing() as files:
             files += motion.save(output, direction, picture=drawn)
-            if plot is not None:
-                save(motion.polar(direction), plot)
-                files.append(plot)
+            files.draw(partial(motion.polar, direction), plot)
     if as_json:
         base.print_json(motion.summary() | {"files": files})
         return base.end(code, files)

@@ -33,14 +33,11 @@ def fits(
     from fmu_bearing.design.fit_pictures import picture
     from fmu_bearing.design.fit_table import fit_rows, head, shown_tables
     from fmu_bearing.design.fits import fits as study
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show, write_csv
 
     with refusals():
         if output is not None:
             check_file(output, ".csv", "the table")
-        if plot is not None:
-            check_picture(plot)
         check_new(force, output, plot)
         result = study(
             source_of(scene, at_speed(speed, settings, scene)), partial(steps, what="fits", unit="columns")
@@ -48,14 +45,11 @@ def fits(
         drawn = None if plot is None else curves(result, partial(steps, what="curves", unit="fits"))
         with Writing() as files:
             if output is not None:
-                output.parent.mkdir(parents=True, exist_ok=True)
                 numbers = [bearing.number for bearing in result.columns[0].bearings]
                 rows = [[str(number), *row] for number in numbers for row in fit_rows(result, number)]
-                write_csv(output, ("bearing", *head(result)), rows)
-                files.append(output)
-            if plot is not None and drawn is not None:
-                save(picture(result, drawn), plot)
-                files.append(plot)
+                files.append(write_csv(output, ("bearing", *head(result)), rows))
+            if drawn is not None:
+                files.draw(partial(picture, result, drawn), plot)
     if as_json:
         print_json(result.summary() | {"files": files})
         return end(0, files)

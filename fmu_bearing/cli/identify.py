@@ -89,12 +89,9 @@ def identify(
     """
     from fmu_bearing.identification import SEEDS, STARTS, identify as search
     from fmu_bearing.identification.files import output_paths
-    from fmu_bearing.results.picture_parts import check_picture
 
     with base.refusals():
         path, folder = output_paths(output)
-        if plot is not None:
-            check_picture(plot)
         base.check_new(force, path, plot)
         base.check_new_in(force, folder, *_FILES)
         source = source_of(scene, settings)

@@ -9,6 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
+from fmu_bearing.cli.base import refusals
+
 #: s: length of a recording, and what is left out before it: by then the start-up has died away.
 DURATION, SETTLE = 0.5, 0.1
 #: Draws of the surfaces.
@@ -22,6 +24,16 @@ def _with_catalogues(context: typer.Context, files: list[Path] | None) -> list[P
 
         context.with_resource(using(files))
     return files
+
+
+def _picture(path: Path | None) -> Path | None:
+    """Refuse a picture that cannot be written, before anything is computed."""
+    if path is not None:
+        from fmu_bearing.results.picture_parts import check_picture
+
+        with refusals():
+            check_picture(path)
+    return path
 
 
 def output(words: str, metavar: str = "FILE") -> Any:
@@ -89,7 +101,8 @@ Duration = Annotated[
 Settle = Annotated[float, settle("")]
 Seeds = Annotated[int, typer.Option("--seeds", help="Draws of the surfaces with which levels are compared.")]
 Plot = Annotated[
-    Path | None, typer.Option("--plot", metavar="FILE", help="Picture to write: .png, .svg or .pdf.")
+    Path | None,
+    typer.Option("--plot", metavar="FILE", callback=_picture, help="Picture to write: .png, .svg or .pdf."),
 ]
 Variables = Annotated[
     list[str] | None,

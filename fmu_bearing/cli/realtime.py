@@ -75,9 +75,7 @@ def realtime(
         ))  # fmt: skip
         with base.Writing() as files:
             if output is not None:
-                output.parent.mkdir(parents=True, exist_ok=True)
-                write_csv(output, *found.table())
-                files.append(output)
+                files.append(write_csv(output, *found.table()))
     if as_json:
         base.print_json(found.summary() | {"files": files})
         return base.end(code, files)

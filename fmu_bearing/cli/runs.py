@@ -51,15 +51,12 @@ def simulate(
 ) -> None:
     """Run a scene or an FMU. After a refused step or Ctrl-C the results so far are kept."""
     from fmu_bearing.results import result as results
-    from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.results.time_pictures import draw
     from fmu_bearing.run.simulate import EndedEarly, simulate as run_it
 
     with base.refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
         results.check_target(output)  # refused before the run
-        if plot is not None:
-            check_picture(plot)
         base.check_new(force, output, plot)
         if settle and not 0.0 < settle < stop_time:
             raise base.Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")

@@ -2,6 +2,7 @@
 
 import textwrap
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,18 +81,17 @@ def several(
 
 def _report(indices: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> base.Writing:
     """Write table and picture; print the table; return what was written."""
-    from fmu_bearing.results.picture_parts import save
     from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.index_picture import index_picture
 
     with base.Writing() as written:
         written += indices.write(output)
-        save(index_picture(indices), picture)
-        written.append(picture)
+        written.draw(partial(index_picture, indices), picture)
     columns, cells = indices.table()
     if as_json:
         files = dict(zip(("page", "csv", "picture"), written, strict=False))
-        base.print_json(indices.summary() | {"indices": base.named(columns, cells), "files": files})
+        rows = [dict(zip(columns, row, strict=True)) for row in cells]
+        base.print_json(indices.summary() | {"indices": rows, "files": files})
         return written
     size = len(indices.keys)
     for at in range(0, len(cells), size):  # a table per figure: it fits the terminal

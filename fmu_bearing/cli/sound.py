@@ -102,7 +102,6 @@ def sound(
     from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, spectra_picture, write_all
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.spread import doubt_of
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.results.table import show
     from fmu_bearing.scene import scene_of
     from fmu_bearing.scene.exclusions import require
@@ -112,8 +111,7 @@ def sound(
         check_folder(output)  # refused before the run
         base.check_new_in(force, output, *_FILES)
         check_format(wav_format)
-        if plot is not None:
-            base.check_new(force, check_picture(plot))
+        base.check_new(force, plot)
         chosen = source_of(source, settings, fidelity)
         turning = (
             base.shaft_speed(speed, chosen)
@@ -142,7 +140,6 @@ def sound(
                 warn=False, keep=True,
             ))  # fmt: skip
             with files:
-                output.mkdir(parents=True, exist_ok=True)
                 rescued(recording.save, output / _RECORDING)
                 files.append(output / _RECORDING)
                 for old in (found for name in _FILES[1:] for found in output.glob(name)):  # of another run
@@ -161,9 +158,7 @@ def sound(
                 files += write_all(
                     recording, analysis, output, radiation_model, wav, directivity, base.tell, wav_format
                 )
-                if plot is not None:
-                    save(spectra_picture(recording, analysis), plot)
-                    files.append(plot)
+                files.draw(partial(spectra_picture, recording, analysis), plot)
             if spread:
                 sure = _spread(recording, places, radiation_model, rough, as_json)
         except KeyboardInterrupt:

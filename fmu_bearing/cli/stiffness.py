@@ -60,7 +60,6 @@ def stiffness(
     With --format ross the file NAME.toml becomes NAME-1.toml to NAME-3.toml: bearing elements of ROSS 3 in
     three planes, which are the bearing together. A table has what they lack of it.
     """
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
     from fmu_bearing.steady.stiffness.scene_stiffness import stiffness as table_of
 
@@ -75,8 +74,6 @@ def stiffness(
         for speed in asked["speeds"] or ():
             base.shaft_speed(speed, given, "--speeds")
         target = _target(form, output, asked)
-        if plot is not None:
-            check_picture(plot)
         base.check_new(force, target, plot)
         base.check_new_in(force, target.parent, f"{glob.escape(target.stem)}-[0-9]*{target.suffix}")
         chosen, inputs = changed(given, settings)
@@ -90,9 +87,7 @@ def stiffness(
         ))  # fmt: skip
         with base.Writing() as files:
             files += table.save(target) if form != "ross" else _elements(table, target, mirrored)
-            if plot is not None:
-                save(table.picture(), plot)
-                files.append(plot)
+            files.draw(table.picture, plot)
     if as_json:
         base.print_json(_document(table, form) | {"files": files})
         return base.end(code, files)

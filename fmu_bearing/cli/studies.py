@@ -98,7 +98,7 @@ def tradeoff(
             draw(study, chart)
             files.append(chart)
     if as_json:
-        base.print_json({"settings": base.named(*study.table()), "files": files})
+        base.print_json(study.summary() | {"files": files})
     else:
         show(f"{study.scene}: accuracy and cost", *study.table())
     base.end(code, files, named=not as_json)
@@ -202,7 +202,7 @@ def _each_alone(
     with base.Writing() as files:
         files += study.write(output)
     if as_json:
-        base.print_json({"moves": base.named(*study.table()), "files": files})
+        base.print_json(study.summary() | {"files": files})
     else:
         show(f"{study.scene}: what rests on assumed values", *study.table())
     base.end(code, files, named=not as_json)

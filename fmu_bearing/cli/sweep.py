@@ -62,7 +62,6 @@ def sweep(
     there, or the file of --plot.
     """
     from fmu_bearing.extras import need
-    from fmu_bearing.results.picture_parts import check_picture
     from fmu_bearing.sweeps.cluster import checked
 
     with base.refusals():
@@ -71,8 +70,7 @@ def sweep(
         if scheduler is not None:  # refused before a file is written
             checked(scheduler)
         check_folder(output)
-        if plot is not None:
-            base.check_new(force, check_picture(plot))
+        base.check_new(force, plot)
         made, text = _plan(source, axis, variables, settle, window, settings, fidelity)
         if not dry_run:
             _keep_plan(made, text, output, force)

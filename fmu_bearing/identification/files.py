@@ -118,17 +118,13 @@ def write_all(
         read_scene(source)
         text = anchored(pathlib.Path(source).read_text("utf-8-sig"), pathlib.Path(source).parent)
     write_whole(path, identified_toml(result, text).encode("utf-8"))
-    folder.mkdir(parents=True, exist_ok=True)
-    files = [path]
-    for name, columns_and_rows in (
-        ("levels.csv", table(Compared, result.compared)),
-        ("values.csv", table(Estimate, result.estimates)),
-        ("jacobian.csv", jacobian_table(result)),
-    ):
-        write_csv(folder / name, *columns_and_rows)
-        files.append(folder / name)
-    write_whole(folder / "report.md", report(result).encode("utf-8"))
-    files.append(folder / "report.md")
+    files = [
+        path,
+        write_csv(folder / "levels.csv", *table(Compared, result.compared)),
+        write_csv(folder / "values.csv", *table(Estimate, result.estimates)),
+        write_csv(folder / "jacobian.csv", *jacobian_table(result)),
+        write_whole(folder / "report.md", report(result).encode("utf-8")),
+    ]
     if available("matplotlib", "a picture", "levels.png", tell):
         from fmu_bearing.identification.picture import identified_picture, save
 

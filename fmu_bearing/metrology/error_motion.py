@@ -135,11 +135,8 @@ class ErrorMotion(Result):
             As `polar`.
         """
         target = check_folder(folder)
-        target.mkdir(parents=True, exist_ok=True)
         tables = (self.table(), self.lines(_LISTED), self.per_bearing(), self.per_source())
-        files = [target / name for name in FILES[: len(tables)]]
-        for file, rows in zip(files, tables, strict=True):
-            write_csv(file, *rows)
+        files = [write_csv(target / name, *rows) for name, rows in zip(FILES, tables, strict=False)]
         if picture:
             files.append(target / FILES[-1])
             save(self.polar(direction), files[-1])

@@ -163,11 +163,8 @@ class Study(Result):
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write `markdown` and `table` (CSV) into a folder, which is made; return the files."""
-        files = [Path(folder) / f"{self.stem}{ending}" for ending in (".md", ".csv")]
-        files[0].parent.mkdir(parents=True, exist_ok=True)
-        write_whole(files[0], self.markdown().encode("utf-8"))
-        write_csv(files[1], *self.table())
-        return files
+        page = write_whole(Path(folder) / f"{self.stem}.md", self.markdown().encode("utf-8"))
+        return [page, write_csv(page.with_suffix(".csv"), *self.table())]
 
 
 def table(kind: type[Result], rows: Sequence[Result], heads: Sequence[str] | None = None) -> Table:
@@ -200,8 +197,7 @@ def write_rows(path: Path, rows: Sequence[Result | dict[str, Any]]) -> Path:
         [f"{v:.9g}" if isinstance(v, float) else "" if v is None else str(v) for v in row.values()]
         for row in values
     ]
-    write_csv(path, list(values[0]) if values else [], cells)
-    return path
+    return write_csv(path, list(values[0]) if values else [], cells)
 
 
 def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:

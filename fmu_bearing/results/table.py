@@ -141,10 +141,10 @@ def row_by_row(
                 )
 
 
-def write_csv(path: pathlib.Path, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Comma-separated values with a head line: all of the file or, where it has no room, none."""
+def write_csv(path: pathlib.Path, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> pathlib.Path:
+    """Write comma-separated values with a head line, all of the file or none, and return the file."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows(rows)
-    write_whole(path, text.getvalue().encode())
+    return write_whole(path, text.getvalue().encode())

@@ -87,13 +87,10 @@ def save(data: "xarray.Dataset", folder: str | os.PathLike[str]) -> dict[str, pa
         Without h5netcdf.
     """
     need("h5netcdf", "netCDF")
-    folder = pathlib.Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    netcdf, table = folder / "sweep.nc", folder / "sweep.csv"
-    write_netcdf(netcdf, data)
+    netcdf = write_netcdf(pathlib.Path(folder) / "sweep.nc", data)
     columns, rows = table_of(data)
-    write_csv(table, columns, [[_text(value) for value in row] for row in rows])
-    return {"netcdf": netcdf, "csv": table}
+    cells = [[_text(value) for value in row] for row in rows]
+    return {"netcdf": netcdf, "csv": write_csv(netcdf.with_suffix(".csv"), columns, cells)}
 
 
 def table_of(data: "xarray.Dataset") -> tuple[list[str], list[list[Any]]]:

@@ -55,12 +55,9 @@ def write(
     folder: Path, figure: "Figure", lines: Sequence[VibrationLine], spectra: Mapping[str, NDArray[np.float64]]
 ) -> list[Path]:
     """Write a picture, lines, and spectra by the heads of their columns; return the files."""
-    folder.mkdir(parents=True, exist_ok=True)
-    files = [folder / name for name in FILES]
-    save_picture(figure, files[0])
-    write_rows(files[1], lines)
+    drawn, listed, table = (folder / name for name in FILES)
+    save_picture(figure, drawn)
     cells = [
         [f"{row[0]:g}", *(f"{value:.4g}" for value in row[1:])] for row in zip(*spectra.values(), strict=True)
     ]
-    write_csv(files[2], list(spectra), cells)
-    return files
+    return [drawn, write_rows(listed, lines), write_csv(table, list(spectra), cells)]

@@ -69,7 +69,7 @@ def test_choose_prints_table_and_reason(run, auto_file):
 def test_quick_studies_write_their_tables(run, silent_file, tmp_path):
     result = run("sensitivity", silent_file, "--quick", "-o", tmp_path, "--json")
     assert result.exit_code == 0, result.output
-    assert {row["parameter"] for row in result.data["moves"]} >= {"lubricant.traction_max"}
+    assert {row["key"] for row in result.data["moves"]} >= {"lubricant.traction_max"}
     assert (tmp_path / "sensitivity.md").exists() and (tmp_path / "sensitivity.csv").exists()
     result = run("tradeoff", silent_file, "--quick", "-o", tmp_path)
     assert result.exit_code == 0, result.output

@@ -211,13 +211,10 @@ class Comparison(Result):
 
     def save(self, folder: str | os.PathLike[str], microphone: str | None = None) -> list[pathlib.Path]:
         """Write `tables` as CSV into a folder, which is made; return the files."""
-        target = pathlib.Path(folder)
-        target.mkdir(parents=True, exist_ok=True)
         files = []
         for title, made in self.tables(microphone).items():
-            file = target / f"{title.split(' at ')[0].replace(',', '').replace(' ', '-')}.csv"
-            write_csv(file, *made)
-            files.append(file)
+            stem = title.split(" at ")[0].replace(",", "").replace(" ", "-")
+            files.append(write_csv(pathlib.Path(folder) / f"{stem}.csv", *made))
         return files
 
     def __repr__(self) -> str:

@@ -75,13 +75,11 @@ class NoseStiffness(Result):
             Where it cannot be written.
         """
         target = check_file(path, ".csv", "the stiffness of a shaft at its nose")
-        target.parent.mkdir(parents=True, exist_ok=True)
         entries = [(force, motion) for force in FREEDOMS for motion in FREEDOMS]
         columns = ["speed_rpm", "preload_N"]
         columns += [f"K_{force}_{motion} [{unit(force, motion)}]" for force, motion in entries]
         columns += ["K_nose [N/m]", "K_nose_bending [N/m]"]
-        write_csv(target, columns, list(self._rows()))
-        return target
+        return write_csv(target, columns, list(self._rows()))
 
     def _rows(self) -> Iterator[list[str]]:
         for speed, row in zip(self.speeds, self.points, strict=True):

@@ -27,10 +27,8 @@ STATIC, DYNAMIC = "static", "dynamic"
 def save(table: StiffnessTable, path: str | os.PathLike[str]) -> Path:
     """Write a table to ``.csv`` or ``.nc``; see `BearingStiffness.save`."""
     target = check_target(path, "a table of stiffness")
-    target.parent.mkdir(parents=True, exist_ok=True)
     if target.suffix == ".csv":
-        write_csv(target, columns(), list(_rows(table)))
-        return target
+        return write_csv(target, columns(), list(_rows(table)))
     return write_netcdf(target, dataset(table))
 
 

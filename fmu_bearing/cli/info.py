@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.statics import Statics
 
 _FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
+#: Columns that a terminal has room for.
+_OF_LOADS = (
+    "bearing", "at, mm", "axial, N", "y, N", "z, N", "ball, N", "angle, deg", "inner, GPa", "outer, GPa",
+)  # fmt: skip
 _PLACES = 3  # of them are displacements
 _WIDTH = 80
 _WORDS = {
@@ -156,7 +160,9 @@ def _show_set(statics: "Statics") -> None:
         f"{scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
-    show("bearings: load; largest ball load, angle, pressure", *table(BearingLoad, statics.bearings))
+    show(
+        "bearings: load; largest ball load, angle, pressure", *table(BearingLoad, statics.bearings, _OF_LOADS)
+    )
     show("shaft", ("", "value"), _shaft(statics))
 
 

@@ -22,6 +22,9 @@ Speeds = Annotated[
         metavar="LOW:HIGH:COUNT", help="Campbell diagram over these speeds, r/min; also VALUE,VALUE,..."
     ),
 ]
+#: Columns that a terminal has room for.
+_OF_MODES = ("Hz", "damping, %", "whirl", "what moves most", "kinetic energy, %")
+_OF_CROSSINGS = ("r/min", "Hz", "mode", "damping, %", "line", "made by, order")
 _FILES = ("modes.csv", "campbell.csv", "crossings.csv", "campbell.png", "shaft.png", "modes.html")
 
 
@@ -46,7 +49,6 @@ def modes(
     """
     from fmu_bearing.modal.campbell.over_speed import campbell as over_speed
     from fmu_bearing.modal.modes.points import modes as at_speed
-    from fmu_bearing.results.picture_parts import check_picture, save
     from fmu_bearing.scene import read_scene
     from fmu_bearing.sweeps.axes import parse_values
 
@@ -54,8 +56,7 @@ def modes(
         if output is not None:
             check_folder(output)
             base.check_new_in(force, output, *_FILES)
-        if plot is not None:
-            base.check_new(force, check_picture(plot))
+        base.check_new(force, plot)
         chosen, inputs = changed(read_scene(scene), settings)
         turning = base.shaft_speed(speed, chosen)
         if plot is not None and speeds is None and not chosen.operation.speed_rpm:
@@ -76,9 +77,8 @@ def modes(
         with base.Writing() as files:
             if output is not None:
                 _write(output, study, diagram, files)
-            if plot is not None and diagram is not None:
-                save(diagram.picture(), plot)
-                files.append(plot)
+            if diagram is not None:
+                files.draw(diagram.picture, plot)
     if as_json:
         base.print_json(_summary(study, diagram, 1e3 * highest) | {"files": files})
         return base.end(0, files)
@@ -102,7 +102,7 @@ def _show(study: "Modes", highest: float, words: str) -> None:
         f"{study.scene.name}: {designation_words(study.scene)}, {study.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
-    show("modes", *table(Mode, study.records(highest)))
+    show("modes", *table(Mode, study.records(highest), _OF_MODES))
 
 
 def _show_crossings(diagram: "Campbell") -> None:
@@ -112,7 +112,7 @@ def _show_crossings(diagram: "Campbell") -> None:
 
     counted = diagram.crossings(in_scene=True)
     if counted:
-        show("crossings within 20 dB of the largest", *table(Crossing, counted))
+        show("crossings within 20 dB of the largest", *table(Crossing, counted, _OF_CROSSINGS))
     typer.echo(f"{len(diagram.crossings())} crossings, {len(counted)} of them count. {diagram.verdict()}")
 
 
@@ -126,12 +126,10 @@ def _summary(study: "Modes", diagram: "Campbell | None", highest: float) -> dict
     return result
 
 
-def _write(folder: Path, study: "Modes", diagram: "Campbell | None", files: list[Path]) -> None:
+def _write(folder: Path, study: "Modes", diagram: "Campbell | None", files: base.Writing) -> None:
     """Write tables, and for a diagram its picture and page; add each to the files."""
     from fmu_bearing.results.base import write_rows
-    from fmu_bearing.results.picture_parts import save
 
-    folder.mkdir(parents=True, exist_ok=True)
     files.append(write_rows(folder / "modes.csv", study.records()))
     if diagram is None:
         base.tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
@@ -139,12 +137,10 @@ def _write(folder: Path, study: "Modes", diagram: "Campbell | None", files: list
     files.append(write_rows(folder / "campbell.csv", diagram.table()))
     files.append(write_rows(folder / "crossings.csv", diagram.crossings()))
     if available("matplotlib", "a picture", "no campbell.png", base.tell):
-        save(diagram.picture(), folder / "campbell.png")
-        files.append(folder / "campbell.png")
+        files.draw(diagram.picture, folder / "campbell.png")
     if study.on_shaft:
         if available("matplotlib", "a picture", "no shaft.png", base.tell):
-            save(study.picture(), folder / "shaft.png")
-            files.append(folder / "shaft.png")
+            files.draw(study.picture, folder / "shaft.png")
         return  # the page draws one bearing
     if available("plotly", "a page", "no modes.html", base.tell):
         from fmu_bearing.reports.modes.modes_section import modes_page

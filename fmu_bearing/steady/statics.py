@@ -54,7 +54,7 @@ class BearingLoad(Result):
         Quantity("moment_y_N_m [N m]", of=lambda one: one.moment[0]),
         Quantity("moment_z_N_m [N m]", of=lambda one: one.moment[1]),
         Quantity("ball_load_max_N = ball_loads.max", "ball, N", ".1f"),
-        "balls_unloaded [1] = unloaded",
+        Quantity("balls_unloaded [1] = unloaded", "unloaded balls"),
         Quantity(
             "angle_inner_max_deg", "angle, deg", ".2f",
             of=lambda one: math.degrees(one.contact_angles[0].max()),

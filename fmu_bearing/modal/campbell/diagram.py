@@ -59,8 +59,10 @@ class Crossing(Result):
         Quantity("damping_ratio [1] = damping", "damping, %", ".2f", 100.0), "mode = branch.name",
         "direction = branch.direction", Quantity("line = line.name", "line"), "source = line.source",
         "surface_order [1] = line.surface_order", "in_scene = line.present",
-        Quantity("velocity_um_s", factor=1e6),
         Quantity("", "made by, order", of=lambda c: f"{c.line.source} {c.line.surface_order or ''}".rstrip()),
+        Quantity(" = quality", "Q", ".0f"),
+        Quantity("velocity_um_s", "velocity, um/s", lambda v: f"{v:,.0f}" if v > 0.0 else "not in the scene",
+                 factor=1e6),
     )  # fmt: skip
 
     rpm: float

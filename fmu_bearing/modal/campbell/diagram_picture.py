@@ -16,20 +16,17 @@ from fmu_bearing.modal.campbell.diagram_style import (
     UNSTABLE,
     WIDTH_WORDS,
     WIDTHS,
+    Content,
     End,
     colour,
-    counted,
+    content,
     dot_area,
-    drawn_lines,
     end_of,
     last_of,
     level_band,
-    margin_words,
     names_beside,
     runs,
     spaced,
-    strength,
-    top,
     unstable,
 )
 from fmu_bearing.results.picture_parts import empty, label
@@ -75,11 +72,9 @@ def campbell_picture(campbell: Diagram) -> "Figure":
     figure = empty(_SIZE)
     # names are set by their sizes, so the axes must not move afterwards
     figure.set_layout_engine("none")
-    crossings = counted(campbell)
-    highest, order = top(campbell, crossings), np.argsort(np.abs(campbell.rpm))
-    speeds = np.abs(campbell.rpm)[order]
-    lines = drawn_lines(crossings)
-    curves = {name: line.frequency[order] for name, (line, _) in lines.items()}
+    shown = content(campbell)
+    highest, speeds = shown.highest, shown.speeds
+    curves = {line.name: curve for line, curve, _ in shown.lines}
     upper = _TOP_NAMED if any(curve[-1] > highest for curve in curves.values()) else _TOP
     ax = figure.add_axes((_LEFT, _BOTTOM, _ACROSS, upper - _BOTTOM))
     ax.set_xlim(float(speeds[0]), float(speeds[-1]))
@@ -93,15 +88,14 @@ def campbell_picture(campbell: Diagram) -> "Figure":
     drawn = {k: one for k, one in enumerate(campbell.branches) if float(one.frequency.min()) < highest}
     for k, branch in drawn.items():
         _draw_branch(ax, branch, f"branch-{k}")
-    largest = max((velocity for _, velocity in lines.values()), default=0.0)
-    for name, (_, velocity) in lines.items():
-        tint = _between(_FAINT, _DARK, strength(velocity, largest))
-        ax.plot(speeds, curves[name], color=tint, linewidth=0.7, zorder=1.5, gid=f"line-{name}")
-    _draw_crossings(ax, crossings)
+    for line, curve, dark in shown.lines:
+        tint = _between(_FAINT, _DARK, dark)
+        ax.plot(speeds, curve, color=tint, linewidth=0.7, zorder=1.5, gid=f"line-{line.name}")
+    _draw_crossings(ax, shown.crossings)
     _name_above(ax, speeds, curves)
     named = _name_beside(ax, list(drawn.values()), curves)
     _name_inside(ax, [branch for branch in drawn.values() if not _is_named(branch, named, highest)])
-    _draw_operation(ax, campbell)
+    _draw_operation(ax, shown)
     _explain(figure, campbell, len(campbell.branches) - len(drawn))
     figure.text(_LEFT, 0.988, _title(campbell), fontsize=11, ha="left", va="top")
     return figure
@@ -128,9 +122,7 @@ def _draw_branch(ax: "Axes", branch: Branch, gid: str) -> None:
             )  # fmt: skip
 
 
-def _draw_crossings(ax: "Axes", crossings: list[Crossing]) -> None:
-    # small ones stay visible on large ones
-    ordered = sorted(crossings, key=lambda one: -one.quality)
+def _draw_crossings(ax: "Axes", ordered: list[Crossing]) -> None:
     inside = [one.velocity > 0.0 for one in ordered]
     tints = [colour(one.branch.name) for one in ordered]
     ax.scatter(
@@ -142,25 +134,23 @@ def _draw_crossings(ax: "Axes", crossings: list[Crossing]) -> None:
     )  # fmt: skip
 
 
-def _draw_operation(ax: "Axes", campbell: Diagram) -> None:
+def _draw_operation(ax: "Axes", shown: Content) -> None:
     """Draw the operating speed as a bar, the nearest crossing in a ring, and how far it is."""
-    own, near = abs(campbell.scene.operation.speed_rpm), campbell.nearest()
-    low, high = ax.get_xlim()
-    if not low <= own <= high:
+    own, near = shown.operation, shown.near
+    if own is None:
         return
+    low, high = ax.get_xlim()
     half = 0.003 * (high - low)
     ax.axvspan(own - half, own + half, color="black", alpha=0.22, linewidth=0.0, zorder=2, gid="operation")
-    words = f"operation, {own:,.0f} r/min"
     if near is not None:
-        words += f"\n{margin_words(campbell)}"
         ax.scatter(
             [abs(near.rpm)], [near.frequency], s=dot_area(near.quality) + 90.0, facecolors="none",
             edgecolors="black", linewidths=1.3, zorder=5, gid="nearest",
         )  # fmt: skip
         ax.plot([own, abs(near.rpm)], [near.frequency] * 2, color="black", linewidth=1.3, zorder=5)
     text = ax.annotate(
-        words, (own, 0.0), xytext=(0.0, 0.0), textcoords="offset points", va="center", fontsize=_FONT,
-        fontweight="bold", zorder=6, gid="margin", linespacing=1.25,
+        "\n".join(filter(None, shown.words)), (own, 0.0), xytext=(0.0, 0.0), textcoords="offset points",
+        va="center", fontsize=_FONT, fontweight="bold", zorder=6, gid="margin", linespacing=1.25,
         bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.0},
     )  # fmt: skip
     heights = np.linspace(1.3 * _STEP, _height(ax) - 1.3 * _STEP, 24)

@@ -38,6 +38,18 @@ _SHARPEST = 120.0  # Q beyond which a dot grows no further
 _PLAIN = 2  # multiples of a passing frequency that are shown where no surface says which count
 
 
+class Content(NamedTuple):
+    """What a diagram shows beside its branches."""
+
+    speeds: NDArray[np.float64]  # r/min, rising
+    highest: float  # Hz: upper end
+    lines: list[tuple[Line, NDArray[np.float64], float]]  # each with Hz at the speeds, and how dark: 0 to 1
+    crossings: list[Crossing]  # the largest Q first, so that small dots stay visible on large ones
+    near: Crossing | None  # to the operating speed
+    operation: float | None  # r/min, where the speeds hold it
+    words: tuple[str, str]  # of the operating speed, and how far the nearest crossing is from it
+
+
 class Run(NamedTuple):
     """A piece of a branch between two limits of damping."""
 
@@ -53,6 +65,21 @@ class End(NamedTuple):
     name: str
     way: str
     tint: str
+
+
+def content(campbell: Diagram) -> Content:
+    """Return what a diagram shows; the strongest lines come first."""
+    crossings, order = counted(campbell), np.argsort(np.abs(campbell.rpm))
+    speeds, own = np.abs(campbell.rpm)[order], abs(campbell.scene.operation.speed_rpm)
+    lines = drawn_lines(crossings).values()
+    largest = max((velocity for _, velocity in lines), default=0.0)
+    return Content(
+        speeds, top(campbell, crossings),
+        [(line, line.frequency[order], strength(velocity, largest)) for line, velocity in lines],
+        sorted(crossings, key=lambda one: -one.quality), campbell.nearest(),
+        own if speeds[0] <= own <= speeds[-1] else None,
+        (f"operation, {own:,.0f} r/min", margin_words(campbell)),
+    )  # fmt: skip
 
 
 def colour(name: str) -> str:

@@ -28,10 +28,12 @@ class Mode(Result):
 
     quantities = (
         Quantity("frequency_Hz", "Hz", ",.1f"),
-        Quantity("damping_ratio [1] = damping", "damping, %", ".2f", 100.0), "order [1]",
-        Quantity("direction", "whirl", lambda words: words or "-"), "name",
+        Quantity("damping_ratio [1] = damping", "damping, %", ".2f", 100.0),
+        Quantity("order [1]", "waves round"), Quantity("direction", "whirl", lambda words: words or "-"),
+        "name",
         Quantity(" = _remarked", "what moves most"),
-        Quantity("participation [1]", "kinetic energy, %", largest), "spread [1]", "remark",
+        Quantity("participation [1]", "kinetic energy, %", largest),
+        Quantity("spread [1]", "moves as balls pass, %", ".1f", 100.0), "remark",
     )  # fmt: skip
 
     name: str

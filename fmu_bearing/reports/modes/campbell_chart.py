@@ -9,24 +9,23 @@ from fmu_bearing.modal.campbell.diagram_style import (
     DASHES,
     UNSTABLE,
     WIDTHS,
+    Content,
     colour,
+    content,
     counted,
     dot_area,
-    drawn_lines,
     end_of,
     level_band,
-    margin_words,
     names_beside,
     quality_words,
     runs,
-    strength,
-    top,
 )
 from fmu_bearing.modal.campbell.over_speed import Campbell
-from fmu_bearing.modal.modes.mode import MARGIN, SPREAD, Mode
+from fmu_bearing.modal.modes.mode import MARGIN, Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Chart, Table, small
+from fmu_bearing.results.base import table
 
 KEY = "campbell"
 _HEIGHT, _TOP, _BOTTOM, _RIGHT = 580, 40, 56, 178  # px: figure, and the margins of its axes
@@ -38,16 +37,21 @@ _LONG = 30  # rows of an open table
 
 def campbell_chart(chart: Campbell) -> Chart:
     """Return the diagram; the pointer shows what is under it, and points have their branch and speed."""
-    crossings = counted(chart)
-    highest, speeds = top(chart, crossings), np.abs(chart.rpm)
+    shown = content(chart)
     drawn = look.figure(
         height=_HEIGHT, margin={"l": 66, "r": _RIGHT, "t": _TOP, "b": _BOTTOM}, showlegend=False,
     )  # fmt: skip
-    _draw_lines(drawn, chart, crossings)
+    for line, curve, dark in shown.lines:
+        drawn.add_scatter(
+            x=small(shown.speeds), y=small(curve), mode="lines", meta={"part": "line"},
+            name=f"{line.name} ({line.source})", opacity=0.3 + 0.6 * dark,
+            line={"color": look.colour("grey"), "width": 1},
+            hovertemplate="%{x:,.0f} r/min, %{y:,.0f} Hz<extra>%{fullData.name}</extra>",
+        )  # fmt: skip
     for k, branch in enumerate(chart.branches):
         _draw_branch(drawn, branch, k)
-    _draw_crossings(drawn, chart, crossings)
-    texts = _draw_operation(drawn, chart) + _names(chart, highest)
+    _draw_crossings(drawn, chart, shown)
+    texts = _draw_operation(drawn, chart, shown) + _names(chart, shown.highest)
     shapes = []
     band = level_band(chart)
     if band is not None:
@@ -56,14 +60,14 @@ def campbell_chart(chart: Campbell) -> Chart:
             "fillcolor": look.faint("inner", 0.06), "line": {"width": 0},
         })  # fmt: skip
     drawn.update_layout(
-        xaxis=look.axis("speed, r/min", range=[float(speeds.min()), float(speeds.max())], tickformat=",.0f"),
-        yaxis=look.axis("frequency, Hz", range=[0.0, highest], tickformat=",.0f"),
+        xaxis=look.axis("speed, r/min", range=shown.speeds[[0, -1]].tolist(), tickformat=",.0f"),
+        yaxis=look.axis("frequency, Hz", range=[0.0, shown.highest], tickformat=",.0f"),
         annotations=texts, shapes=shapes, meta={"narrow": {"annotations": []}},
     )  # fmt: skip
     return Chart(
         KEY, "Natural frequencies over speed, and what excites them", drawn,
-        f"Frequencies of {len(chart.branches)} modes over the speed, {len(drawn_lines(crossings))} lines of "
-        f"excitation, {len(crossings)} crossings. {chart.verdict()}",
+        f"Frequencies of {len(chart.branches)} modes over the speed, {len(shown.lines)} lines of "
+        f"excitation, {len(shown.crossings)} crossings. {chart.verdict()}",
         note=_note(chart),
     )  # fmt: skip
 
@@ -82,19 +86,6 @@ def _note(diagram: Campbell) -> str:
     if band is not None:
         text += f". Shaded: {band[0]:g} Hz to {1e-3 * band[1]:g} kHz, the band of the sound levels"
     return text + ". Drag to zoom, double-click to see all."
-
-
-def _draw_lines(drawn: Any, diagram: Campbell, crossings: list[Crossing]) -> None:
-    lines = drawn_lines(crossings)
-    largest = max((velocity for _, velocity in lines.values()), default=0.0)
-    speeds = np.abs(diagram.rpm)
-    for name, (line, velocity) in lines.items():
-        drawn.add_scatter(
-            x=small(speeds), y=small(line.frequency), mode="lines", meta={"part": "line"},
-            name=f"{name} ({line.source})", opacity=0.3 + 0.6 * strength(velocity, largest),
-            line={"color": look.colour("grey"), "width": 1},
-            hovertemplate="%{x:,.0f} r/min, %{y:,.0f} Hz<extra>%{fullData.name}</extra>",
-        )  # fmt: skip
 
 
 def _draw_branch(drawn: Any, branch: Branch, k: int) -> None:
@@ -142,10 +133,9 @@ def crossing_words(one: Crossing) -> str:
     return words if one.velocity > 0.0 else f"{words}<br>not in the scene"
 
 
-def _draw_crossings(drawn: Any, diagram: Campbell, crossings: list[Crossing]) -> None:
+def _draw_crossings(drawn: Any, diagram: Campbell, shown: Content) -> None:
     places = {id(branch): k for k, branch in enumerate(diagram.branches)}
-    ordered = sorted(crossings, key=lambda one: -one.quality)
-    near = diagram.nearest()
+    ordered, near = shown.crossings, shown.near
     if near is not None:
         drawn.add_scatter(
             x=[abs(near.rpm)], y=[near.frequency], mode="markers", meta={"part": "nearest"}, hoverinfo="skip",
@@ -170,18 +160,16 @@ def _draw_crossings(drawn: Any, diagram: Campbell, crossings: list[Crossing]) ->
     )  # fmt: skip
 
 
-def _draw_operation(drawn: Any, diagram: Campbell) -> list[dict[str, Any]]:
+def _draw_operation(drawn: Any, diagram: Campbell, shown: Content) -> list[dict[str, Any]]:
     """Draw the bar at the operating speed; return its text."""
-    own, speeds = abs(diagram.scene.operation.speed_rpm), np.abs(diagram.rpm)
-    if not speeds.min() <= own <= speeds.max():
+    if shown.operation is None:
         return []
     drawn.add_scatter(
-        x=[own, own], y=[0.0, 1.5 * diagram.highest], mode="lines", meta={"part": "operation"},
+        x=[shown.operation] * 2, y=[0.0, 1.5 * diagram.highest], mode="lines", meta={"part": "operation"},
         name="operation", line={"color": "#000000", "width": 4}, opacity=0.3, hoverinfo="skip",
     )  # fmt: skip
-    words = f"<b>operation, {own:,.0f} r/min</b>"
-    if diagram.nearest() is not None:
-        words += f": {margin_words(diagram)}"
+    own, margin = shown.words
+    words = f"<b>{own}</b>" + (f": {margin}" if margin else "")
     return [{
         "text": words, "x": 0.0, "xref": "paper", "xanchor": "left", "y": 1.0, "yref": "paper",
         "yanchor": "bottom", "showarrow": False, "font": {"size": 12},
@@ -202,30 +190,12 @@ def _names(diagram: Campbell, highest: float) -> list[dict[str, Any]]:
 
 
 def mode_table(point: Modes, highest: float, words: str = "") -> Table:
-    """Return the modes at one operating point, with a remark on each."""
-    rows = [
-        [
-            str(row["name"]), str(row["direction"]), f"{row['frequency_Hz']:,.1f}",
-            f"{row['damping_ratio']:.4f}", str(row["order"]), moving(row["participation"]),
-            _remark(row),
-        ]
-        for row in point.table(highest=highest)
-    ]  # fmt: skip
+    """Return the modes at one operating point, each with its remark."""
     return Table(
-        f"Modes at {abs(point.rpm):,.0f} r/min{words}",
-        ["mode", "direction", "frequency, Hz", "damping ratio", "waves round", "kinetic energy", "remark"],
-        rows,
+        f"Modes at {abs(point.rpm):,.0f} r/min{words}", *table(Mode, point.records(highest)),
         note=f"Up to {1e-3 * highest:g} kHz, without neutral and overdamped motions. Balls that move alone "
         "show as no peak.",
-    )
-
-
-def _remark(row: dict[str, Any]) -> str:
-    """Return that a mode is hardly damped, or that its frequency changes as balls pass; else empty."""
-    remarks = [row["remark"]] if row["remark"] else []
-    if row["spread"] > SPREAD:
-        remarks.append(f"moves by {100.0 * row['spread']:.1f} % as balls pass")
-    return "; ".join(remarks)
+    )  # fmt: skip
 
 
 def crossing_table(diagram: Campbell, folded: bool | None = None) -> Table | None:
@@ -238,22 +208,12 @@ def crossing_table(diagram: Campbell, folded: bool | None = None) -> Table | Non
         return None
     if own > 0.0:
         crossings = sorted(crossings, key=lambda one: abs(np.log(abs(one.rpm) / own)))
-    rows = [
-        [
-            f"{abs(one.rpm):,.0f}", f"{100.0 * (abs(one.rpm) / own - 1.0):+.1f}" if own > 0.0 else "",
-            one.line.name, f"{one.line.source}, order {one.line.surface_order}"
-            if one.line.surface_order else one.line.source,
-            one.branch.label, f"{one.frequency:,.0f}", f"{one.damping:.4f}", quality_words(one.quality),
-            f"{1e6 * one.velocity:,.0f}" if one.velocity > 0.0 else "not in the scene",
-        ]
-        for one in crossings
-    ]  # fmt: skip
+    columns, cells = table(Crossing, crossings)
+    apart = [f"{100.0 * (abs(one.rpm) / own - 1.0):+.1f}" if own > 0.0 else "" for one in crossings]
     return Table(
-        "Crossings, the nearest to operation first",
-        ["speed, r/min", "from operation, %", "line", "what makes it", "mode", "frequency, Hz",
-         "damping ratio", "Q", "velocity, um/s"],
-        rows,
+        "Crossings, the nearest to operation first", ["from operation, %", *columns],
+        [[distance, *row] for distance, row in zip(apart, cells, strict=True)],
         note="Velocity: amplitude of the surface times angular frequency times Q, a number that ranks, not "
         "one to be measured. Crossings within 20 dB of the largest.",
-        folded=len(rows) > _LONG if folded is None else folded,
+        folded=len(cells) > _LONG if folded is None else folded,
     )  # fmt: skip

@@ -8,6 +8,7 @@ import numpy as np
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
 from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
+from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.points import modes
 from fmu_bearing.reports.data.subject import Subject
@@ -15,6 +16,7 @@ from fmu_bearing.reports.modes.campbell_chart import campbell_chart, crossing_ta
 from fmu_bearing.reports.modes.moving_shapes import moving_shapes
 from fmu_bearing.reports.page.blocks import Absent, Block, Section, Table, Words
 from fmu_bearing.reports.page.render import render
+from fmu_bearing.results.base import table
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.words import designation_words
 
@@ -66,8 +68,8 @@ def _over_speed(scene: Scene, rpm: float) -> list[Block]:
     point = nearest_point(diagram, rpm)
     blocks: list[Block] = [Words(diagram.verdict()), *_said(_cautions(diagram, point))]
     blocks += [campbell_chart(diagram), mode_table(point, HIGHEST)]
-    table = crossing_table(diagram, folded=True)
-    return blocks if table is None else [*blocks, table]
+    crossings = crossing_table(diagram, folded=True)
+    return blocks if crossings is None else [*blocks, crossings]
 
 
 def nearest_point(diagram: Campbell, rpm: float) -> Modes:
@@ -141,21 +143,10 @@ def modes_page(chart: Campbell, path: str | os.PathLike[str], point: Modes | Non
 
 def _apart(point: Modes, highest: float) -> list[Table]:
     """Return the table of motions that do not ring."""
-    rows = point.table(highest, apart=True)
-    if not rows:
-        return []
-    cells = [
-        [
-            str(row["name"]),
-            str(row["direction"]),
-            f"{row['frequency_Hz']:,.1f}",
-            f"{row['damping_ratio']:.3f}",
-        ]
-        for row in rows
-    ]
-    columns = ["motion", "direction", "frequency, Hz", "damping ratio"]
+    rows = point.records(highest, apart=True)
     words = "Neutral and overdamped motions: they make no peak"
-    return [Table(words, columns, cells, folded=True)]
+    heads = ("what moves most", "whirl", "Hz", "damping, %")
+    return [Table(words, *table(Mode, rows, heads), folded=True)] if rows else []
 
 
 def _tiles(diagram: Campbell, point: Modes) -> list[dict[str, object]]:

@@ -10,11 +10,11 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Chart, Section, Table
 from fmu_bearing.reports.page.look import axis
-from fmu_bearing.results.table import tenths
+from fmu_bearing.results.base import table
 from fmu_bearing.scene import Scene, SceneError
 from fmu_bearing.scene.member import set_of
 from fmu_bearing.steady.rest import forces, nose, preloads, started
-from fmu_bearing.steady.statics import Statics
+from fmu_bearing.steady.statics import BearingLoad
 
 _STEPS = 13  # loads of the curve
 _BEYOND = 1.2  # of the load that unloads a bearing: as far as the curve goes
@@ -24,7 +24,11 @@ _WARMER = (0.0, 5.0, 10.0, 15.0, 20.0)  # K
 def arrangement(subject: Subject) -> Section:
     """Draw the shaft with its bearings, and list what each carries."""
     statics = subject.point.statics
-    return Section("arrangement", "Arrangement", [_drawing(statics.scene), _bearings(statics)])
+    loads = Table(
+        "What each bearing carries, in the axes of the shaft", *table(BearingLoad, statics.bearings),
+        note="Ball load, contact angle and pressures are the largest of its balls.",
+    )  # fmt: skip
+    return Section("arrangement", "Arrangement", [_drawing(statics.scene), loads])
 
 
 def _drawing(scene: Scene) -> Chart:
@@ -78,24 +82,6 @@ def pressure_centres(scene: Scene) -> list[float]:
         - one.sign * 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
         for one, bearing in zip(set_of(scene).bearing, scene.geometries, strict=True)
     ]
-
-
-def _bearings(statics: Statics) -> Table:
-    """Return the loads of each bearing."""
-    columns = (
-        "bearing", "at, mm", "axial, N", "y, N", "z, N", "largest ball load, N", "unloaded balls",
-        "angle, deg", "pressure, GPa",
-    )  # fmt: skip
-    rows = [
-        [
-            f"{row['bearing']}, {row['carries']}", f"{row['position_mm']:g}", tenths(row["axial_N"]),
-            tenths(row["force_y_N"]), tenths(row["force_z_N"]), f"{row['ball_load_max_N']:.1f}",
-            str(row["balls_unloaded"]), f"{row['angle_inner_max_deg']:.2f}",
-            f"{max(row['pressure_inner_GPa'], row['pressure_outer_GPa']):.3f}",
-        ]
-        for row in statics.table()
-    ]  # fmt: skip
-    return Table("What each bearing carries, in the axes of the shaft", columns, rows)
 
 
 def axial(subject: Subject) -> Section:

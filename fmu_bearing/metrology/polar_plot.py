@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fmu_bearing.metrology.at_speed import BASE, DIRECTIONS, AtSpeed
-from fmu_bearing.results.picture_parts import COLOURS, empty
+from fmu_bearing.results.picture_parts import COLOURS, closed, empty
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,7 +39,7 @@ def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
     largest = base / BASE
     step = _round_below(largest / _TICKS)
     ax.plot(np.tile(angle, len(rows)), rows.ravel(), color="0.6", linewidth=0.4, alpha=0.5)
-    ax.plot(_closed(angle), _closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
+    ax.plot(closed(angle), closed(mean), color=COLOURS["inner_ring"], linewidth=2.0)
     around = np.linspace(0.0, 2.0 * np.pi, 181)
     ax.plot(around, np.full_like(around, base), color="0.2", linewidth=0.8, linestyle="--")
     ax.set_theta_zero_location("N")
@@ -54,10 +54,6 @@ def _draw(ax: Any, one: AtSpeed, direction: str) -> None:
         f"(averaged), {factor * values.synchronous_by_line:#.2g} (by line) {unit}",
         fontsize=8,
     )  # fmt: skip
-
-
-def _closed(values: Any) -> Any:
-    return np.append(values, values[:1])
 
 
 def _round_below(value: float) -> float:

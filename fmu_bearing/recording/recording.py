@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.cautions import largest_of
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
@@ -20,6 +19,7 @@ from fmu_bearing.files import read_arrays, whole
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure
+from fmu_bearing.recording.measurements.signals import Signals
 from fmu_bearing.results.result import read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.results.table import html_table, number
@@ -175,11 +175,11 @@ class Recording(ChannelHistory):
         (('P1', 'P4'), ('dB', 'dB'), 20.0)
         """
         names = tuple(name for name, _ in self.named(positions))
-        pressure = self.pressure(positions, radiation_model)
-        bins = resolution or measure.fine(self)
-        spectra = [level_spectrum(row, self.rate, bins) for row in pressure]
-        rows = np.array([levels for _, levels in spectra])
-        return Spectrum(names, spectra[0][0], rows, ("dB",) * len(names), MICROPHONE, self.excitation_end)
+        total = {"total": self.pressure(positions, radiation_model)}
+        signals = Signals(self, positions, radiation_model, total)
+        frequency, levels = signals.spectra(resolution or measure.fine(self))
+        units = ("dB",) * len(names)
+        return Spectrum(names, frequency, levels["total"], units, MICROPHONE, self.excitation_end)
 
     def plot(
         self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None,

@@ -7,6 +7,9 @@ import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, whole
 
@@ -163,6 +166,11 @@ def coincident(place: int, count: int) -> dict[str, Any]:
     share = place / max(count - 1, 1)
     width = _WIDEST + (_NARROWEST - _WIDEST) * share
     return series(place) | {"linestyle": DASHES[place % len(DASHES)], "linewidth": width}
+
+
+def closed(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return values round a circle with the first one again at the end."""
+    return np.append(values, values[:1])
 
 
 def free_heights(

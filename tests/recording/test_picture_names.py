@@ -177,7 +177,7 @@ def test_silent_sources_are_a_dash():
 def test_planes_have_one_scale_and_many_microphones_have_room():
     low, high = (Round(np.linspace(0.0, 6.0, 12), np.full(12, v), Sized(v), "A") for v in (40.0, 60.0))
     axes = pictures.planes_picture({"YZ": low, "XY": high}).axes
-    assert len({ax.get_ylim() for ax in axes}) == 1 and axes[0].get_ylim() == (35.0, 61.0)
+    assert len({ax.get_ylim() for ax in axes}) == 1 and axes[0].get_ylim() == (35.0, 65.0)
     names = tuple(f"m{k}" for k in range(60))
     levels = np.column_stack([np.arange(60.0), np.arange(60.0)])
     found = SoundAnalysis(

@@ -200,9 +200,8 @@ def _levels(
     signal: NDArray[np.float64], starts: NDArray[np.int64], size: int, rate: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Bins and levels of each block: flat-top window, so that lines read true between bins."""
-    window = scipy.signal.get_window("flattop", size)
-    window /= window.sum()
-    blocks = np.array([signal[start : start + size] for start in starts])
-    spectra = np.abs(np.fft.rfft((blocks - blocks.mean(axis=1, keepdims=True)) * window, axis=1)) ** 2
-    spectra[:, 1:] *= 2.0
-    return np.fft.rfftfreq(size, 1.0 / rate).astype(np.float64), level(spectra)
+    hop = int(starts[1] - starts[0]) if len(starts) > 1 else size
+    frequency, _, power = scipy.signal.spectrogram(
+        signal, rate, "flattop", size, size - hop, detrend="constant", scaling="spectrum"
+    )
+    return frequency, level(power.T)

@@ -1,6 +1,7 @@
 """Measurements on a recording, and their tables, pictures and WAV files.
 
 ==================  ==========================================================================
+``signals``         pressures in all and by component, their levels, spectra, third octaves
 ``measure``         spectra by component, circles, planes, power, run-ups
 ``tables``          such measurements as tables
 ``pictures``        such measurements as pictures

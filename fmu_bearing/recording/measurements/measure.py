@@ -43,12 +43,12 @@ from fmu_bearing.acoustics.analysis.power import (
     sphere_points,
 )
 from fmu_bearing.acoustics.analysis.psychoacoustics import sensation
-from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
 from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.sources import air_of, bodies_of, centre_of
+from fmu_bearing.recording.measurements.signals import signals_at
 from fmu_bearing.scene import si
 
 __all__ = [
@@ -145,16 +145,8 @@ def component_spectra(
 
     The place is in m, or the name of a microphone. A recording of pressures gives the total only.
     """
-    place = [position]
-    if recording.history.size:
-        parts = recording.partial(place, radiation_model)
-        signals = {"total": sum(parts.values(), np.zeros((1, recording.size)))} | parts
-    else:
-        signals = {"total": recording.pressure(place)}
-    spectra = {
-        name: level_spectrum(signal[0], recording.rate, resolution) for name, signal in signals.items()
-    }
-    return spectra["total"][0], {name: levels for name, (_, levels) in spectra.items()}
+    frequency, spectra = signals_at(recording, [position], radiation_model).spectra(resolution)
+    return frequency, {name: levels for name, (levels,) in spectra.items()}
 
 
 def fine(recording: ChannelHistory) -> float:

@@ -20,12 +20,12 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.extras import need
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
-from fmu_bearing.results.levels import sounding
+from fmu_bearing.results.levels import RANGE, mapped, radial_range, sounding
 from fmu_bearing.results.picture_parts import (
     BEHIND,
     COLOURS,
-    DASHES,
     OTHERS,
+    closed,
     coincident,
     empty,
     free_heights,
@@ -55,7 +55,6 @@ __all__ = [
     "waterfall_picture",
 ]
 
-_RANGE = 70.0  # dB shown below the highest level
 _ROOM = 34.0  # dB above the highest level for names of lines
 _NAME_ROOM = 0.035  # of an axis: what the name of a frequency takes
 _NAMES_TO = 0.2  # of the height: the rows of those names, from the top
@@ -100,7 +99,7 @@ def spectrum_picture(
         values = sounding(spectra[name])
         ax.plot(f, values, **style, label=_entry(name, values))
     top = max(float(np.max(np.asarray(levels)[1:])) for levels in spectra.values())
-    ax.set_ylim(top - _RANGE, top + (_ROOM if lines else 12.0))
+    ax.set_ylim(top - RANGE, top + (_ROOM if lines else 12.0))
     ax.set_xlim(0.0, float(f[-1]))
     for whose, end in _ends(excitation_end):
         mark_excitation(ax, end, whose=whose)
@@ -135,7 +134,7 @@ def sides_picture(
                 ax.plot(f, sounding(sides[other]), color="0.8", linewidth=0.8, gid="other")
         ax.plot(f, sounding(sides[name]), color=colour, linewidth=0.8, label=name)
         ax.set_xlim(0.0, float(f[-1]))
-        ax.set_ylim(top - _RANGE, top + 12.0)
+        ax.set_ylim(top - RANGE, top + 12.0)
         mark_excitation(ax, (excitation_ends or {}).get(name))
         label(ax, "", "dB re 20 uPa", "")
         ax.set_title(_entry(name, sounding(sides[name])), fontsize=9, loc="left", color=colour)
@@ -155,9 +154,9 @@ def third_octave_picture(
     top = max(float(np.max(np.asarray(values))) for values in levels.values())
     for k, (name, style) in enumerate(_styles(levels).items()):
         values = sounding(levels[name])
-        height = np.maximum(values - (top - _RANGE), 0.0)
+        height = np.maximum(values - (top - RANGE), 0.0)
         hatch = _HATCHES[k // len(OTHERS) % len(_HATCHES)]
-        ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - _RANGE, color=style["color"],
+        ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - RANGE, color=style["color"],
                hatch=hatch, edgecolor="white", linewidth=0.0, label=_entry(name, values))  # fmt: skip
     ax.set_xlim(-0.6, len(bands) - 0.4)
     for whose, end in _ends(excitation_end):
@@ -253,7 +252,7 @@ def power_picture(motion: MotionPower, measured: Mapping[str, float], title: str
     """Draw power levels (dB) of the bodies' motion, and, by name, those measured by pressure."""
     figure, ax = single((8.0, 4.2))
     levels = {f"motion, {_words(name)}": value for name, value in motion.levels.items()} | dict(measured)
-    low = max(levels.values()) - _RANGE
+    low = max(levels.values()) - RANGE
     ax.barh(list(levels), [max(value - low, 0.0) for value in levels.values()], left=low, color="#0072B2")
     label(ax, "sound power level, dB re 1 pW", "", title)
     return figure
@@ -383,10 +382,9 @@ def _end_line(ax: "Axes", place: NDArray[np.float64], along: NDArray[np.float64]
 def _colour_map(
     figure: "Figure", ax: "Axes", x: NDArray[np.float64], y: NDArray[np.float64], levels: NDArray[np.float64]
 ) -> None:
-    order: Sequence[int] = np.argsort(y).tolist()
-    top = float(levels.max())
+    order, shown, top = mapped(y, levels)
     drawn = ax.pcolormesh(
-        x, y[order], levels[order], vmin=top - _RANGE, vmax=top, cmap="magma", shading="nearest",
+        x, y[order], shown, vmin=top - RANGE, vmax=top, cmap="magma", shading="nearest",
         rasterized=True,
     )  # fmt: skip
     figure.colorbar(drawn, ax=ax, label="level, dB re 20 uPa")
@@ -394,9 +392,8 @@ def _colour_map(
 
 def _scale(circles: Mapping[str, Round]) -> tuple[float, float]:
     """Return the ends of a radial axis (dB) for levels round circles."""
-    low = min(float(each.levels.min()) for each in circles.values())
-    high = max(float(each.levels.max()) for each in circles.values())
-    return 5.0 * math.floor((low - 3.0) / 5.0), high + 1.0
+    levels = np.concatenate([each.levels for each in circles.values()])
+    return radial_range(float(levels.min()), float(levels.max()))
 
 
 def _polar(
@@ -406,10 +403,8 @@ def _polar(
     """Levels round a circle; the largest one's direction is marked. ``ends``: of the radial axis."""
     for k, (name, each) in enumerate(circles.items()):
         colour = OTHERS[k % len(OTHERS)]
-        angles, levels = np.append(each.angles, each.angles[0]), np.append(each.levels, each.levels[0])
-        dashes = DASHES[k // len(OTHERS) % len(DASHES)]
         marker = "o" if len(each.levels) <= 36 else ""
-        ax.plot(angles, levels, color=colour, linestyle=dashes, marker=marker, markersize=3,
+        ax.plot(closed(each.angles), closed(each.levels), **series(k), marker=marker, markersize=3,
                 label=name)  # fmt: skip
         ax.plot([each.directivity.da], [each.directivity.highest], color=colour, marker="*", markersize=10)
     # seen from +X, positive rotation runs anticlockwise: as polar axes do

@@ -4,8 +4,9 @@ import itertools
 import math
 import pathlib
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,18 +15,16 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.audio import write_wav
 from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.acoustics.analysis.lines import Line
-from fmu_bearing.acoustics.analysis.spectrum import level_spectrum
-from fmu_bearing.acoustics.analysis.third_octave import third_octave_levels
-from fmu_bearing.acoustics.filters.weighting import level
 from fmu_bearing.extras import available, need
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.channels.sources import centre_of
-from fmu_bearing.recording.measurements import measure, tables
+from fmu_bearing.recording.measurements import measure, pictures, tables
+from fmu_bearing.recording.measurements.signals import signals_at
 from fmu_bearing.results.base import Quantity, Result, table, write_netcdf
 from fmu_bearing.results.levels import decibels
-from fmu_bearing.results.picture_parts import COLOURS
+from fmu_bearing.results.picture_parts import COLOURS, save
 from fmu_bearing.results.table import Table, markdown, write_csv
 
 if TYPE_CHECKING:
@@ -152,39 +151,18 @@ def analyse_sound(
         For an unknown microphone, or a recording too short for the resolution.
     """
     names, places = zip(*recording.named(microphones), strict=True)
-    known = recording.history.size > 0
-    if known:
-        parts = recording.partial(places, radiation_model)
-        signals = {"total": sum(parts.values(), np.zeros((len(places), recording.size)))} | parts
-    else:
-        parts, signals = {}, {"total": recording.pressure(microphones)}
-    frequency, spectra = _spectra(signals, recording.rate, resolution or measure.fine(recording))
-    settle = min(_SETTLE, 0.2 * recording.size / recording.rate)
-    octaves = {name: third_octave_levels(rows, recording.rate, settle) for name, rows in signals.items()}
-    bands, thirds = octaves.pop("total")
+    signals = signals_at(recording, microphones, radiation_model)
+    frequency, spectra = signals.spectra(resolution or measure.fine(recording))
+    bands, octaves = signals.third_octaves(min(_SETTLE, 0.2 * recording.size / recording.rate))
     lines = (
         []
         if recording.scene is None or recording.changes_speed
         else measure.strongest(recording, frequency, spectra["total"][0], _LINES)
     )
-    return SoundAnalysis(
-        names,
-        np.column_stack([recording.levels(microphones, radiation_model, w) for w in "ZA"]),
-        {name: level(recording.mean_square(part, "A")) for name, part in parts.items()},
-        frequency, spectra, bands, thirds, {name: levels for name, (_, levels) in octaves.items()}, lines,
-        places,
-    )  # fmt: skip
-
-
-def _spectra(
-    signals: dict[str, NDArray[np.float64]], rate: float, resolution: float
-) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-    """Frequencies (Hz) and levels (dB) of every signal, shape (mics, bins) by name."""
-    spectra = {
-        name: [level_spectrum(row, rate, resolution) for row in rows] for name, rows in signals.items()
-    }
-    frequency = spectra["total"][0][0]
-    return frequency, {name: np.array([levels for _, levels in rows]) for name, rows in spectra.items()}
+    weighted = signals.levels("A")
+    levels = np.column_stack([signals.levels("Z")["total"], weighted.pop("total")])
+    thirds = octaves.pop("total")
+    return SoundAnalysis(names, levels, weighted, frequency, spectra, bands, thirds, octaves, lines, places)
 
 
 def write_all(
@@ -221,42 +199,61 @@ def write_all(
     list of Path
         Files written.
     """
-    from fmu_bearing.recording.measurements import pictures
-
-    folder.mkdir(parents=True, exist_ok=True)
-    write_csv(folder / "levels.csv", *analysis.rows())
+    drawn = available("matplotlib", "a picture", "pictures", tell)
+    made = _Made(recording, analysis, folder, radiation_model, drawn, tell)
+    made.table("levels.csv", analysis.rows())
     first = {name: levels[0] for name, levels in analysis.spectra.items()}
-    write_csv(folder / "spectrum.csv", *tables.spectrum_table(analysis.frequency, first))
+    made.table("spectrum.csv", tables.spectrum_table(analysis.frequency, first))
     thirds = dict(zip(analysis.names, analysis.third_octaves, strict=True))
     alone = {
         f"{name} {part}": levels[k]
         for k, name in enumerate(analysis.names)
         for part, levels in analysis.third_octave_parts.items()
     }
-    write_csv(folder / "third-octaves.csv", *tables.third_octave_table(analysis.bands, thirds | alone))
-    files = ["levels.csv", "spectrum.csv", "third-octaves.csv"]
-    drawn = available("matplotlib", "a picture", "pictures", tell)
-    if drawn:
-        pictures.save(spectra_picture(recording, analysis), folder / "spectrum.png")
-        drawn_of, title = _loudest(analysis, thirds)
-        bars = pictures.third_octave_picture(analysis.bands, drawn_of, title, recording.excitation_end)
-        pictures.save(bars, folder / "third-octaves.png")
-        files += ["spectrum.png", "third-octaves.png"]
+    made.table("third-octaves.csv", tables.third_octave_table(analysis.bands, thirds | alone))
+    made.picture("spectrum.png", partial(spectra_picture, recording, analysis))
+    bars = partial(pictures.third_octave_picture, analysis.bands, *_loudest(analysis, thirds))
+    made.picture("third-octaves.png", partial(bars, recording.excitation_end))
     if analysis.lines:
         head = f"Strongest lines at {analysis.names[0]}\n\n"
-        (folder / "lines.md").write_text(head + markdown(*tables.lines_table(analysis.lines)), "utf-8")
-        files.append("lines.md")
+        made.file("lines.md").write_text(head + markdown(*tables.lines_table(analysis.lines)), "utf-8")
     if recording.changes_speed:
-        files += _orders(recording, analysis, folder, radiation_model, drawn, tell)
+        _orders(made)
     if wav:
-        files += _sounds(recording, analysis, folder, radiation_model, wav_format)
+        _sounds(made, wav_format)
     if directivity and recording.history.size:
-        files += _directivity(recording, analysis, folder, radiation_model, drawn, tell)
+        _directivity(made)
     netcdf = available("xarray", "netCDF", "spectra.nc", tell)
     if netcdf and available("h5netcdf", "netCDF", "spectra.nc", tell):
-        write_netcdf(folder / "spectra.nc", analysis.to_xarray())
-        files.append("spectra.nc")
-    return [folder / file for file in files]
+        write_netcdf(made.file("spectra.nc"), analysis.to_xarray())
+    return made.files
+
+
+@dataclass
+class _Made:
+    """A folder with the files of one recording; ``drawn``: pictures too."""
+
+    recording: ChannelHistory
+    analysis: SoundAnalysis
+    folder: pathlib.Path
+    radiation_model: str | None
+    drawn: bool
+    tell: Tell
+    files: list[pathlib.Path] = field(default_factory=list)
+
+    def file(self, name: str) -> pathlib.Path:
+        """Return the path of one more file."""
+        self.files.append(self.folder / name)
+        return self.files[-1]
+
+    def table(self, name: str, table: Table) -> None:
+        """Write a table."""
+        write_csv(self.file(name), *table)
+
+    def picture(self, name: str, figure: "Callable[[], Figure]") -> None:
+        """Draw a picture."""
+        if self.drawn:
+            save(figure(), self.file(name))
 
 
 def _loudest(
@@ -272,8 +269,6 @@ def _loudest(
 
 def spectra_picture(recording: ChannelHistory, analysis: SoundAnalysis) -> "Figure":
     """Draw the spectra at the first microphone, with the bearing's frequencies; Matplotlib is needed."""
-    from fmu_bearing.recording.measurements import pictures
-
     audible = analysis.frequency <= 20_000.0
     still = recording.scene is not None and not recording.changes_speed
     kinematics = recording.common_kinematics if still else None
@@ -282,53 +277,34 @@ def spectra_picture(recording: ChannelHistory, analysis: SoundAnalysis) -> "Figu
     return pictures.spectrum_picture(frequency, shown, kinematics, analysis.names[0], end, analysis.lines)
 
 
-def _sounds(
-    recording: ChannelHistory,
-    analysis: SoundAnalysis,
-    folder: pathlib.Path,
-    radiation_model: str | None,
-    wav_format: str,
-) -> list[str]:
+def _sounds(made: _Made, wav_format: str) -> None:
     """Write one WAV file per microphone, all with one scale so that their loudness can be compared."""
+    recording, analysis = made.recording, made.analysis
     known = dict(recording.microphones)
     both = zip(analysis.names, analysis.positions, strict=True)
     asked = [name if name in known else place for name, place in both]
-    pressures = recording.pressure(asked, radiation_model)
+    pressures = recording.pressure(asked, made.radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
-    files = [f"{stem}.wav" for stem in _stems(analysis.names)]
-    for file, pressure in zip(files, pressures, strict=True):
-        write_wav(folder / file, pressure, recording.rate, scale, wav_format)
-    return files
+    for stem, pressure in zip(_stems(analysis.names), pressures, strict=True):
+        write_wav(made.file(f"{stem}.wav"), pressure, recording.rate, scale, wav_format)
 
 
-def _orders(
-    recording: ChannelHistory,
-    analysis: SoundAnalysis,
-    folder: pathlib.Path,
-    radiation_model: str | None,
-    drawn: bool,
-    tell: Tell,
-) -> list[str]:
-    """Write the order map at the first microphone; ``drawn``: a picture too."""
-    from fmu_bearing.recording.measurements import pictures
-
-    name = analysis.names[0]
-    place = name if name in dict(recording.microphones) else analysis.positions[0]
+def _orders(made: _Made) -> None:
+    """Write the order map at the first microphone."""
+    recording, name = made.recording, made.analysis.names[0]
+    place = name if name in dict(recording.microphones) else made.analysis.positions[0]
     turns = abs(float(recording.angle[-1] - recording.angle[0])) / (2.0 * math.pi)
-    whole = min(_TURNS, max(1, int(turns / _BLOCKS)))
+    resolution = 1.0 / min(_TURNS, max(1, int(turns / _BLOCKS)))
     try:
-        orders = measure.run_up(recording, place, resolution=1.0 / whole, radiation_model=radiation_model)
+        orders = measure.run_up(recording, place, resolution=resolution, radiation_model=made.radiation_model)
     except ValueError as problem:
-        tell(f"no order map: {problem}")
-        return []
-    write_csv(folder / "orders.csv", *tables.order_table(orders))
-    if not drawn:
-        return ["orders.csv"]
+        made.tell(f"no order map: {problem}")
+        return
+    made.table("orders.csv", tables.order_table(orders))
     kinematics = recording.common_kinematics
-    picture = pictures.order_picture(orders, kinematics, name, recording.excitation_end)
-    pictures.save(picture, folder / "orders.png")
-    return ["orders.csv", "orders.png"]
+    end = recording.excitation_end
+    made.picture("orders.png", partial(pictures.order_picture, orders, kinematics, name, end))
 
 
 def _stems(names: Sequence[str]) -> list[str]:
@@ -343,35 +319,20 @@ def _stems(names: Sequence[str]) -> list[str]:
     return files
 
 
-def _directivity(
-    recording: ChannelHistory,
-    analysis: SoundAnalysis,
-    folder: pathlib.Path,
-    radiation_model: str | None,
-    drawn: bool,
-    tell: Tell,
-) -> list[str]:
-    """Write levels in three planes; ``drawn``: a picture too.
+def _directivity(made: _Made) -> None:
+    """Write levels in three planes.
 
     At the distance of the nearest microphone, or where a circle of that radius meets a body at 1 m.
     """
-    from fmu_bearing.recording.measurements import pictures
-
-    middle = (centre_of(recording.scene), 0.0, 0.0)
-    for radius in (min(math.dist(place, middle) for place in analysis.positions), 1.0):
+    middle = (centre_of(made.recording.scene), 0.0, 0.0)
+    for radius in (min(math.dist(place, middle) for place in made.analysis.positions), 1.0):
         try:
             planes = measure.planes(
-                recording, radius, count=36, weighting="A", radiation_model=radiation_model
+                made.recording, radius, count=36, weighting="A", radiation_model=made.radiation_model
             )
         except ValueError as problem:
-            tell(f"no directivity at {1e3 * radius:.0f} mm: {problem}")
+            made.tell(f"no directivity at {1e3 * radius:.0f} mm: {problem}")
             continue
-        break
-    else:
-        return []
-    write_csv(folder / "planes.csv", *tables.round_table(planes))
-    if not drawn:
-        return ["planes.csv"]
-    title = f"at {1e3 * radius:.0f} mm"
-    pictures.save(pictures.planes_picture(planes, title), folder / "planes.png")
-    return ["planes.csv", "planes.png"]
+        made.table("planes.csv", tables.round_table(planes))
+        made.picture("planes.png", partial(pictures.planes_picture, planes, f"at {1e3 * radius:.0f} mm"))
+        return

@@ -12,6 +12,7 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.results.balls import RACES, name_of
+from fmu_bearing.results.picture_parts import closed
 
 _BINS = 72  # of the circle
 _WHAT = {"load": ("contact load", "N", 1.0), "angle": ("contact angle", "deg", 180.0 / math.pi)}
@@ -103,7 +104,7 @@ def _around(subject: Subject, balls: int) -> Chart:
             values = factor * _of_balls(subject, prefix, balls, what, race)
             loads += [values] if what == "load" and race == "outer" else []
             middles, (mean, low, high) = by_place(azimuth, values)
-            angle, tint = np.degrees(np.append(middles, middles[:1])), look.colour(race)
+            angle, tint = np.degrees(closed(middles)), look.colour(race)
             round_trip = np.concatenate([angle, angle[::-1]])
             band = np.concatenate([high, high[:1], low[:1], low[::-1]])
             figure.add_scatterpolar(
@@ -111,7 +112,7 @@ def _around(subject: Subject, balls: int) -> Chart:
                 fillcolor=look.faint(race), hoverinfo="skip", showlegend=False, meta=meta, visible=shown,
             )  # fmt: skip
             figure.add_scatterpolar(
-                theta=small(angle), r=small(np.append(mean, mean[:1])), mode="lines",
+                theta=small(angle), r=small(closed(mean)), mode="lines",
                 name=f"{race} race, mean", line={"color": tint, "width": 2}, meta=meta, visible=shown,
                 hovertemplate=f"%{{theta:.0f}} deg: %{{r:.4g}} {unit}<extra>{race} race</extra>",
             )  # fmt: skip

@@ -12,6 +12,7 @@ from fmu_bearing.metrology.nose import resampled
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
+from fmu_bearing.results.picture_parts import closed
 from fmu_bearing.results.rates import rates_of
 
 _SHOWN = ("fixed y", "fixed z", "rotating", "axial")
@@ -132,7 +133,7 @@ def _polar(one: AtSpeed) -> Chart:
         turned = np.tile(angle, min(len(rows), _DRAWN))[::_EVERY]
         for radius, at, colour, width in (
             (rows[:_DRAWN].ravel()[::_EVERY], turned, look.colour("grey"), 0.6),
-            (np.append(mean, mean[:1]), np.append(angle, angle[:1]), look.colour("inner_ring"), 2.4),
+            (closed(mean), closed(angle), look.colour("inner_ring"), 2.4),
         ):
             figure.add_scatter(
                 x=small(-radius * np.sin(at)), y=small(radius * np.cos(at)), mode="lines",

@@ -156,7 +156,8 @@ def sentences(subject: Subject, microphones: Microphones | None, sure: Spread | 
             text += f"; in phase opposition they leave {total:.1f} dB(A) together"
         said.append(text + ".")
     if subject.recording.scene is not None and k in microphones.shown:
-        frequency, values = microphones.spectra["total"][microphones.shown.index(k)]
+        frequency, levels = microphones.spectra
+        values = levels["total"][microphones.shown.index(k)]
         lines = strongest(subject.recording, frequency, values, 1)
         if lines:
             line = lines[0]

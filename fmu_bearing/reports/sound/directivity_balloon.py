@@ -14,6 +14,8 @@ from fmu_bearing.reports.data.microphones import Microphones
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import DECIBELS, Absent, Block, Chart, Choice, Option, Section, small
+from fmu_bearing.results.levels import radial_range
+from fmu_bearing.results.picture_parts import closed
 
 _LATITUDES, _AROUND = 31, 36  # every 6 and 10 deg, so that the three planes are among the points
 _CIRCLE = 72
@@ -22,6 +24,8 @@ _RANGE = 30.0  # dB below the loudest direction that the balloon's radius shows
 _PLACE = 1.0 / 1024.0  # of the largest radius: a third of a pixel
 _OCTAVES = (125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0)
 _PLANES = {"YZ, bearing plane": "x", "XY, horizontal": "y", "XZ, upright": "z"}  # and the colour of each
+
+Rows = dict[str, NDArray[np.float64]]  # levels (dB) round a circle, by name
 
 
 @dataclass(frozen=True)
@@ -100,10 +104,6 @@ def directivity(subject: Subject, microphones: Microphones | None) -> Section:
     return Section("directivity", "Directivity", blocks)
 
 
-def _choice(levels: Sphere, unit: str) -> Choice:
-    return Choice("band", unit, [Option(name, name) for name in levels.levels])
-
-
 def _balloon(subject: Subject, levels: Sphere) -> Chart:
     figure = look.figure(
         height=560, margin={"l": 0, "r": 0, "t": 10, "b": 10}, showlegend=False, modebar=look.TOOLS_ABOVE
@@ -142,7 +142,7 @@ def _balloon(subject: Subject, levels: Sphere) -> Chart:
         "balloon", f"Level over direction at {subject.radius:g} m", figure,
         f"Three-dimensional directivity at {subject.radius:g} m: levels from {a.min():.1f} to {a.max():.1f} "
         "dB(A).",
-        (_choice(levels, "Level"),), solid=True,
+        (Choice("band", "Level", [Option(name, name) for name in levels.levels]),), solid=True,
         note=f"Drag to turn, scroll to zoom. Distance from the centre and colour both are the level; the "
         f"centre is "
         f"{_RANGE:g} dB below the loudest direction. {_LATITUDES * _AROUND - 2 * (_AROUND - 1)} "
@@ -158,8 +158,8 @@ def _spots(levels: Sphere) -> NDArray[np.int16]:
     return np.round(both).astype(np.int16)
 
 
-def _rounds(values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-    """Levels round the three planes out of those on the sphere, the first again at the end.
+def _rounds(values: NDArray[np.float64]) -> Rows:
+    """Levels round the three planes out of those on the sphere.
 
     In YZ from 12 o'clock with positive rotation, in the others from +X: towards +Y, and upwards.
     """
@@ -168,37 +168,38 @@ def _rounds(values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
     # azimuth 270 deg is +Y, 90 deg is -Y, 0 is up, 180 deg is down
     xy = np.concatenate([values[:, 3 * quarter], values[-2:0:-1, quarter]])
     xz = np.concatenate([values[:, 0], values[-2:0:-1, 2 * quarter]])
-    return {name: np.append(row, row[0]) for name, row in zip(_PLANES, (yz, xy, xz), strict=True)}
+    return dict(zip(_PLANES, (yz, xy, xz), strict=True))
 
 
-def _scale(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Range of a radial axis: whole steps of 5 dB, 10 dB at least."""
-    high = 5.0 * math.ceil((float(values.max()) + 0.5) / 5.0)
-    return max(min(5.0 * math.floor((float(values.min()) - 1.0) / 5.0), high - 10.0), high - 40.0), high
-
-
-def _radial(band: str, values: NDArray[np.float64]) -> dict[str, Any]:
+def _radial(band: str, rows: Rows) -> dict[str, Any]:
     """Return what a polar chart's radial axis shows: the range of a band's levels, and their unit."""
-    return {"range": list(_scale(values)), "title": {"text": _unit(band)}}
+    levels = np.concatenate(list(rows.values()))
+    ends = radial_range(float(levels.min()), float(levels.max()))
+    return {"range": list(ends), "title": {"text": _unit(band)}}
+
+
+def _polar(height: int, bands: dict[str, Rows]) -> tuple[Any, Choice]:
+    """Return a polar chart of levels round circles by band and name, and the choice of the band."""
+    figure, options = look.polar(height, _radial(*next(iter(bands.items())))), []
+    for k, (band, rows) in enumerate(bands.items()):
+        for name, row in rows.items():
+            figure.add_scatterpolar(
+                theta=small(np.linspace(0.0, 360.0, len(row) + 1)), r=small(closed(row), DECIBELS),
+                mode="lines", name=name, meta={"band": band}, visible=k == 0, showlegend=bool(name),
+                line={"color": look.colour(_PLANES.get(name, "outer_ring")), "width": 2},
+                hovertemplate="%{theta:.0f} deg: %{r:.1f} " + _unit(band) + "<extra>" + name + "</extra>",
+            )  # fmt: skip
+        options.append(Option(band, band, {"polar.radialaxis": look.radial_axis(_radial(band, rows))}))
+    return figure, Choice("band", "Level", options)
 
 
 def _planes(subject: Subject, levels: Sphere) -> Chart:
-    choices = []
-    figure = look.polar(520, _radial("A-weighted", levels.levels["A-weighted"]))
-    for k, (name, values) in enumerate(levels.levels.items()):
-        for plane, row in _rounds(values).items():
-            figure.add_scatterpolar(
-                theta=small(np.linspace(0.0, 360.0, len(row))), r=small(row, DECIBELS), mode="lines",
-                name=plane, meta={"band": name}, visible=k == 0,
-                line={"color": look.colour(_PLANES[plane]), "width": 2},
-                hovertemplate="%{theta:.0f} deg: %{r:.1f} " + _unit(name) + "<extra>" + plane + "</extra>",
-            )  # fmt: skip
-        choices.append(Option(name, name, {"polar.radialaxis": look.radial_axis(_radial(name, values))}))
+    figure, choice = _polar(520, {band: _rounds(values) for band, values in levels.levels.items()})
     return Chart(
         "planes", f"Level in three planes at {subject.radius:g} m", figure,
         "Polar chart of the level in the bearing plane, the horizontal and the upright plane through the "
         "axis.",
-        (Choice("band", "Level", choices),),
+        (choice,),
         note="YZ: from 12 o'clock with positive rotation, as seen from +X. XY: from +X towards +Y. XZ: "
         "from +X upwards.",
     )  # fmt: skip
@@ -212,23 +213,13 @@ def _circle(subject: Subject, microphones: Microphones) -> Chart | None:
         return None
     points = list(circle_points(radius, axial, _CIRCLE))
     frequency, squares = subject.recording.mean_squares(points, subject.radiation_model, _resolution(subject))
-    levels = {name: level(squares @ weights) for name, weights in _bands(frequency).items()}
-    figure = look.polar(480, _radial("A-weighted", levels["A-weighted"]))
-    angle = np.linspace(0.0, 360.0, _CIRCLE + 1)
-    choices = []
-    for k, (name, values) in enumerate(levels.items()):
-        figure.add_scatterpolar(
-            theta=small(angle), r=small(np.append(values, values[0]), DECIBELS), mode="lines", name=name,
-            meta={"band": name},
-            visible=k == 0, line={"color": look.colour("outer_ring"), "width": 2}, showlegend=False,
-            hovertemplate="%{theta:.0f} deg: %{r:.1f} " + _unit(name) + "<extra></extra>",
-        )  # fmt: skip
-        choices.append(Option(name, name, {"polar.radialaxis": look.radial_axis(_radial(name, values))}))
+    bands = {name: {"": level(squares @ weights)} for name, weights in _bands(frequency).items()}
+    figure, choice = _polar(480, bands)
     where = f"r = {1e3 * radius:g} mm, l = {1e3 * axial:g} mm"
     return Chart(
         "circle", f"Level round the axis at {where}", figure,
         f"Polar chart of the level on the circle about the axis with {where}.",
-        (Choice("band", "Level", choices),),
+        (choice,),
         note=f"{_CIRCLE} places on the circle through the microphone farthest from the axis, 12 o'clock on "
         f"top, seen from +X.",
     )  # fmt: skip

@@ -29,12 +29,12 @@ from fmu_bearing.reports.page.blocks import (
 )
 from fmu_bearing.reports.sections.kinematic_marks import END, end_words, mark_kinematics
 from fmu_bearing.reports.sections.ring_motion import reach
-from fmu_bearing.results.levels import decibels
+from fmu_bearing.results.levels import RANGE, decibels
 from fmu_bearing.results.picture_parts import free_heights
 
-_RANGE = 70.0  # dB shown below the highest line
 _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level
 _LINES = 12
+_ROWS = 8  # microphones of which each has a row of bars
 _WORDS = 0.12  # of the range of third octaves: a row of words
 _ABOVE = 20.0  # dB above the highest line, for names
 #: Pixels of the spectrum's axes on a page of the usual width, and of names in it.
@@ -67,11 +67,10 @@ def spectra(subject: Subject, microphones: Microphones) -> Section:
 
 def _level_table(microphones: Microphones) -> Table:
     rows = []
-    levels, silent = microphones.levels, len(microphones.names) * [-math.inf]
-    names = ["total", *microphones.parts]
+    levels, names = microphones.levels, list(microphones.signals.pressures)
     for k, (name, place) in enumerate(zip(microphones.names, microphones.positions, strict=True)):
         where = ", ".join("?" if math.isnan(v) else f"{1e3 * v:.4g}" for v in place)
-        cells = [decibels(levels["A"].get(c, silent)[k]) for c in names]
+        cells = [decibels(levels["A"][c][k]) for c in names]
         rows.append([name, where, decibels(levels["Z"]["total"][k]), *cells])
     parts = [f"{look.words(c)}, dB(A)" for c in names[1:]]
     duration = microphones.subject.recording.size / microphones.rate
@@ -100,42 +99,28 @@ def _by_bearing(subject: Subject, microphones: Microphones) -> Table:
 
 
 def _ranking(microphones: Microphones) -> Chart:
-    names = microphones.components
-    figure = look.figure(
-        height=max(320, 90 + 44 * min(len(microphones.names), 8)) if len(microphones.names) <= 8 else 380
-    )
+    names, count = microphones.components, len(microphones.names)
+    upright = count > _ROWS  # a circle of microphones
+    along, across = ("y", "x") if upright else ("x", "y")
+    figure = look.figure(height=380 if upright else max(320, 90 + 44 * count))
     level = "LAeq, dB(A)"
     for weighting, unit in (("A", "dB(A)"), ("Z", "dB")):
         for name in names:
-            values = microphones.levels[weighting][name]
             figure.add_bar(
-                x=small(values), y=microphones.names, orientation="h", name=look.words(name),
+                **{along: small(microphones.levels[weighting][name]), across: microphones.names},
+                orientation="v" if upright else "h", name=look.words(name),
                 marker={"color": look.colour(name)}, meta={"weighting": weighting}, visible=weighting == "A",
-                hovertemplate="%{y}: %{x:.1f} " + unit + "<extra>" + look.words(name) + "</extra>",
+                hovertemplate=f"%{{{across}}}: %{{{along}:.1f}} {unit}<extra>{look.words(name)}</extra>",
             )  # fmt: skip
-    if len(microphones.names) > 8:  # a circle of microphones: upright
-        for trace in figure.data:
-            trace.update(
-                x=trace.y,
-                y=trace.x,
-                orientation="v",
-                hovertemplate=trace.hovertemplate.replace("{y}", "{t}")
-                .replace("{x", "{y")
-                .replace("{t}", "{x}"),
-            )
-    highest = max(float(np.max(values)) for w in microphones.levels.values() for values in w.values())
-    low = 10.0 * math.floor(
-        (min(float(np.min(microphones.levels[w][n])) for w in "AZ" for n in names) - 5.0) / 10.0
-    )
-    axis = look.axis(level, range=[max(low, highest - 60.0), highest + 3.0])
-    other = look.axis("", type="category")
-    if len(microphones.names) <= 8:
-        other["autorange"] = "reversed"
-        figure.update_layout(xaxis=axis, yaxis=other, barmode="group", bargap=0.25)
-        which = "xaxis"
-    else:
-        figure.update_layout(xaxis=other, yaxis=axis, barmode="group", bargap=0.15)
-        which = "yaxis"
+    shown = np.array([microphones.levels[weighting][name] for weighting in "AZ" for name in names])
+    low, highest = 10.0 * math.floor((float(shown.min()) - 5.0) / 10.0), float(shown.max())
+    ends, which = [max(low, highest - 60.0), highest + 3.0], f"{along}axis"
+    figure.update_layout(
+        {which: look.axis(level, range=ends), f"{across}axis": look.axis("", type="category")},
+        barmode="group", bargap=0.15 if upright else 0.25,
+    )  # fmt: skip
+    if not upright:
+        figure.layout.yaxis.autorange = "reversed"
     loudest = _loudest(microphones)
     return Chart(
         "ranking", "Which component is loudest", figure,
@@ -175,10 +160,11 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     choice = _named(subject, microphones, _microphone_choice(microphones))
     first = choice.options[0].value
     top = -math.inf
+    frequency, levels = microphones.spectra
+    keep = (frequency >= 20.0) & (frequency <= 20_000.0)
     # the total is drawn first, below the others
-    for name in microphones.components:
-        for k, (frequency, values) in enumerate(microphones.spectra[name]):
-            keep = (frequency >= 20.0) & (frequency <= 20_000.0)
+    for name, rows in levels.items():
+        for k, values in enumerate(rows):
             top = max(top, float(values[keep].max()))
             figure.add_scatter(
                 x0=float(frequency[keep][0]), dx=float(frequency[1] - frequency[0]),
@@ -191,7 +177,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     mark_kinematics(figure, subject)
     figure.update_layout(
         xaxis=look.axis("frequency, Hz", range=[0.0, 10_000.0]),
-        yaxis=look.axis("level, dB re 20 uPa", range=[top - _RANGE, top + _ABOVE]),
+        yaxis=look.axis("level, dB re 20 uPa", range=[top - RANGE, top + _ABOVE]),
         annotations=choice.options[0].layout["annotations"],
         meta={"narrow": {"annotations": []}},  # no room: the table has them
     )
@@ -200,7 +186,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
         f"Levels over frequency at {', '.join(microphones.names[k] for k in microphones.shown)}, of all "
         f"components together and of each.",
         (choice, reach()),
-        note=f"{microphones.resolution:.3g} Hz between lines, flat-top window: a line's level is right "
+        note=f"{frequency[1]:.3g} Hz between lines, flat-top window: a line's level is right "
         f"within 0.1 dB. Dotted: "
         "kinematic frequencies, as cage and balls turned, and harmonics to the fifth; click a legend entry "
         "to show or hide. The strongest lines are named as far as there is room, one that nothing explains "
@@ -210,12 +196,15 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
 
 def _named(subject: Subject, microphones: Microphones, choice: Choice) -> Choice:
     """Return the choice of a microphone with the names of its strongest lines at their peaks."""
-    spectra = [microphones.spectra["total"][int(option.value)] for option in choice.options]
-    top = max(float(values[(f >= 20.0) & (f <= 20_000.0)].max()) for f, values in spectra)
+    frequency, levels = microphones.spectra
+    total = levels["total"]
+    top = float(total[:, (frequency >= 20.0) & (frequency <= 20_000.0)].max())
     options = [
-        replace(option, layout={"annotations": _labels(_lines(subject, *spectrum), top)})
-        for option, spectrum in zip(choice.options, spectra, strict=True)
-    ]
+        replace(option, layout={
+            "annotations": _labels(_lines(subject, frequency, total[int(option.value)]), top),
+        })
+        for option in choice.options
+    ]  # fmt: skip
     return replace(choice, options=options)
 
 
@@ -226,7 +215,7 @@ def _labels(lines: list[Line], top: float) -> list[dict[str, Any]]:
     more room.
     """
     named = [line for line in lines if line.explanation and 20.0 < line.frequency < 20_000.0]
-    scale = _PLOT_HEIGHT / (_RANGE + _ABOVE)
+    scale = _PLOT_HEIGHT / (RANGE + _ABOVE)
     places = [
         (_PLOT_WIDTH * line.frequency / 20e3, _PLOT_WIDTH * math.log(line.frequency / 20.0) / math.log(1e3))
         for line in named
@@ -256,13 +245,13 @@ def _line_table(subject: Subject, microphones: Microphones) -> Table:
     place = max(
         range(len(microphones.shown)), key=lambda k: microphones.levels["A"]["total"][microphones.shown[k]]
     )
-    frequency, values = microphones.spectra["total"][place]
-    lines = _lines(subject, frequency, values)
+    frequency, levels = microphones.spectra
+    lines = _lines(subject, frequency, levels["total"][place])
     columns, rows = lines_table(lines)
     end = subject.recording.excitation_end
     for row, line in zip(rows, lines, strict=True):
         at = int(np.argmin(np.abs(frequency - line.frequency)))
-        parts = {name: microphones.spectra[name][place][1][at] for name in microphones.components[1:]}
+        parts = {name: levels[name][place, at] for name in microphones.components[1:]}
         beyond = end is not None and line.frequency > end
         loudest = look.words(max(parts, key=lambda name: parts[name])) if parts else ""
         row.append(BEYOND if beyond else loudest)
@@ -282,7 +271,7 @@ def _third_octaves(microphones: Microphones) -> Chart:
     names = [f"{band:g}" for band in bands]
     choice = _microphone_choice(microphones)
     top = max(float(values.max()) for values in levels.values())
-    low = top - _RANGE
+    low = top - RANGE
     for name, values in levels.items():
         for k, row in enumerate(values):
             figure.add_bar(

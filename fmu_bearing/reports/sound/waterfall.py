@@ -14,9 +14,9 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Words, small
 from fmu_bearing.reports.sections.kinematic_marks import END
+from fmu_bearing.results.levels import RANGE, mapped
 
 _HIGHEST = 8000.0  # Hz
-_RANGE = 70.0  # dB
 _STEP = 1.0 / 16.0  # dB: of the colours
 _ROWS = 160  # at most
 _LINES = ("f_r", "f_c", "f_i", "f_o")
@@ -71,13 +71,12 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
     name, _ = _microphone(microphones)
     start = microphones.subject.recording.start
     y = blocks.speed / RPM if over_speed else blocks.time + start
-    order = np.argsort(y)
-    top = float(blocks.levels.max())
+    order, levels, top = mapped(y, blocks.levels)
     figure = look.figure(height=520, modebar=look.TOOLS_ABOVE)
     unit = "r/min" if over_speed else "s"
     figure.add_heatmap(
         x0=float(blocks.frequency[0]), dx=float(blocks.frequency[1] - blocks.frequency[0]), y=small(y[order]),
-        z=small(np.maximum(blocks.levels[order], top - _RANGE), _STEP), zmin=top - _RANGE, zmax=top,
+        z=small(levels, _STEP), zmin=top - RANGE, zmax=top,
         zsmooth=False, colorscale="Magma", colorbar=look.bar("dB"),
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip

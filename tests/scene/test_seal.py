@@ -14,7 +14,9 @@ def sealed(**seal):
 
 def flat(**seal):
     """The same balls as a deep groove bearing's."""
-    return read_scene(SCENE).replace({"bearing.contact_angle_deg": 10.0, "bearing.seal": seal}).bearing
+    kind = {"kind": "deep-groove", "contact_angle_deg": None, "radial_clearance_um": 12.0}
+    changes = {f"bearing.{key}": value for key, value in kind.items()}
+    return read_scene(SCENE).replace(changes | {"bearing.seal": seal, "mounting.preload_N": 0.0}).bearing
 
 
 def test_without_seals_there_is_no_torque():

@@ -14,10 +14,11 @@ BEARING_OUTPUTS = (
     "contact.inner.spin_to_roll", "contact.outer.spin_to_roll", "contact.inner.slip",
     "contact.outer.slip", "cage.whirl_radius", "cage.whirl_speed", "friction_torque_share.contacts",
     "friction_torque_share.rolling", "friction_torque_share.cage", "friction_torque_share.drag",
+    "friction_torque_share.seals",
     "contact.inner.shoulder_margin", "contact.outer.shoulder_margin", "friction_torque_mean",
     "contact.free_angle", "fit.inner.interference", "fit.inner.pressure", "fit.inner.hoop_stress",
     "fit.inner.race_growth", "fit.outer.interference", "fit.outer.pressure", "fit.outer.hoop_stress",
-    "fit.outer.race_growth", "clearance", "friction_torque_share.seals",
+    "fit.outer.race_growth", "clearance",
 )  # fmt: skip
 INNER_VELOCITY = BEARING_OUTPUTS.index("inner_ring.velocity.x")  # m/s, three
 OUTER_VELOCITY = BEARING_OUTPUTS.index("outer_ring.velocity.x")

@@ -297,7 +297,7 @@ def land_clearance(scene: Scene, cage: Cage) -> float:
     """Radial clearance (m) between a cage and the lands that guide it: the scene's, or what the cage leaves.
 
     The lands are a ring's shoulders, which are where the grooved ring has the mass that its effective
-    diameter gives it (`elastic.section`): as good as that diameter is. A cage guided by the balls has none: 0.
+    diameter gives it (`elastic.section`): as good as that diameter is. 0 for a cage that the balls guide.
 
     Raises
     ------

@@ -27,8 +27,8 @@ class Cage(Part):
 
     guidance: Guidance = Field(
         default="inner", examples=["inner"],
-        description="What carries the cage: lands on the shoulders of the inner or the outer ring, with radial "
-        "bores as pockets, or the balls, in spherical pockets without lands.",
+        description="What carries the cage: lands on the shoulders of the inner or the outer ring, with "
+        "radial bores as pockets, or the balls, in spherical pockets without lands.",
     )  # fmt: skip
     outside_diameter_mm: float = Field(
         ge=2, le=1000, examples=[27.6], description="Outside diameter of the cage, mm."

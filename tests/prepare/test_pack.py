@@ -413,7 +413,10 @@ def test_lands_of_a_cage_from_the_shoulders_that_guide_it():
 
 
 def test_lands_of_a_cage_on_the_outer_ring():
-    """The journal is the cage, whose bore needs no clearance; a jet's oil is sheared by the cage alone, (1 - gamma)/2 of the shaft's speed."""
+    """The journal is the cage, whose bore needs no clearance, and which alone shears the oil of a jet.
+
+    It turns at (1 - gamma)/2 of the shaft's speed.
+    """
     outer = ("bore_mm = 23.4", 'bore_mm = 22.65\nguidance = "outer"')
     wide = ("outside_diameter_mm = 27.6", "outside_diameter_mm = 28.6")
     found = packed(outer, wide)

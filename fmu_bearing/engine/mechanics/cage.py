@@ -22,7 +22,7 @@ _NOWHERE = 1e-30  # m
 
 @kernel
 def pocket_axis(p, angle, turned, j, w):
-    """Unit vectors along the axes of the pockets of four balls, outwards, in the balls' orbiting axes.
+    """Return unit vectors along four balls' pockets, outwards, in the balls' orbiting axes.
 
     ``angle``: of the balls, ``turned``: of the cage (rad). A pocket is fixed in the cage: its azimuth in the
     plane YZ is the cage's, and its axis runs across the cage's.
@@ -58,7 +58,7 @@ def in_bore(p, angle, turned, j, w):
 
 @kernel
 def in_sphere(p, angle, turned, j, w):
-    """Offsets of four balls from the middles of their spherical pockets (m), and their lengths.
+    """Return offsets of four balls from the middles of their spherical pockets (m), and their lengths.
 
     As `in_bore`; the middles are on the cage's pitch circle.
     """
@@ -252,7 +252,14 @@ def guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage):
     ``d`` and ``v``: offset and velocity of the cage's centre against that ring's at the land, ``ring`` and
     ``cage`` their spin rates (rad/s). In an outer ring the cage is the journal.
     """
-    if p[P.GUIDANCE] == OUTER_GUIDED:
-        fy, fz, on_cage, on_ring, energy, lost = land_contact(p, viscosity, -dy, -dz, -vy, -vz, cage, ring)
-        return -fy, -fz, on_ring, on_cage, energy, lost
-    return land_contact(p, viscosity, dy, dz, vy, vz, ring, cage)
+    outside = p[P.GUIDANCE] == OUTER_GUIDED
+    # one call for both: its code is long
+    side = -1.0 if outside else 1.0
+    journal = cage if outside else ring
+    sleeve = ring if outside else cage
+    fy, fz, on_journal, on_sleeve, energy, lost = land_contact(
+        p, viscosity, side * dy, side * dz, side * vy, side * vz, journal, sleeve
+    )
+    on_ring = on_sleeve if outside else on_journal
+    on_cage = on_journal if outside else on_sleeve
+    return side * fy, side * fz, on_ring, on_cage, energy, lost

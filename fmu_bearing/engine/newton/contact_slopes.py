@@ -217,8 +217,8 @@ def contact_columns(y, body, ball, contact, j, w):
     ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` give it. That
     is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
     load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
-    along e and m and along t; the axis of one turn, of a race the body's; turns about it and about -t, by places along the three axes; change of
-    the gradient along t; entrainment speed by the ball's spin.
+    along e and m and along t; the axis of one turn, of a race the body's; turns about it and about -t, by
+    places along the three axes; change of the gradient along t; entrainment speed by the ball's spin.
     """
     frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, arm = contact
     loaded, pressed = motion_columns(ball, gradient, bumps, stiffness, film, j, w)

@@ -92,6 +92,15 @@ def spindle():
     yield from _lives(scene, found)
     yield from _preloads(scene)
     yield from _classes()
+    point = operating_point(read_scene(SETS / "7003C-7002C.toml"))
+    yield rows("different bearings", [
+        (
+            f"{one.load.number}, {one.scene.bearing.designation}", str(one.scene.bearing.ball_count),
+            f"{one.axial:.1f}", f"{one.load.ball_loads.max():.1f}", f"{one.frequencies.f_o:.0f}",
+            f"{1e3 * one.friction_torque:.1f}", f"{100 * round(one.life / 100):,}",
+        )
+        for one in point.bearings
+    ])  # fmt: skip
     shafts = []
     for name, flexible in (("rigid", False), ("flexible", True)):
         one = study(flexible=flexible)

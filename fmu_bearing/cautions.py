@@ -140,7 +140,8 @@ _FRICTIONLESS = 1e-6  # N m: below it a torque is rounding, of a bearing without
 _LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
 _ROLLS = {
     "full": "what they then do depends on gravity, loads and chance more than on the bearing",
-    "rings": "fidelity rings has balls that always roll: its loads, levels and torque then mean little",
+    "rings": "fidelity rings has balls that always roll: its loads and levels then mean little, its torque "
+    "is that of balls at rest under the loads across",
     "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
     "wrong by orders of magnitude",
 }

@@ -8,7 +8,7 @@ from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
 from fmu_bearing.formulas import iso281
-from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.equations.remarks import LOOSE, UNSTEADY
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
 from fmu_bearing.scene.nsk import sizes
@@ -185,7 +185,7 @@ def _wrong(scene: Scene) -> set[str]:
     """Return what is not good at a scene's operating point: keys of verdicts, and that it is not steady."""
     point = operating_point(scene)
     keys = {verdict.key for verdict in verdicts(point) if verdict.judgement in ("watch", "change")}
-    return keys | ({_WHIRL} if UNSTEADY in point.remarks else set())
+    return keys | ({_WHIRL} if {UNSTEADY, LOOSE} & set(point.remarks) else set())
 
 
 def _at(scene: Scene, speed: float | None = None, force: float | None = None) -> Scene:

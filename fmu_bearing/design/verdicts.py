@@ -18,7 +18,7 @@ from fmu_bearing.design.seal_verdicts import seal_verdicts
 from fmu_bearing.design.verdict import Judgement, Verdict, judged_life, shown_hours, unjudged
 from fmu_bearing.formulas import iso76, iso281, makers
 from fmu_bearing.modal.campbell.doubts import whirl_words
-from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.equations.remarks import LOOSE, UNSTEADY
 from fmu_bearing.scene import Scene
 
 #: Pa: pressures beyond which races of hardened steel are marked in the long run: a rule, not a standard.
@@ -397,7 +397,7 @@ def _lift_off(point: OperatingPoint) -> Iterator[Verdict]:
 def _whirl(point: OperatingPoint) -> Verdict:
     label, source = "whirl of the ring, 1/s", "the linearised equations: no mode of the rings grows"
     if not point.steady:
-        return unjudged("whirl", label, UNSTEADY)
+        return unjudged("whirl", label, LOOSE if LOOSE in point.remarks else UNSTEADY)
     if point.whirl is None:
         return Verdict("whirl", label, None, "none", "none", source, "good")
     frequency, growth = point.whirl

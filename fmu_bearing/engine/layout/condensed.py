@@ -64,6 +64,8 @@ TABLE_COUNT = MOST_LINES * LINE_SIZE
 TABLE_MEAN = TABLE_COUNT + FOUR
 TABLE_SIZE = TABLE_MEAN + COLUMN
 
+# What a search has found: nothing yet, the steady state, none with balls that the cage carries
+UNKNOWN, FOUND, CARRIED = range(3)
 IDLE, GOING, ENDED = range(3)  # of a search for the operating point; ended: its result is not in use yet
 LOST = 8  # losses: heats of inner ring, outer ring, oil, four by source (W), torque on the outer ring (N m)
 
@@ -168,7 +170,7 @@ LAG = _at()  # rad: of the balls in their pockets there, which Y0 is without
 # what uneven balls add to what is lost there: see condensed/uneven
 MORE_SPEED = _at()  # rad/s: found at this speed of the shaft
 MORE_TOTAL = _at()  # W: lost with even balls there
-MORE_KNOWN = _at()  # 1: searched at least once
+MORE_KNOWN = _at()  # UNKNOWN, FOUND or CARRIED
 MORE_RATIO = _at()  # factor on the orbit speed
 MORE_AWAY = _at()  # m: how far the cage is from the middle of its lands,
 MORE_WHIRL = _at()  # rad/s: how fast it goes round there

@@ -353,14 +353,32 @@ def begin_rest(p, s, w, speed):
 
 
 @kernel
+def begin_in_middle(p, s, w, speed):
+    """As `begin_rest`, of a single bearing with the groove circles of both rings in one plane.
+
+    There a ring rests that loads across its axis alone hold: where it would touch under an axial load is some
+    hundredths of a millimetre aside.
+    """
+    begin_rest(p, s, w, speed)
+    ws = members.set_work(p, w)
+    z = start_vector(p, SP.UNKNOWNS)
+    c = s[S.C : S.C + C.SIZE]
+    apart = c[C.RACES + C.RACE_SIZE + C.GROOVE_X] - c[C.RACES + C.GROOVE_X]
+    ws[z + Q.X] = ws[z + SP.PLANE + Q.X] + apart
+
+
+@kernel
 def rest(p, s, w, speed, share):
     """Bring the unknowns to rest; status code. Bearings are left settled where their rings then are.
 
-    ``share`` of the imperfections (0 or 1). A ring that hangs on a few balls at speed, with no axial load,
-    may have no rest that can be found: then one with a little axial load serves, a start from which such a
-    ring sets itself moving anyway.
+    ``share`` of the imperfections (0 or 1). The rest of a ring that hangs on a few balls, with no axial load,
+    may not be found from where its balls would touch under an axial load: then from the middle. Where there
+    is none, one with a little axial load serves, a start from which such a ring sets itself moving anyway.
     """
     status = balance(p, s, w, speed, share)
+    if status != OK and not members.has_shaft(p) and p[P.RIGID] == 0.0:
+        begin_in_middle(p, s, w, speed)
+        status = balance(p, s, w, speed, share)
     if status != OK and not members.has_shaft(p):
         c = s[S.C : S.C + C.SIZE]
         load = c[C.PRELOAD]

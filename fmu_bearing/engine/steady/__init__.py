@@ -10,6 +10,7 @@ themselves. Imperfections count as none.
 ``equations``  what is out of balance in a pattern, and its derivatives
 ``newton``     Newton's method for a pattern
 ``growth``     whether the whirl of a cage grows about the pattern at rest
+``carried``    where none is found: quasi-static balls, which roll or which the cage carries
 ``point``      the operating point of a bearing: which of them holds
 =============  ==========================================================================
 """

@@ -14,8 +14,9 @@ import math
 
 from fmu_bearing.engine.choices import BALL_GUIDED, OUTER_GUIDED
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import PT, ST, C, P, Q, W, Y
+from fmu_bearing.engine.layout import PT, ST, C, F, P, Q, R, W, Y
 from fmu_bearing.engine.mechanics.bodies import guiding_ring
+from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.statics.axial import quasistatic
 from fmu_bearing.engine.statics.place import upright_point
 from fmu_bearing.engine.status import OK
@@ -24,8 +25,8 @@ from fmu_bearing.engine.steady.growth import NOTHING, SHIFTS, begin_growth, grow
 from fmu_bearing.engine.steady.newton import FAILED, GOES_ON, SETTLED, displace_cage, settle_once
 from fmu_bearing.engine.steady.pattern import tail, take
 
-#: What was found of the steady state: see `settle`.
-NOT_FOUND, EVEN_BALLS, REST, WHIRL = range(4)
+#: What was found of the steady state: see `settle`; the last: nothing, but see `needs_carrying`.
+NOT_FOUND, EVEN_BALLS, REST, WHIRL, CARRIED = range(5)
 SEARCHING = -1  # nothing yet
 # Stages of a search: even balls, the pattern at rest with pockets as they are, then with softer ones, the
 # whirl's growth, the whirl.
@@ -49,6 +50,7 @@ _STIFFER = 100.0
 _REACH = 3.0
 _ACROSS = 1e-12  # m, rad: rings less apart are in line
 _PRESSED = 5e-7  # m: into a spherical pocket at first; one that is not touched has no slope
+_LOADED = 1e-3  # N: with less at a race its ball is loose
 
 
 @kernel
@@ -294,6 +296,16 @@ def rest_once(p, c, y, speed, fixed, w, jac):
 
 
 @kernel
+def all_pressed(p, c, y, speed, w):
+    """Whether all balls of the state ``y`` press both races."""
+    right_hand_side(p, c, y, 0.0, speed, 0.0, w, w[W.F0 : W.F0 + F.SIZE])
+    for j in range(int(p[P.BALLS])):
+        if not (min(w[W.RACE + R.LOAD + j], w[W.RACE + R.SIZE + R.LOAD + j]) > _LOADED):
+            return False
+    return True
+
+
+@kernel
 def follow_whirl(p, c, speed, fixed, w, jac):
     """Stages of a search behind the pattern at rest: growth of the whirl, then the whirl; what is found."""
     even, rest, whirl = state_at(w, PT.EVEN_STATE), state_at(w, PT.REST_STATE), state_at(w, PT.WHIRL_STATE)
@@ -339,6 +351,9 @@ def search(p, c, y, speed, fixed, whirls, w, jac):
         outcome = rest_once(p, c, y, speed, fixed, w, jac)
     if outcome != REST or not whirls or p[P.CAGE] == 0.0 or p[P.LAND] == 0.0:
         return outcome
+    # an orbit of the cage is found with even balls, and says nothing where loads leave some loose
+    if not all_pressed(p, c, state_at(w, PT.REST_STATE), speed, w):
+        return REST
     enter(w, _GROWING, 0.0)
     begin_growth(p, speed, w)
     return SEARCHING
@@ -368,6 +383,17 @@ def settle(p, c, y, speed, fixed, w, jac):
     while outcome == SEARCHING:
         outcome = search(p, c, y, speed, fixed, True, w, jac)
     return outcome
+
+
+@kernel
+def needs_carrying(p, c, y, fixed, outcome):
+    """Whether loads across the axis act and no steady state of unequal balls is known: see `carried`.
+
+    ``outcome``: of a search from the quasi-static state ``y``. Springs between balls keep even ones.
+    """
+    if outcome == EVEN_BALLS:
+        return p[P.SPRINGS] == 0.0
+    return outcome == NOT_FOUND and is_loaded(p, c, y, fixed)
 
 
 @kernel
@@ -416,7 +442,7 @@ def shift_to_even(p, y, even):
 @kernel
 def move_to_steady(p, y, outcome, w):
     """Move the quasi-static state ``y`` to the steady one by the ``outcome`` of :func:`settle` from it."""
-    if outcome == NOT_FOUND:
+    if outcome == NOT_FOUND or outcome == CARRIED:
         return
     even = w[W.PATTERN + PT.EVEN_STATE : W.PATTERN + PT.REST_STATE]
     if outcome == EVEN_BALLS:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from fmu_bearing.modal.campbell.excitation_lines import Line, Rates
-from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.equations.remarks import unsteady
 from fmu_bearing.modal.modes.energies import NEITHER
 from fmu_bearing.modal.modes.mode import MARGIN, MOVES, Mode
 from fmu_bearing.modal.modes.natural_modes import Modes, self_excited
@@ -171,7 +171,9 @@ class Diagram(Result):
                 )
         sentences += self._unseen()
         sentences += [
-            f"{point.rpm:,.0f} r/min: {UNSTEADY}" for point in self.points if not point.linearised.steady
+            f"{point.rpm:,.0f} r/min: {unsteady(point.linearised)}"
+            for point in self.points
+            if not point.linearised.steady
         ]
         return sentences + [f"{rpm:,.0f} r/min is left out: {why}" for rpm, why in self.skipped]
 

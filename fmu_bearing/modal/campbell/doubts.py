@@ -24,7 +24,7 @@ from fmu_bearing.modal.campbell.diagram import can_move, is_of_rings
 from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
 from fmu_bearing.modal.equations.beside_full import BesideFull, beside_full
 from fmu_bearing.modal.equations.cage_sound import loss_without_cage
-from fmu_bearing.modal.equations.remarks import UNSTEADY
+from fmu_bearing.modal.equations.remarks import LOOSE, UNSTEADY
 from fmu_bearing.modal.modes.growth import self_excitation
 from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
@@ -52,9 +52,9 @@ _LEVELS = "levels"
 def doubt(scene: Scene, inputs: Mapping[str, float] | None = None, radiation_model: str | None = None) -> str:
     """Return why figures by a scene's own fidelity are in doubt; empty: they are not, or it is full.
 
-    Where a ring whirls by itself, and where no steady state was found, all figures are in doubt; where rings
-    depart from full in a short run, levels and velocities are, and contact loads where they move `LOUD` times
-    as much; else levels alone.
+    Where a ring whirls by itself, and where no steady state was found, all figures are in doubt; where the
+    cage carries loose balls, and where rings depart from full in a short run, levels and velocities are, and
+    contact loads where they move `LOUD` times as much; else levels alone.
 
     Parameters
     ----------
@@ -67,8 +67,10 @@ def doubt(scene: Scene, inputs: Mapping[str, float] | None = None, radiation_mod
     model = scene.fidelity.model
     if model in ("full", "auto"):
         return ""
-    if unsteady(scene, inputs):
-        return f"fidelity {model}: {UNSTEADY}"
+    if (at := _at(scene, inputs)) is not None and not at.linearised.steady:
+        if not at.linearised.carried:
+            return f"fidelity {model}: {UNSTEADY}"
+        return f"{_LEVELS} and velocities of fidelity {model} are in doubt here: {LOOSE}; take fidelity full"
     if whirls := whirl(scene, inputs):
         return f"fidelity {model}: {whirls}"
     if far := rings_depart(scene, model, inputs):

@@ -20,7 +20,7 @@ from scipy.linalg import block_diag
 
 from fmu_bearing.arrays import Arrays, EngineError
 from fmu_bearing.engine.layout import SP, C, P, Q, S, U, Y
-from fmu_bearing.engine.steady.point import NOT_FOUND
+from fmu_bearing.engine.steady.point import CARRIED, NOT_FOUND
 from fmu_bearing.modal.equations.bearing import BearingLinearised, in_fixed_axes, phases_of
 from fmu_bearing.modal.equations.coordinates import Coordinates
 from fmu_bearing.modal.equations.plain import BearingArrays
@@ -68,6 +68,11 @@ class Linearised:
     speed: float
     steady: bool
     on_pedestal: tuple[float, float]
+
+    @property
+    def carried(self) -> bool:
+        """Whether a run starts with quasi-static balls, some of which the cage carries: `steady.carried`."""
+        return any(bearing.arrays.s[S.SETTLED] == CARRIED for bearing in self.bearings)
 
     @property
     def orbits(self) -> NDArray[np.float64]:
@@ -222,7 +227,7 @@ def bearing_of(run: Arrays, row: NDArray[np.float64], speed: float) -> BearingAr
 def _is_steady(bearing: BearingArrays) -> bool:
     """Whether a bearing starts steady; so does a quasi-static state where nothing turns balls."""
     turns = bearing.u[U.SPEED] != 0.0 and (bearing.p[P.MU] != 0.0 or bearing.p[P.GYROSCOPIC] != 0.0)
-    return not turns or bearing.s[S.SETTLED] != NOT_FOUND
+    return not turns or bearing.s[S.SETTLED] not in (NOT_FOUND, CARRIED)
 
 
 def _on_pedestal(

@@ -10,15 +10,25 @@ UNSTEADY = (
     "no steady state was found: balls drift from the state that these numbers hold for, in which a run "
     "starts; give more preload or less speed"
 )
+#: The same where loads across the axis leave balls loose: no preload is missing in a deep groove bearing.
+LOOSE = (
+    "no steady state was found: loads across the axis leave balls loose, which the cage carries; torque, "
+    "heat and orbit are sums over the balls as they rest under these loads, and growth is not judged"
+)
 _SOFT = (
     0.5e-3  # m: a seat gives way by some hundredths of a millimetre; ten times and more is a slip (chosen)
 )
 
 
+def unsteady(system: "Linearised") -> str:
+    """Return the remark on a state that is not steady."""
+    return LOOSE if system.carried else UNSTEADY
+
+
 def remarks(system: "Linearised") -> Iterator[str]:
     """Yield that no steady state was found, that the pedestal is soft."""
     if not system.steady:
-        yield UNSTEADY
+        yield unsteady(system)
     moved, stiffness = system.on_pedestal
     if moved > _SOFT:
         key = "spindle.housing" if system.shaft.count else "mounting"

@@ -14,6 +14,7 @@
 ``transverse``         what holds a ball across its track and drags it along
 ``ball_motion``        each ball's own motion there, for its sound
 ``uneven``             losses that are frozen: with even balls, and what uneven ones add
+``carried``            losses where no steady state is found: of quasi-static balls under the loads across
 ``frozen``             cage speed, friction and heats, found at the steady state and frozen
 ``linearised``         derivatives of the rings' accelerations, and their static equilibrium
 ``publish``            from the rings' own state to the one that outputs and sound read

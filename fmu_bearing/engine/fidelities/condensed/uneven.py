@@ -5,7 +5,7 @@ heat and orbit speed belong to the whole steady state (``steady.point``), with b
 axis make uneven or a cage that whirls. That takes some ten times as long to find: it is renewed when the
 speed or a load has moved by 5 %, and in between what it adds goes with the losses of the even balls. The
 search goes in pieces, one per millisecond that is simulated, and takes some 10 to 30 of them. A cage takes
-longer to find its whirl.
+longer to find its whirl. Where it finds no steady state, losses are those of `condensed.carried`.
 """
 
 import math
@@ -23,6 +23,7 @@ from fmu_bearing.engine.steady.point import (
     SEARCHING,
     begin_search,
     losing_state,
+    needs_carrying,
     search,
     state_at,
 )
@@ -168,7 +169,7 @@ def uneven_out_of_date(lv, c, speed):
             return False
         lv[L.SEARCH_STATE] = L.IDLE
         lv[L.SEARCH_BEFORE] = -1.0
-    return lv[L.MORE_KNOWN] == 0.0 or away(lv, c, speed, L.MORE_SPEED, L.MORE_CONDITIONS, 1.0)
+    return lv[L.MORE_KNOWN] == L.UNKNOWN or away(lv, c, speed, L.MORE_SPEED, L.MORE_CONDITIONS, 1.0)
 
 
 @kernel
@@ -230,7 +231,9 @@ def go_on_uneven(p, s, w):
         keep_pieces(w, lv, False)
         return
     lv[L.SEARCH_STATE] = L.ENDED
-    lv[L.MORE_KNOWN] = 1.0
+    lv[L.MORE_KNOWN] = L.FOUND
+    if needs_carrying(p, c, first, int(lv[L.SEARCH_FIXED]), outcome):
+        lv[L.MORE_KNOWN] = L.CARRIED
     lv[L.MORE_TOTAL] = lv[L.SEARCH_TOTAL]
     lv[L.MORE_SPEED] = lv[L.SEARCH_SPEED]
     c[C.NEUTRAL_Y] = 0.0

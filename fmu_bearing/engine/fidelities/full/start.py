@@ -42,8 +42,15 @@ from fmu_bearing.engine.statics.place import (
 from fmu_bearing.engine.statics.rigid_preload import cold_place
 from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
+from fmu_bearing.engine.steady.carried import carry_balls
 from fmu_bearing.engine.steady.even import BOTH, NONE
-from fmu_bearing.engine.steady.point import NOT_FOUND, move_to_steady, settle_perfect
+from fmu_bearing.engine.steady.point import (
+    CARRIED,
+    NOT_FOUND,
+    move_to_steady,
+    needs_carrying,
+    settle_perfect,
+)
 
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 
@@ -64,19 +71,23 @@ def become_steady(p, c, y, first, before, fixed, s, w, speed):
 
     ``first``: the quasi-static state of the perfect bearing with its rings where they rest under steady
     forces, ``before``: under quasi-static ones; ``fixed``: see `steady.even`. Where no steady state is near,
-    orbit and spins alone are balanced.
+    orbit and spins alone are balanced, under loads across the axis with balls that the cage carries.
     """
     jac = s[S.JAC : S.CONDENSED]
     settled = NOT_FOUND
     # fidelities rings and response find theirs with what they hold
     if p[P.FIDELITY] == FULL:
         settled = settle_perfect(p, c, first, speed, fixed, w, jac)
-    s[S.SETTLED] = settled
+        if speed != 0.0 and needs_carrying(p, c, first, fixed, settled):
+            settled = CARRIED
     for i in range(Y.SIZE):
         y[i] -= before[i]
     move_to_steady(p, first, settled, w)
     for i in range(Y.SIZE):
         y[i] += first[i]
+    if settled == CARRIED and not carry_balls(p, c, y, speed, w, jac):
+        settled = NOT_FOUND
+    s[S.SETTLED] = settled
     if settled == NOT_FOUND:
         balance_spins(p, c, y, 0.0, speed, w, jac)
         if p[P.CAGE] != 0.0:

@@ -5,6 +5,7 @@ Arguments: see `spindle.members`.
 
 import math
 
+from fmu_bearing.engine.fidelities.condensed.carried import freeze_carried
 from fmu_bearing.engine.fidelities.condensed.frozen import (
     apply_rigid_preload,
     deviation,
@@ -179,6 +180,10 @@ def freeze_point(p, u, b, at_once, s, w):
             neutral_aside(p, b, lv[L.SEARCH_CONDITIONS : L.SEARCH_CONDITIONS + C.SIZE], w)
         c[C.LOAD_Y], c[C.LOAD_Z] = given[U.LOAD_Y], given[U.LOAD_Z]
         freeze_uneven(pb, speed, at_once, sb, wb)
+        if lv[L.MORE_KNOWN] == L.CARRIED:
+            carried_state = wb[W.PATTERN + PT.FIRST_STATE : W.PATTERN + PT.EVEN_STATE]
+            place_at_rest(p, b, turning, carried_state, s, w)
+            freeze_carried(pb, c, carried_state, speed, turning, sb, wb)
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.FROZEN_OFFSET] = own[bearing_at + SP.OFFSET_COLD] + offset_change(p, u, b)
     c[C.PRELOAD] = given[U.PRELOAD]

@@ -21,7 +21,6 @@ Subject = Literal[
     "changes",
     "channels",
     "comparison",
-    "diagram",
     "error motion",
     "fidelities",
     "fits",
@@ -288,12 +287,6 @@ EXCLUSIONS = (
         "it is the eccentricity of all that turns, which belongs to the model that owns the shaft",
         "leave the key out and give the unbalance to that model",
         _unbalance,
-    ),
-    Exclusion(
-        _DIFFERING,
-        {"diagram": "a Campbell diagram"},
-        "its lines are the frequencies of one bearing, and those of its bearings differ",
-        "read the modes at the speeds in question (`modes`), and the lines of a recording",
     ),
     Exclusion(
         _DIFFERING,

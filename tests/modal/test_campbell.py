@@ -126,7 +126,7 @@ def straight(gate, own, meets, damping=0.02, amplitude=1e-8):
         for order in range(len(meets))
     ]
     found = [
-        Line(f"line {order}", "inner race", 12, order, "forward", 1e3 * rpm / speed, amplitude)
+        Line(f"line {order}", "inner race", 12, order, "forward", 1e3 * rpm / speed, amplitude, 12)
         for order, speed in enumerate(meets)
     ]
     scene = gate("7003C-spindle").replace({"operation.speed_rpm": own})

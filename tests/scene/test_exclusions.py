@@ -109,7 +109,6 @@ DOORS = (
     (read_scene(PORT), pair(), {
         "unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}},
     }),
-    (DIFFERING, pair(), {"diagram": lambda scene, folder: campbell(scene, [5e3, 1e4, 2e4])}),
     (DIFFERING, pair(), {
         "changes": lambda scene, folder: changes(scene),
         "tradeoff": lambda scene, folder: tradeoff(scene),

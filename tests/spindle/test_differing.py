@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 import pytest
 
-from fmu_bearing import modes, operating_point, read_scene, record, report, simulate, statics
+from fmu_bearing import campbell, modes, operating_point, read_scene, record, report, simulate, statics
 from fmu_bearing.engine.layout import SP, F, P, U
 from fmu_bearing.engine.status import BAD_INPUT
 from fmu_bearing.instance import Instance
@@ -320,11 +320,29 @@ def test_a_report_draws_each_in_its_own_size():
     assert places[2] - 141.0 < 47.0 - places[1]
 
 
+def test_a_campbell_diagram_names_the_bearing_of_a_line():
+    """The pair at the nose has 12 balls, the bearing behind 11; the unbalance is one of all."""
+    given = read_scene(MOTOR)
+    found = campbell(given, [20e3, 24e3, 28e3], highest=5e3)
+    names = [line.name for line in found.lines]
+    assert names.count("f_r") == 1 and not any(name.startswith("f_r of") for name in names)
+    lines = {line.name: line for line in found.lines}
+    first, _, third = (one.frequencies for one in operating_point(given).bearings)
+    # at 24,000 r/min, the second speed; the pair's two bearings turn alike within 0.03 %
+    assert lines["f_o of bearing 3"].frequency[1] == pytest.approx(third.f_o, rel=1e-4)
+    assert lines["f_o of bearings 1, 2"].frequency[1] == pytest.approx(first.f_o, rel=1e-3)
+    # waves of a race move a ring by the order by which theirs differs from the number of balls
+    for name, balls in (("f_o of bearing 3", 11), ("f_o of bearings 1, 2", 12)):
+        same = [line for line in found.lines if line.name == name]
+        assert {abs(line.surface_order - balls) - line.order for line in same} == {0}
+    assert found.rates.f_o[1] == pytest.approx(first.f_o, rel=1e-3)
+
+
 @pytest.mark.heavy
 def test_a_report_of_bearings_that_differ(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         made = report(read_scene(MOTOR).replace({"fidelity.model": "response"}), tmp_path / "a.html")
     page = made.read_text("utf-8")
-    for words in ("2 x 7003C + 1 x NSK-7002C", "of bearing 3", "No Campbell diagram", "15 x 32 x 9 mm"):
+    for words in ("2 x 7003C + 1 x NSK-7002C", "of bearing 3", "Campbell diagram", "15 x 32 x 9 mm"):
         assert words in page, words

@@ -95,7 +95,8 @@ class Diagram(Result):
     lines: tuple[Line, ...]
     """Excitations of their orders."""
     rates: Rates
-    """Kinematic frequencies by the states, not by the nominal contact angle."""
+    """Kinematic frequencies by the states, not by the nominal contact angle; of bearings that differ those of
+    the first."""
     highest: float
     """Hz: what lies above is left out."""
     skipped: tuple[tuple[float, str], ...] = ()

@@ -125,17 +125,13 @@ def counted(campbell: Diagram) -> list[Crossing]:
     """
     if campbell.scene.imperfections is not None:
         return campbell.crossings(in_scene=True)
-    return [
-        crossing
-        for crossing in campbell.crossings()
-        if _is_low(crossing.line, campbell.scene.bearing.ball_count)
-    ]
+    return [crossing for crossing in campbell.crossings() if _is_low(crossing.line)]
 
 
-def _is_low(line: Line, balls: int) -> bool:
+def _is_low(line: Line) -> bool:
     if line.source == "ball form":
         return line.surface_order <= 2
-    return line.surface_order <= _PLAIN * balls + line.order
+    return line.surface_order <= _PLAIN * line.balls + line.order
 
 
 def drawn_lines(crossings: list[Crossing]) -> "dict[str, tuple[Line, float]]":

@@ -51,6 +51,8 @@ class Line:
         Hz, at each speed.
     amplitude : float
         m, on the surface of the scene, behind the contact filter; 0: the scene does not contain it.
+    balls : int
+        How many balls the bearing has that makes it.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Line:
     direction: str
     frequency: NDArray[np.float64]
     amplitude: float
+    balls: int
 
     @property
     def present(self) -> bool:
@@ -86,6 +89,24 @@ def unbalance(scene: Scene) -> float:
     return own + amount / (shaft + sum(inner_ring(bearing.scene).mass for bearing in scene.bearings()))
 
 
+def kinds(scene: Scene) -> dict[str, list[int]]:
+    """Return the bearings, from 0, of each kind by its words; equal bearings, or one, are under ""."""
+    each = list(zip(scene.geometries, scene.materials_of_each, strict=True))
+    found: list[list[int]] = []
+    for number, one in enumerate(each):
+        same = next((numbers for numbers in found if each[numbers[0]] == one), None)
+        if same is None:
+            found.append([number])
+        else:
+            same.append(number)
+    if len(found) == 1:
+        return {"": found[0]}
+    return {
+        f"bearing{'s' * (len(numbers) > 1)} {', '.join(str(number + 1) for number in numbers)}": numbers
+        for numbers in found
+    }
+
+
 def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: float = 0.0) -> list[Line]:
     """Return all lines that can move waves of the ``orders`` below ``highest`` (Hz) at some speed.
 
@@ -98,14 +119,14 @@ def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: 
 
 def _shaft_and_sizes(scene: Scene, at: Rates, orders: set[int], eccentric: float) -> Iterator[Line]:
     if 1 in orders:
-        yield Line("f_r", "unbalance", 0, 1, FORWARD, at.f_r, eccentric)
+        yield Line("f_r", "unbalance", 0, 1, FORWARD, at.f_r, eccentric, scene.bearing.ball_count)
     sizes = ball_oversizes(scene)
     count = sizes.size
     spectrum = np.abs(np.fft.rfft(0.5 * sizes)) / count
     for n in sorted(orders - {0}):
         if n <= count // 2:
             amplitude = float(spectrum[n]) * (1.0 if 2 * n == count else 2.0)
-            yield Line(_times(n, "f_c"), "ball sizes", 0, n, FORWARD, n * at.f_c, amplitude)
+            yield Line(_times(n, "f_c"), "ball sizes", 0, n, FORWARD, n * at.f_c, amplitude, count)
 
 
 def _races(scene: Scene, at: Rates, orders: set[int], highest: float) -> Iterator[Line]:
@@ -122,14 +143,17 @@ def _races(scene: Scene, at: Rates, orders: set[int], highest: float) -> Iterato
                 name = _times(m, "f_i") + (f" {_SIGNS[direction]} {_times(n, 'f_r')}" if n else "")
                 # below zero it turns the other way; orders of a bearing stay above
                 if order > 0 and frequency.min() > 0.0:
-                    yield Line(name, "inner race", order, n, direction, frequency, inner.get(order, 0.0))
+                    amplitude = inner.get(order, 0.0)
+                    yield Line(name, "inner race", order, n, direction, frequency, amplitude, balls)
     for m in range(1, _most(at.f_o, highest) + 1):
         for n in sorted(orders):
             for direction, sign in ((FORWARD, -1), (BACKWARD, 1)) if n else ((NEITHER, 0),):
                 order = m * balls + sign * n
                 if order > 0:
                     amplitude = outer.get(order, 0.0)
-                    yield Line(_times(m, "f_o"), "outer race", order, n, direction, m * at.f_o, amplitude)
+                    yield Line(
+                        _times(m, "f_o"), "outer race", order, n, direction, m * at.f_o, amplitude, balls
+                    )
 
 
 def _ball_form(scene: Scene, at: Rates, orders: set[int], highest: float) -> Iterator[Line]:
@@ -145,7 +169,7 @@ def _ball_form(scene: Scene, at: Rates, orders: set[int], highest: float) -> Ite
                 frequency = q * at.f_b + sign * n * at.f_c
                 name = _times(q, "f_b") + (f" {_SIGNS[direction]} {_times(n, 'f_c')}" if n else "")
                 if frequency.min() > 0.0:
-                    yield Line(name, "ball form", q, n, direction, frequency, amplitude)
+                    yield Line(name, "ball form", q, n, direction, frequency, amplitude, balls)
 
 
 def _most(frequency: NDArray[np.float64], highest: float) -> int:

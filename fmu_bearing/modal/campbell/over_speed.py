@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,8 @@ from scipy.optimize import linear_sum_assignment
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.diagram import Branch, Diagram, is_of_rings
 from fmu_bearing.modal.campbell.diagram_picture import campbell_picture
-from fmu_bearing.modal.campbell.excitation_lines import lines, rates, unbalance
+from fmu_bearing.modal.campbell.excitation_lines import Line, Rates, kinds, lines, rates, unbalance
+from fmu_bearing.modal.equations.linearised import Linearised
 from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.points import at_point, given
@@ -89,7 +91,6 @@ def campbell(
     """
     scene = scene_of(scene)
     require(scene, "modes")
-    require(scene, "diagram")
     chosen = _speeds(scene, speeds)
     if inputs and "shaft_speed" in inputs:
         raise ValueError("shaft_speed is not an input of a Campbell diagram: give speeds, in r/min")
@@ -110,14 +111,34 @@ def campbell(
             + (skipped[0][1] if skipped else "give other speeds")
         )
     systems = [point.linearised for point in points]
-    at = rates(
-        np.array([system.speed for system in systems]), np.array([system.orbit for system in systems]),
-        np.array([system.spin for system in systems]), scene.bearing.ball_count,
-    )  # fmt: skip
     branches = _branches(points, highest)
     orders = {branch.order for branch in branches}
-    excitations = lines(scene.bearings()[0].scene, at, orders, highest, unbalance(scene))
-    return Campbell(scene, tuple(points), tuple(branches), tuple(excitations), at, highest, tuple(skipped))
+    excitations: list[Line] = []
+    every = {words: _rates(systems, numbers, scene) for words, numbers in kinds(scene).items()}
+    for (words, numbers), at in zip(kinds(scene).items(), every.values(), strict=True):
+        found = lines(scene.bearings()[numbers[0]].scene, at, orders, highest, unbalance(scene))
+        if words:  # the unbalance is one of all
+            found = [
+                one if one.name == "f_r" else replace(one, name=f"{one.name} of {words}")
+                for one in found
+                if one.name != "f_r" or not excitations
+            ]
+        excitations += found
+    return Campbell(
+        scene, tuple(points), tuple(branches), tuple(excitations), next(iter(every.values())), highest,
+        tuple(skipped),
+    )  # fmt: skip
+
+
+def _rates(systems: Sequence[Linearised], numbers: Sequence[int], scene: Scene) -> Rates:
+    """Return the frequencies of bearings, from 0, of one kind: the mean of them."""
+    own = list(numbers)
+    return rates(
+        np.array([system.speed for system in systems]),
+        np.array([float(system.orbits[own].mean()) for system in systems]),
+        np.array([float(system.spins[own].mean()) for system in systems]),
+        scene.geometries[own[0]].ball_count,
+    )
 
 
 def _speeds(scene: Scene, speeds: Sequence[float] | None) -> list[float]:

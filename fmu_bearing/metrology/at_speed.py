@@ -35,9 +35,12 @@ _NAMED = 4  # lines that a remark names
 _SMALL = 0.02  # of the largest line: smaller ones are not named
 _NOTHING = 1e-13  # m: what a scene without imperfections has from rounding
 _LISTED = 12  # lines that a summary has
-_FIGURES = (
-    "asynchronous", "synchronous", "synchronous_by_line", "fundamental", "residual", "residual_by_line",
-)  # fmt: skip
+#: Figures of a direction, with their heads in tables.
+_FIGURES = {
+    "asynchronous": "asynchronous", "synchronous": "synchronous, averaged",
+    "synchronous_by_line": "synchronous, by line", "fundamental": "fundamental, by line", "residual": None,
+    "residual_by_line": "residual, by line",
+}  # fmt: skip
 _TILT = Quantity("tilt [rad]", "tilt, urad", digits, 1e6)
 
 
@@ -45,7 +48,11 @@ _TILT = Quantity("tilt [rad]", "tilt, urad", digits, 1e6)
 class Values(Result):
     """Error motion in one direction (m, of tilts rad)."""
 
-    quantities = "direction", *(f"{name} [m, of tilts rad]" for name in _FIGURES)
+    quantities = (
+        Quantity("direction", "direction"),
+        Quantity("", "unit", of=lambda one: DIRECTIONS[one.direction][0]),
+        *(Quantity(f"{name} [m, of tilts rad]", head, ".4f", 1e6) for name, head in _FIGURES.items()),
+    )
 
     direction: str
     """One of `DIRECTIONS`."""

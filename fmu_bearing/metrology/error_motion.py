@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from fmu_bearing.files import check_folder
 from fmu_bearing.instance import number
-from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, MotionLine, Part
+from fmu_bearing.metrology.at_speed import DIRECTIONS, AtSpeed, MotionLine, Part, Values
 from fmu_bearing.metrology.nose import FEWEST, MOST, nose_of_run
 from fmu_bearing.modal.campbell.doubts import doubt
 from fmu_bearing.modal.modes.points import given
@@ -69,22 +69,13 @@ class ErrorMotion(Result):
     """Why values of fidelities rings and response are in doubt; "" where they are not."""
 
     def table(self) -> Table:
-        """Columns and rows of a table: each direction at each speed; a dash where there is no such value."""
-        columns = [
-            "r/min", "turns", "direction", "unit", "asynchronous", "synchronous, averaged",
-            "synchronous, by line", "fundamental, by line", "residual, by line",
-        ]  # fmt: skip
-        rows = []
-        for speed in self.speeds:
-            for found in speed.values:
-                unit, factor = DIRECTIONS[found.direction]
-                figures = (
-                    found.asynchronous, found.synchronous, found.synchronous_by_line, found.fundamental,
-                    found.residual_by_line,
-                )  # fmt: skip
-                shown = ["-" if math.isnan(value) else f"{factor * value:.4f}" for value in figures]
-                rows.append([f"{speed.rpm:g}", f"{speed.revolutions}", found.direction, unit, *shown])
-        return columns, rows
+        """Columns and rows of a table: each direction at each speed; empty where there is no such value."""
+        rows = [
+            [f"{speed.rpm:g}", f"{speed.revolutions}", *row]
+            for speed in self.speeds
+            for row in table(Values, speed.values)[1]
+        ]
+        return ["r/min", "turns", *table(Values, ())[0]], rows
 
     def lines(self, count: int = _LINES) -> Table:
         """Columns and rows of the largest radial lines at each speed: order, amplitudes, source, bearing."""

@@ -60,8 +60,13 @@ class Estimate(NamedTuple):
     """A value for a key of ``[bearing]`` or ``[bearing.cage]``, and the rule it comes from."""
 
     key: str
-    value: float | int
+    value: float | int | str
     rule: str
+
+    @property
+    def text(self) -> str:
+        """The value as TOML."""
+        return f'"{self.value}"' if isinstance(self.value, str) else str(self.value)
 
 
 class Balls(NamedTuple):
@@ -241,6 +246,7 @@ def cage_estimates(
     inner, rule = round(pitch - 0.55 * ball, 2), "0.55 ball diameters below pitch"
     if number and (least := _least_cage_bore(ball, number)) > inner:
         inner, rule = round(least, 2), f"{number} pockets leave bridges there, of 3 % of a pocket"
+    yield Estimate("guidance", "inner", "makers guide many machined cages on the outer ring: see the print")
     yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")
     yield Estimate("bore_mm", inner, rule)
     yield Estimate("width_mm", round(0.9 * width, 2), "0.9 of the rings' width")

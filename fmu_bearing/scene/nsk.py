@@ -124,7 +124,7 @@ def entry_text(size: Size) -> str:
 
 
 def _line(one: Estimate) -> str:
-    return f"{one.key} = {one.value} # assumed" + (f": {one.rule}" if one.rule else "")
+    return f"{one.key} = {one.text} # assumed" + (f": {one.rule}" if one.rule else "")
 
 
 def _known(size: Size) -> Iterator[Estimate]:
@@ -164,6 +164,7 @@ def _land_of_mass(size: Size, mass: float) -> float:
     cage = {
         estimate.key: float(estimate.value)
         for estimate in cage_estimates(size.bore, size.outside, size.width, size.ball)
+        if not isinstance(estimate.value, str)
     }
     inside, outside = cage["bore_mm"], cage["outside_diameter_mm"]
     pockets = size.balls * math.pi / 4.0 * cage["pocket_diameter_mm"] ** 2 * (outside - inside) / 2.0

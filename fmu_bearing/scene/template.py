@@ -314,7 +314,7 @@ def _lines(
             return angle
         return _remark(one.rule) or " # assumed"
 
-    return "\n".join(f"{one.key} = {fitted.get(one.key, f'{one.value}{remark(one)}')}" for one in found)
+    return "\n".join(f"{one.key} = {fitted.get(one.key, f'{one.text}{remark(one)}')}" for one in found)
 
 
 #: Behind the name of a catalogue entry: whether it is a maker's size.

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fmu_bearing import new_scene, operating_point
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import PT, C, P, Q, S, U, W, Y
 from fmu_bearing.engine.steady.point import REST, WHIRL
@@ -158,3 +159,18 @@ def test_a_ribbon_cage_on_its_balls_leads_by_its_clearance_alone():
     found = slip("balls", 6.847)
     assert abs(found) < 0.005
     assert slip("inner", 6.847, "land_clearance_mm = 0.2") < 2.0 * found < 0.0
+
+
+@pytest.mark.parametrize(
+    ("guidance", "heat", "of_cage"), [("inner", 378, 104), ("outer", 368, 94), ("balls", 273, 0)]
+)
+def test_heat_of_a_new_pair(guidance, heat, of_cage):
+    """Watts per bearing, as docs/catalogue.md has them."""
+    text = new_scene("pair", "NSK-7010C", arrangement="DB", speed_rpm=18e3, sound=False)
+    changes = {"bearing.cage.guidance": guidance}
+    if guidance == "balls":
+        changes["bearing.cage.land_clearance_mm"] = None
+    for one in operating_point(read_scene_text(text, "pair").replace(changes)).bearings:
+        found = one.heat
+        total = found.sliding + found.rolling + found.cage + found.drag
+        assert (round(total), round(found.cage)) == (heat, of_cage)

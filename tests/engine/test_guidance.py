@@ -41,9 +41,12 @@ def test_momentum(scene, guidance, cage_offset):
 
 
 @pytest.mark.parametrize(("guidance", "cage_offset"), KINDS)
-@pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-4, 4e-8)])
+@pytest.mark.parametrize(("tilt", "gate"), [(0.0, 1e-12), (1e-4, 2e-7)])
 def test_power_balance(scene, guidance, cage_offset, tilt, gate):
-    """Work less heat is the rate of the stored energy; small tilts leave a rest, as on the inner ring."""
+    """Work less heat is the rate of the stored energy.
+
+    Small tilts leave a rest by their square times the forces of pockets and lands, 1e-7 of the work here.
+    """
     one = state(scene, guidance, cage_offset=cage_offset, tilt=tilt)
     found = one.engine()
     stored = oracle.power_stored(one.setup, one.state, found.balls, found.bodies)

@@ -283,7 +283,8 @@ def _cautions_of_set(scene: Scene) -> tuple[Caution, ...]:
     ]  # fmt: skip
     for bearing in bearings:
         own_fits = *_fits(bearing.scene, "spindle.fit"), *_tight(bearing.scene)
-        for one in (_UNLOADED, *_SHOULDERS, *own_fits):
+        unloaded = _IDLE if bearing.scene.bearing.is_deep_groove else _UNLOADED
+        for one in (unloaded, *_SHOULDERS, *own_fits):
             place = first_output(scene, bearing.number - 1) + one.index
             warnings.append(replace(one, index=place, before=f"bearing {bearing.number}: {one.before}"))
     if len({bearing.sign for bearing in bearings}) == 1 and not scene.bearing.is_deep_groove:

@@ -116,16 +116,17 @@ def test_details_of_contacts_cage_and_torque(scene):
 def test_every_output_of_the_engine_has_its_variable(scene):
     spindle = scene("7003C-spindle")
     of_fits = {name for name in Z.BEARING_OUTPUTS if name.startswith("fit.") or name == "contact.free_angle"}
-    of_seals = {"friction_torque_share.seals"}
-    assert set(Z.BEARING_OUTPUTS) - set(table(spindle)) == of_fits | of_seals
+    own = {"clearance", "friction_torque_share.seals"}  # of deep groove bearings, of sealed ones
+    assert set(Z.BEARING_OUTPUTS) - set(table(spindle)) == of_fits | own
     fit = {"shaft": {"interference_um": 2.0}, "housing": {"interference_um": -4.0}}
     fitted = spindle.replace({"mounting.fit": fit, "mounting.fit.housing.outside_diameter_mm": 60.0})
-    fitted = fitted.replace({"bearing.seal.kind": "RS1"})
-    assert set(Z.BEARING_OUTPUTS) <= set(table(fitted))
+    assert set(Z.BEARING_OUTPUTS) - set(table(fitted)) == own
+    deep = fitted.replace({"bearing.catalogue": "6203"}).replace({"bearing.seal.kind": "RS1"})
+    assert set(Z.BEARING_OUTPUTS) <= set(table(deep))
     bare = scene("7003C-bare")
     caged = {name for name in Z.BEARING_OUTPUTS if name.split(".")[0] == "cage" or name.endswith(".cage")}
     names = set(table(bare.model_copy(update={"bearing": bare.bearing.model_copy(update={"cage": None})})))
-    assert set(Z.BEARING_OUTPUTS) - names == caged | of_fits | of_seals
+    assert set(Z.BEARING_OUTPUTS) - names == caged | of_fits | own
 
 
 def test_rigid_preload_says_what_the_input_means(scene):

@@ -30,6 +30,8 @@ def fit_rows(study: Fits, number: int) -> list[list[str]]:
     rows += _by_state(
         "free angle, deg", points, lambda one: one.free_angles, lambda x: f"{math.degrees(x):.1f}"
     )
+    if points[0].clearances:
+        rows += _by_state("clearance, um", points, lambda one: one.clearances, lambda x: f"{_MICRO * x:.1f}")
     rows += _by_state("preload, N", points, lambda one: one.preloads, lambda x: f"{x:.0f}")
     for key in _WORDS:
         if any(key in point.gaps for point in points):
@@ -136,6 +138,8 @@ def state_rows(point: FitPoint) -> list[list[str]]:
                 ["inner ring, chance of breaking", "", *(f"{one:.0e}" for one in seat.breaking.values())]
             )
     rows.append(["free contact angle, deg", *(f"{math.degrees(a):.1f}" for a in point.free_angles.values())])
+    if point.clearances:
+        rows.append(["radial clearance, um", *(f"{_MICRO * left:.1f}" for left in point.clearances.values())])
     if point.preloads:
         known = [point.preloads.get(key) for key in _WORDS]
         rows.append(["preload, N", *("" if force is None else f"{force:.0f}" for force in known)])

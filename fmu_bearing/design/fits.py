@@ -90,7 +90,8 @@ class FitPoint(Result):
 
     quantities = (
         "bearing [1] = number", "seats", "free_angle_rad = free_angles", "preload_N = preloads",
-        "gap_m = gaps", "axial_load_N = point.axial",
+        "gap_m = gaps", Quantity("clearance_m", of=lambda one: one.clearances or None),
+        "axial_load_N = point.axial",
         Quantity("contact_angle_rad", of=lambda one: one.point.at_races("angle_mean")),
         Quantity("pressure_max_Pa", of=lambda one: one.point.at_races("pressure_max")),
         "axial_stiffness_N_m", "radial_stiffness_N_m", "life_h = point.life",
@@ -113,6 +114,15 @@ class FitPoint(Result):
     together: Mounted
     """In closed form, with each seat's own interference of the column, and with those of the operating point;
     they differ in probable columns of two seats."""
+
+    @property
+    def clearances(self) -> dict[str, float]:
+        """Radial clearance (m) of a deep groove bearing by the states of `free_angles`; empty of others."""
+        bearing, seated = self.together.scene.bearing, self.together
+        if not bearing.is_deep_groove:
+            return {}
+        left = {key: seated.clearance(share * seated.speed, warm) for key, (share, warm) in STATES.items()}
+        return {"drawing": bearing.radial_clearance} | left
 
     @property
     def axial_stiffness(self) -> float:

@@ -259,7 +259,7 @@ def _warn_of_loose(player: "FmuPlayer | _Library", start_values: Mapping[str, fl
     scene = player.scene
     if scene is None or scene.mounting is None or "preload" not in player.inputs:
         return
-    if scene.fidelity.model == "auto":
+    if scene.fidelity.model == "auto" or scene.bearing.is_deep_groove:
         return
     if by_name(start_values).get("preload", player.inputs["preload"].start) == 0.0:
         warnings.warn(loose(scene.fidelity.model), stacklevel=3)

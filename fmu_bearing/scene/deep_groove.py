@@ -25,8 +25,6 @@ NORMAL = "CN"
 _GROOVES = (0.52, 0.53)
 #: Ball diameters off pitch: inner shoulders that SKF prints of 60, 62 and 63, from memory of six.
 _LAND = 0.6
-#: What a pressed cage has beside the values of a machined one: its guidance by the balls belongs here.
-_OF_PRESSED_CAGE: tuple[Estimate, ...] = ()
 
 
 class Size(NamedTuple):
@@ -86,12 +84,12 @@ def entry_text(size: Size) -> str:
         if one.key != "contact_angle_deg"
     ]
     lines += ["", f"[{size.name}.cage]"]
-    lines += [_line(one) for one in (*cage_estimates(*dimensions, size.ball, size.balls), *_OF_PRESSED_CAGE)]
+    lines += [_line(one) for one in cage_estimates(*dimensions, size.ball, size.balls, pressed=True)]
     return "\n".join(lines) + "\n"
 
 
 def _line(one: Estimate) -> str:
-    return f"{one.key} = {one.value} # assumed" + (f": {one.rule}" if one.rule else "")
+    return f"{one.key} = {one.text} # assumed" + (f": {one.rule}" if one.rule else "")
 
 
 def _known(size: Size) -> Iterator[Estimate]:

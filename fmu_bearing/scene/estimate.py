@@ -235,23 +235,28 @@ def _least_cage_bore(ball: float, number: int) -> float:
 
 
 def cage_estimates(
-    bore: float, outside: float, width: float, ball: float, number: int = 0
-) -> Iterator[Estimate]:  # fmt: skip
+    bore: float, outside: float, width: float, ball: float, number: int = 0, pressed: bool = False
+) -> Iterator[Estimate]:
     """Yield the values of ``[bearing.cage]`` for these dimensions and balls of a diameter (mm).
 
     ``number`` of balls: many balls leave room between the pockets at a larger bore alone; 0: not regarded.
+    ``pressed``: of a ribbon, which has no lands, else machined.
     """
     pitch = 0.5 * (bore + outside)
     pocket = _pocket(ball)
     inner, rule = round(pitch - 0.55 * ball, 2), "0.55 ball diameters below pitch"
     if number and (least := _least_cage_bore(ball, number)) > inner:
         inner, rule = round(least, 2), f"{number} pockets leave bridges there, of 3 % of a pocket"
-    yield Estimate("guidance", "inner", "makers guide many machined cages on the outer ring: see the print")
+    if pressed:
+        yield Estimate("guidance", "balls", "a pressed cage")
+    else:
+        guided = "makers guide many machined cages on the outer ring: see the print"
+        yield Estimate("guidance", "inner", guided)
+        yield Estimate("land_clearance_mm", round(0.025 + 0.001 * bore, 3), "25 um and 1 um per mm of bore")
     yield Estimate("outside_diameter_mm", round(pitch + 0.38 * ball, 2), "0.38 ball diameters above pitch")
     yield Estimate("bore_mm", inner, rule)
     yield Estimate("width_mm", round(0.9 * width, 2), "0.9 of the rings' width")
     yield Estimate("pocket_diameter_mm", pocket, "2 % larger than a ball")
-    yield Estimate("land_clearance_mm", round(0.025 + 0.001 * bore, 3), "25 um and 1 um per mm of bore")
     yield Estimate("mass_eccentricity_um", 5.0, "")
     yield Estimate("pocket_damping_N_s_m", 0.02, "")
     yield Estimate("pocket_friction", 0.05, "")

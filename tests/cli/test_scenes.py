@@ -233,7 +233,7 @@ def test_show_reports_where_values_come_from(run, tmp_path):
 def test_catalogue(run):
     assert "7009C" in run("scene", "catalogue").stdout
     rows = run("scene", "catalogue", "--json").data
-    assert len(rows) == 62 and rows["NSK-7003C"]["ball_count"] == 12
+    assert len(rows) == 95 and rows["NSK-7003C"]["ball_count"] == 12
     one = run("scene", "catalogue", "bearings", "NSK-7003C").stdout
     assert "ball_count = 12 # assumed: derived from C, C0 and f0" in one
     assert "# preload heavy: 150 N, pair 45 N/um" in one and "# C_N = 6600" in one
@@ -242,6 +242,8 @@ def test_catalogue(run):
     data = run("scene", "catalogue", "bearings", "NSK-7003AC", "--json").data
     assert data["values"]["contact_angle_deg"] == 25.0 and "f0" not in data["printed"]
     assert data["printed"]["preload"]["light"] == {"force_N": 49.0, "pair_stiffness_N_um": 52.0}
+    deep = run("scene", "catalogue", "bearings", "6205").stdout
+    assert 'kind = "deep-groove"' in deep and "# C_N = 14000" in deep and "# C0_N = 7850" in deep
     refused = run("scene", "catalogue", "bearings", "NSK-7003")
     assert refused.exit_code == 2 and "lists them" in refused.stderr
     assert run("scene", "catalogue", "materials", "--json").data["Si3N4"]["density_kg_m3"] == 3200.0
@@ -292,6 +294,21 @@ def own(tmp_path):
     scene.parent.mkdir()
     scene.write_text(new_scene("my", "NSK-7003C", sound=False).replace("NSK-7003C", "OWN"))
     return file, scene
+
+
+def test_new_writes_a_deep_groove_bearing(run, tmp_path):
+    path = tmp_path / "motor.toml"
+    made = run("scene", "new", path, "--bearing", "6205", "--clearance", "C3", "--radial-load", 500)
+    assert made.exit_code == 0 and "preload = 0" not in made.stdout + made.stderr
+    values = {one["key"]: one["value"] for one in run("scene", "show", path, "--json").data["values"]}
+    assert values["bearing.kind"] == "deep-groove" and values["bearing.clearance"] == "C3"
+    assert (values["mounting.radial_load_z_N"], values["mounting.preload_N"]) == (-500.0, 0.0)
+    for given, words in (
+        (("--bearing", "NSK-7008C", "--clearance", "C3"), "is of a deep groove bearing"),
+        (("--bearing", "6205-2RS"), "did you mean '6205'"),
+    ):
+        refused = run("scene", "new", tmp_path / "other.toml", *given)
+        assert refused.exit_code == 2 and words in refused.stderr
 
 
 def test_catalogue_suggests_the_nearest(run):

@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "7398c205dbcbed5c5ab1c72b096f31219527ddbf704fa5eef1bec5d98bdffd4a",
-    "7003C-impact": "4e66ef905c824ff77b31918846a35a8095f8fea173c869635fdea797dbe8f9a3",
-    "7003C-spindle": "5ea682f544c59f3cec4f90c3cb6812c4df74169d15a3ed2fb64869e6d4d4982d",
-    "7009C-full-ceramic": "8c0dc0172d6f15a5e42369f05a64356b4c277e75261b39dbc28dff2412cac58f",
-    "7009C-steel": "1f56badb445d3aae9febe27ef7af1d7d00bb2ffc54ade05e1bdcb9fd44a48d9d",
+    "7003C-bare": "bcf39056d238c22ade1904a6c27d43fbce229d49e2332f3d74d0d89e78748300",
+    "7003C-impact": "57f56d1b6873a25a25f51a303aee73530b9fe63c78cdb9a39207976ea3c67d59",
+    "7003C-spindle": "8e5055463fba521f568c641c7428df284a1737fd96068043ebf4e27448823303",
+    "7009C-full-ceramic": "eae27976ebb6f81bf6a17e7457796804f0baf21bf6b53a5bdffcbb6ca1769d05",
+    "7009C-steel": "52b7879bed029b037d351bb3194f8245340e6ae5b03d3c35ddf04e66ecf1e2d5",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

@@ -23,7 +23,8 @@ def limits_of(table: StiffnessTable) -> Iterator[str]:
             f"single phases of a ball pitch differ by up to {100.0 * largest:.1f} % from these means: the "
             "balls' loads are unequal, and a rotor sees stiffness that changes as they pass"
         )
-    if table.preloads[0] == 0.0 and not table.on_shaft:  # of a set the loads may hold them
+    held = table.on_shaft or table.scene.bearing.is_deep_groove  # by loads, it may be
+    if not held and table.preloads[0] == 0.0:
         yield "0 N: no preload holds balls and races together: K and C are of loose balls and mean little"
     slow = table.speeds[np.abs(table.speeds) / 60.0 < STICKING]
     if slow.size:

@@ -7,15 +7,16 @@ import re
 import pytest
 
 from fmu_bearing.design.fits import fits
+from fmu_bearing.design.fresh import new_scene
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import preload_classes
 from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.design.verdicts import GYROSCOPIC, HIGH_PRESSURE, verdicts
 from fmu_bearing.engine.constants import RPM
-from fmu_bearing.formulas import iso76, iso281, makers, seals
+from fmu_bearing.formulas import clearances, iso76, iso281, makers, seals
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.recording.record import record
-from fmu_bearing.scene import read_scene
+from fmu_bearing.scene import read_scene, read_scene_text
 from tests.conftest import EXAMPLES
 from tests.pages import DOCS, run_page
 
@@ -116,6 +117,53 @@ def sealed():
 def lip():
     """Diameter on which the lips rub, mm."""
     return sealed().scene.bearing.lip_diameter
+
+
+@functools.cache
+def motor_scene():
+    """The scene of the page on the bearing of a motor."""
+    made = new_scene("motor", "6205", clearance="C3", radial_load_N=500.0, speed_rpm=3000.0)
+    return read_scene_text(made).replace(
+        {
+            "lubricant.supply": "grease",
+            "lubricant.viscosity_Pa_s": 0.3,
+            "mounting.fit.shaft.interference_um": 10.0,
+        }
+    )
+
+
+@functools.cache
+def motor(kelvin=0.0, washer=200.0, group="C3", **keys):
+    """Its operating point with an inner ring so much warmer than the outer one."""
+    return operating_point(
+        motor_scene().replace(
+            {
+                "operation.inner_ring_temperature_degC": 60.0 + kelvin,
+                "operation.outer_ring_temperature_degC": 60.0,
+                "operation.oil_temperature_degC": 60.0 + kelvin / 2.0,
+                "mounting.preload_N": washer,
+                "bearing.clearance": group,
+            }
+            | {key.replace("__", "."): value for key, value in keys.items()}
+        )
+    )
+
+
+def largest(found):
+    return found.bearings[0].load.ball_loads[0].max()
+
+
+def left(found):
+    """Clearance at the operating point, um."""
+    (value,) = (one.value for one in verdicts(found) if one.key == "clearance")
+    return 1e6 * value
+
+
+@functools.cache
+def rubbed(kind):
+    """Steady temperatures of the motor's bearing with seals."""
+    scene = motor_scene().replace({"mounting.preload_N": 200.0, "bearing.seal.kind": kind})
+    return temperatures(scene, ambient=40.0, cooling=1.0)
 
 
 CERAMIC_ON_SHAFT = EXAMPLES.parent / "fits" / "7003C-ceramic.toml"
@@ -270,6 +318,22 @@ FIGURES = {
         "2.4 MPa off": lambda: 1e-6 * per_kelvin_of_the_shaft(),
         "320 N in the mean": lambda: pair(kelvin=60.0).preloads["running"],
         "458 N at most": lambda: pair("max", kelvin=60.0).preloads["running"],
+    },
+    "motor-bearing.md": {
+        "125 to 250 N": lambda: 5.0 * motor().scene.bearing.bore_mm,
+        "250 N.": lambda: 10.0 * motor().scene.bearing.bore_mm,
+        "253 N to": lambda: largest(motor(washer=0.0)),
+        "217 N.": lambda: largest(motor()),
+        "3.64 with": lambda: motor().bearings[0].viscosity_ratio,
+        "4.4 um: each": lambda: -left(motor(20.0, group="CN")),
+        "3.6 um. Each": lambda: left(motor(20.0)),
+        "7.5 um either": lambda: clearances.limits("C3", 25.0).high - clearances.limits("C3", 25.0).middle,
+        "3.9 um, so": lambda: -left(motor(20.0, bearing__radial_clearance_um=13.0, group=None)),
+        "9 K above": lambda: rubbed("RSH").places[1, "inner_ring"] - rubbed("RSH").places[1, "outer_ring"],
+        "3.6 um and": lambda: left(motor(20.0)),
+        "75998 h": lambda: motor(20.0).bearings[0].life,
+        "20.9 W in": lambda: rubbed("RSH").heats[0].seals,
+        "1.3 W.**": lambda: rubbed("RSL").heats[0].seals,
     },
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),

@@ -10,7 +10,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -260,6 +260,13 @@ def check_new_in(force: bool, folder: Path | None, *patterns: str) -> None:
     """Refuse to replace files of a folder that have names of results, unless ``--force`` is given."""
     if folder is not None and folder.is_dir():
         check_new(force, *sorted({path for pattern in patterns for path in folder.glob(pattern)}))
+
+
+def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print one table within the width of the terminal; see `results.table.show`."""
+    from fmu_bearing.results import table
+
+    table.show(title, columns, rows)
 
 
 def print_json(result: Any) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli import options
-from fmu_bearing.cli.base import Writing, app, check_new, check_new_in, end, print_json, refusals, tell
+from fmu_bearing.cli.base import Writing, app, check_new, check_new_in, end, print_json, refusals, show, tell
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_folder
 from fmu_bearing.progress import steps
@@ -44,7 +44,6 @@ def compare(
     """
     from fmu_bearing.recording.channels.microphone_places import named_places
     from fmu_bearing.recording.studies.compare import compare as compare_them
-    from fmu_bearing.results.table import show
     from fmu_bearing.scene import read_scene
 
     with refusals():

@@ -53,7 +53,6 @@ def error_motion(
     from fmu_bearing.files import check_folder
     from fmu_bearing.metrology.at_speed import DIRECTIONS
     from fmu_bearing.metrology.error_motion import FILES, error_motion as computed
-    from fmu_bearing.results.table import show
     from fmu_bearing.scene.read import read_scene, with_fidelity
 
     with base.refusals():
@@ -80,11 +79,11 @@ def error_motion(
         base.print_json(motion.summary() | {"files": files})
         return base.end(code, files)
     place = f"{motion.scene.name} at {at:g} mm, against the {motion.against}"
-    show(f"error motion, {place}", *motion.table())
-    show("largest lines, amplitudes", *motion.lines())
+    base.show(f"error motion, {place}", *motion.table())
+    base.show("largest lines, amplitudes", *motion.lines())
     if len(motion.speeds[0].nose.rates) > 1:
-        show("asynchronous width, lines of one bearing alone", *motion.per_bearing())
-    show("asynchronous width, lines of one source alone", *motion.per_source())
+        base.show("asynchronous width, lines of one bearing alone", *motion.per_bearing())
+    base.show("asynchronous width, lines of one source alone", *motion.per_source())
     for one in motion.speeds:
         typer.echo(
             f"{one.rpm:g} r/min: the lines hold {_PERCENT * one.explained:.0f} % of the energy of the "

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli import options
-from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals
+from fmu_bearing.cli.base import Writing, app, check_new, end, print_json, refusals, show
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
@@ -33,7 +33,7 @@ def fits(
     from fmu_bearing.design.fit_pictures import picture
     from fmu_bearing.design.fit_table import fit_rows, head, shown_tables
     from fmu_bearing.design.fits import fits as study
-    from fmu_bearing.results.table import show, write_csv
+    from fmu_bearing.results.table import write_csv
 
     with refusals():
         if output is not None:

@@ -119,7 +119,6 @@ def _write(
     from fmu_bearing.identification.files import misfit_words, write_all
     from fmu_bearing.identification.result import Compared, Estimate
     from fmu_bearing.results.base import table
-    from fmu_bearing.results.table import show
 
     refused = bool(result.doubts) and not anyway
     with base.Writing() as files:
@@ -133,8 +132,8 @@ def _write(
     if as_json:
         base.print_json(result.summary() | {"files": files})
     else:
-        show("Measured and computed levels", *table(Compared, result.compared))
-        show("Identified values", *table(Estimate, result.estimates))
+        base.show("Measured and computed levels", *table(Compared, result.compared))
+        base.show("Identified values", *table(Estimate, result.estimates))
         typer.echo(misfit_words(result))
         for remark in (*(() if refused else result.doubts), *result.remarks):
             typer.echo(f"* {remark}")

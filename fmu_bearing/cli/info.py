@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, app, print_json, refusals, tell
+from fmu_bearing.cli.base import Refusal, app, print_json, refusals, show, tell
 from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
 from fmu_bearing.cli.settings import at_speed, source_of
 from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words
@@ -115,8 +115,6 @@ def _warm(
 
 def _show_temperatures(warm: "Temperatures") -> None:
     """Print the steady temperatures and what they rest on."""
-    from fmu_bearing.results.table import show
-
     show(f"steady temperatures in {warm.ambient:g} degC", *warm.rows())
     show("what flows off, scaled from a 7003C", *warm.rules())
 
@@ -128,8 +126,6 @@ def _show_heading(text: str) -> None:
 
 def _show_bearing(point: "BearingPoint") -> None:
     """Print contacts, stiffness, frequencies and ratings of a single bearing."""
-    from fmu_bearing.results.table import show
-
     scene = point.scene
     mounting = scene.mounted
     _show_heading(
@@ -151,7 +147,6 @@ def _show_bearing(point: "BearingPoint") -> None:
 def _show_set(statics: "Statics") -> None:
     """Print what the bearings of a set carry, and how stiff they hold the shaft."""
     from fmu_bearing.results.base import table
-    from fmu_bearing.results.table import show
     from fmu_bearing.steady.statics import BearingLoad
 
     scene = statics.scene
@@ -177,7 +172,6 @@ def _seats(point: "OperatingPoint") -> "Column":
 def _show_fits(point: "OperatingPoint") -> None:
     """Print what the seats of each bearing do, from the drawing to speed."""
     from fmu_bearing.design.fit_table import STATE_COLUMNS, state_rows
-    from fmu_bearing.results.table import show
 
     for bearing in _seats(point).bearings:
         name = f", bearing {bearing.number}" if len(point.bearings) > 1 else ""
@@ -189,7 +183,6 @@ def _show_heat(point: "OperatingPoint") -> None:
     """Print the friction torque of each bearing and the heat it makes, with their ranges."""
     from fmu_bearing.design.heat import heat_table
     from fmu_bearing.design.torque_range import CAPTION
-    from fmu_bearing.results.table import show
 
     show("friction and heat: settled, no waviness", *heat_table(point.bearings, point.torque_range))
     show(CAPTION, *point.torque_range.table())
@@ -198,7 +191,6 @@ def _show_heat(point: "OperatingPoint") -> None:
 def _show_verdicts(judgements: "tuple[Verdict, ...]", bearings: int, scene: "Scene") -> None:
     """Print the verdicts: of several bearings side by side, what is not good marked, then on the whole."""
     from fmu_bearing.design.verdicts import shared_label, shared_limit, side_by_side
-    from fmu_bearing.results.table import show
 
     one_by_one = ("figure", "value", "verdict", "limit (source)")
     rows = [[one.label, one.text, one.judgement, f"{one.limit} ({one.source})"] for one in judgements]

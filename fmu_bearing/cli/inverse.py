@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fmu_bearing.cli.base import Refusal, Writing, check_new, end, print_json
+from fmu_bearing.cli.base import Refusal, Writing, check_new, end, print_json, show
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
@@ -79,7 +79,6 @@ def find(
     load: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a surface, print and write it."""
-    from fmu_bearing.results.table import show
     from fmu_bearing.scene.surface_file import write_surface
     from fmu_bearing.vibration_test.inverse import surface
     from fmu_bearing.vibration_test.inverse.measured import DEVIATION

@@ -47,7 +47,7 @@ def realtime(
     the speed is held; with --speed that speed is held, without a run-up. Nothing is left out: the first steps
     count as all others, so there is no --settle.
     """
-    from fmu_bearing.results.table import show, write_csv
+    from fmu_bearing.results.table import write_csv
     from fmu_bearing.run.realtime import realtime as time_it
     from fmu_bearing.run.step_times import SHORT
 
@@ -80,7 +80,9 @@ def realtime(
         base.print_json(found.summary() | {"files": files})
         return base.end(code, files)
     count = found.timed[0].cpu.size
-    show(f"{found.scene.name}: {count} steps of {1e3 * step:g} ms, us of the processor", *found.table(SHORT))
+    base.show(
+        f"{found.scene.name}: {count} steps of {1e3 * step:g} ms, us of the processor", *found.table(SHORT)
+    )
     typer.echo(found.machine)
     typer.echo(found.advice())
     for name, reason in found.left_out.items():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fmu_bearing.cli import base
 from fmu_bearing.cli.base import FOUND, Refusal, app, check_new, print_json, refusals, tell
 from fmu_bearing.cli.options import Catalogues, Force, Json, SceneFile
 from fmu_bearing.files import write_whole
@@ -289,7 +290,6 @@ def show(
 ) -> None:
     """Show every value of a scene with its unit, range and origin, and which values are assumed."""
     from fmu_bearing.extras import BENDING, available
-    from fmu_bearing.results.table import show as show_table
 
     with refusals():
         scene = read_scene(path)
@@ -300,7 +300,7 @@ def show(
         print_json({"scene": scene.name, "computed": sizes, "values": [asdict(one) for one in values]})
         return
     rows = [[one.key, _shown(one), one.allowed, one.origin, _remark(one)] for one in values]
-    show_table(scene.name, ("key", "value", "allowed", "from", "remark"), rows)
+    base.show(scene.name, ("key", "value", "allowed", "from", "remark"), rows)
     for name, value in sizes.items():
         typer.echo(f"{name:10} {value}")
 
@@ -334,17 +334,13 @@ def show_catalogue(
 
 def _show_entries(kind: str, known: Mapping[str, Entry]) -> None:
     """Print a column per entry."""
-    from fmu_bearing.results.table import show as show_table
-
     keys = list(dict.fromkeys(key for entry in known.values() for key in entry.values))
     rows = [[key, *(str(entry.values.get(key, "")) for entry in known.values())] for key in keys]
-    show_table(kind, ("key", *known), rows)
+    base.show(kind, ("key", *known), rows)
 
 
 def _show_bearings(known: Mapping[str, Entry]) -> None:
     """Print a row per bearing: what is printed of it, and its balls."""
-    from fmu_bearing.results.table import show as show_table
-
     keys = (
         "bore_mm",
         "outside_diameter_mm",
@@ -357,7 +353,7 @@ def _show_bearings(known: Mapping[str, Entry]) -> None:
         [name, *(f"{entry.values[key]:g}" if key in entry.values else "-" for key in keys)]
         for name, entry in known.items()
     ]
-    show_table("bearings", ("name", "d, mm", "D, mm", "B, mm", "angle", "balls", "ball, mm"), rows)
+    base.show("bearings", ("name", "d, mm", "D, mm", "B, mm", "angle", "balls", "ball, mm"), rows)
     tell(
         f"balls of {PREFIX}... and of deep groove bearings (-) are derived; one in full: `fmu-bearing scene "
         "catalogue bearings NAME`"

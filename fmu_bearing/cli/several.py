@@ -81,7 +81,6 @@ def several(
 
 def _report(indices: "GlobalSensitivity", picture: Path, output: Path, as_json: bool) -> base.Writing:
     """Write table and picture; print the table; return what was written."""
-    from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.index_picture import index_picture
 
     with base.Writing() as written:
@@ -99,7 +98,7 @@ def _report(indices: "GlobalSensitivity", picture: Path, output: Path, as_json: 
         title = f"{indices.layout.plan.scene.name}: what {name} rests on"
         if indices.layout.method == "morris":
             title += f", {unit}" if unit else ""
-        show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
+        base.show(title, columns[2:], [row[2:] for row in cells[at : at + size]])
     for line in (indices.conditions(), *indices.remarks()):
         typer.echo(textwrap.fill(line, 80))
     if written:

@@ -102,7 +102,6 @@ def sound(
     from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, spectra_picture, write_all
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.spread import doubt_of
-    from fmu_bearing.results.table import show
     from fmu_bearing.scene import scene_of
     from fmu_bearing.scene.exclusions import require
     from fmu_bearing.scene.surface_file import read_surface
@@ -177,15 +176,15 @@ def sound(
         columns, rows = analysis.rows()
         heading = _heading(recording)
         heading = f"in doubt, see below: {heading}" if doubted else heading
-        show(heading, [name.replace("_", " ") for name in columns], rows)
+        base.show(heading, [name.replace("_", " ") for name in columns], rows)
         for one in sources:
-            show(f"{one.frequency:g} Hz: third octave of {one.band:g} Hz", *one.rows())
+            base.show(f"{one.frequency:g} Hz: third octave of {one.band:g} Hz", *one.rows())
             for line in one.sentences():
                 typer.echo(f"{one.frequency:g} Hz: {line}")
         if doubted:
             base.tell(f"{doubted}.")
         if sure is not None:
-            show("uncertainty of these levels", *sure.rows())
+            base.show("uncertainty of these levels", *sure.rows())
             base.tell(sure.remark())
         if files:
             base.tell(f"written: {output}: {', '.join(path.name for path in files)}")

@@ -134,7 +134,6 @@ def _elements(table: "Stiffness", target: Path, mirrored: bool) -> list[Path]:
 
 def _show_nose(table: "NoseStiffness") -> None:
     """Print the static stiffness of a set's shaft."""
-    from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.nose_stiffness import NAMED
 
     rows = [
@@ -147,13 +146,11 @@ def _show_nose(table: "NoseStiffness") -> None:
         for k, preload in enumerate(table.preloads)
     ]
     columns = ("r/min", "N", *(f"K {words}" for words, *_ in NAMED))
-    show(f"{table.scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
+    base.show(f"{table.scene.name} at the nose, static: K in N/um and N m/mrad", columns, rows)
 
 
 def _show(table: "Stiffness") -> None:
     """Print the tables of the bearings at their middle frequency."""
-    from fmu_bearing.results.table import show
-
     at, several = len(table.frequencies) // 2, table.nose is not None
     rows = []
     for bearing in table.bearings:
@@ -166,7 +163,7 @@ def _show(table: "Stiffness") -> None:
                 rows.append([*row, f"{1e3 * damped[4]:.2f}"])
     units = "K in N/um and N m/mrad, C in N s/m and mN m s/rad"
     columns = ("bearing", *_COLUMNS) if several else _COLUMNS
-    show(f"{table.scene.name} at {table.frequencies[at]:.4g} Hz: {units}", columns, rows)
+    base.show(f"{table.scene.name} at {table.frequencies[at]:.4g} Hz: {units}", columns, rows)
     apart = max(bearing.against_static() for bearing in table.bearings)
     typer.echo(
         f"K for frequency to 0 differs from K at {table.frequencies[0]:.4g} Hz by at most "
@@ -176,7 +173,6 @@ def _show(table: "Stiffness") -> None:
 
 def _show_planes(table: "BearingStiffness") -> None:
     """Print where the three planes are and how far they are from the bearing, at the worst frequency."""
-    from fmu_bearing.results.table import show
     from fmu_bearing.steady.stiffness.planes import ERRORS
 
     name = f"bearing {table.number}: " if table.on_shaft else ""
@@ -185,7 +181,7 @@ def _show_planes(table: "BearingStiffness") -> None:
         off = _PERCENT * table.plane_errors(float(preload)).max(axis=1)
         for speed, one in zip(table.speeds, off, strict=True):
             rows.append([f"{speed:g}", f"{preload:g}", *(f"{value:.2g}" for value in one)])
-    show(f"{name}error of the three planes, %, at the worst frequency", ("r/min", "N", *ERRORS), rows)
+    base.show(f"{name}error of the three planes, %, at the worst frequency", ("r/min", "N", *ERRORS), rows)
     places = table.planes(float(table.preloads[0])).places
     typer.echo(
         f"planes at {', '.join(f'{1e3 * place:.4g}' for place in places)} mm from the centre of the balls; "

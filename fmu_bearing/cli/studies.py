@@ -33,7 +33,6 @@ def choose(
     What is chosen is kept, and an FMU of fidelity auto names it: its short runs are always the same, without
     --settle.
     """
-    from fmu_bearing.results.table import show
     from fmu_bearing.run import choose as choosing
     from fmu_bearing.scene import scene_of
 
@@ -45,7 +44,7 @@ def choose(
         base.print_json(choice.summary())
     else:
         where = " / ".join(choice.probed)
-        show(f"{choice.scene}: errors against fidelity full at {where}", *choice.table())
+        base.show(f"{choice.scene}: errors against fidelity full at {where}", *choice.table())
         if choice.chosen != choosing.NONE:
             typer.echo(choice.words())
     base.end(code)
@@ -76,7 +75,6 @@ def tradeoff(
     from fmu_bearing.accuracy.chart import draw
     from fmu_bearing.extras import need
     from fmu_bearing.results.picture_parts import check_picture
-    from fmu_bearing.results.table import show
 
     with base.refusals():
         # refused before minutes of measuring
@@ -100,7 +98,7 @@ def tradeoff(
     if as_json:
         base.print_json(study.summary() | {"files": files})
     else:
-        show(f"{study.scene}: accuracy and cost", *study.table())
+        base.show(f"{study.scene}: accuracy and cost", *study.table())
     base.end(code, files, named=not as_json)
 
 
@@ -191,7 +189,6 @@ def _each_alone(
 ) -> None:  # fmt: skip
     """Change one assumed value at a time."""
     from fmu_bearing.accuracy import sensitivity as moving
-    from fmu_bearing.results.table import show
 
     keys = moving.QUICK if quick else tuple(moving.ASSUMED)
     spans = {"warm_up" if one == "settle" else one: value for one, value in times.items()}
@@ -204,7 +201,7 @@ def _each_alone(
     if as_json:
         base.print_json(study.summary() | {"files": files})
     else:
-        show(f"{study.scene}: what rests on assumed values", *study.table())
+        base.show(f"{study.scene}: what rests on assumed values", *study.table())
     base.end(code, files, named=not as_json)
 
 
@@ -228,7 +225,6 @@ def changes(
     no --settle.
     """
     from fmu_bearing.accuracy.changes import changes as changing
-    from fmu_bearing.results.table import show
 
     with base.refusals(), work(f"changes of {scene.stem}"):
         source = source_of(scene, at_speed(speed, settings, scene), fidelity)
@@ -238,7 +234,7 @@ def changes(
     if as_json:
         base.print_json(study.summary())
         return base.end(code)
-    show(f"{study.scene.name}: what to change", *study.table())
+    base.show(f"{study.scene.name}: what to change", *study.table())
     for line in (f"unchanged: {study.unchanged()}", study.resonance(), study.conditions(), *study.remarks()):
         if line:
             typer.echo(textwrap.fill(line, 80))

@@ -145,7 +145,6 @@ def _write(
 ) -> base.Writing:
     """Write the results so far and print a summary; return what was written."""
     from fmu_bearing.extras import available
-    from fmu_bearing.results.table import show
     from fmu_bearing.sweeps.figures import figures_of
     from fmu_bearing.sweeps.picture import MOST, save as save_picture, sweep_picture
     from fmu_bearing.sweeps.result import COLUMNS, dataset, extremes, save
@@ -181,7 +180,7 @@ def _write(
         )
         return written
     rows = [[f"{cell:.5g}" if isinstance(cell, float) else cell for cell in row.values()] for row in ranges]
-    show(str(data.attrs["title"]), COLUMNS, rows)
+    base.show(str(data.attrs["title"]), COLUMNS, rows)
     counted = f"{len(outcomes)} of {len(made.tasks)} points"
     typer.echo(f"{counted}, {len(bad)} refused; written: {', '.join(map(str, files.values()))}")
     for reason in sorted(set(bad.values()))[:5]:

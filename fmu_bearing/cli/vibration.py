@@ -79,7 +79,6 @@ def vibration(
     With --measured the way is the other one: from values of a supplier's test to the surfaces.
     """
     from fmu_bearing.extras import need
-    from fmu_bearing.results.table import show
     from fmu_bearing.vibration_test.anderon import UNITS
     from fmu_bearing.vibration_test.files import FILES
     from fmu_bearing.vibration_test.subject import subject
@@ -114,8 +113,8 @@ def vibration(
         return base.end(code, files)
     at = test_.scene.operation.speed_rpm
     heading = f"{test_.scene.name}: vibration test, {at:g} r/min, {test_.scene.mounted.preload_N:g} N"
-    show(heading, *test_.table(known[unit]))
-    show(f"strongest lines, {_SHOWN} of each band", *test_.lines_table(_SHOWN))
+    base.show(heading, *test_.table(known[unit]))
+    base.show(f"strongest lines, {_SHOWN} of each band", *test_.lines_table(_SHOWN))
     for remark in test_.remarks:
         typer.echo(remark)
     base.end(code, files, named=True)

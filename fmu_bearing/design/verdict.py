@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fmu_bearing.formulas import iso281
-from fmu_bearing.results.base import Result
+from fmu_bearing.results.base import Quantity, Result
 
 Judgement = Literal["good", "watch", "change", "not judged"]
 
@@ -21,8 +21,9 @@ class Verdict(Result):
     """The judgement of one figure."""
 
     quantities = (
-        "key", "label", "value [as in the label]", "text", "limit", "source", "judgement", "advice",
-        "bearing [1]",
+        "key", Quantity("label", ""), "value [as in the label]", Quantity("text", "value"),
+        Quantity("judgement", "verdict"), Quantity("limit", "limit"),
+        Quantity("source", "source of the limit"), "advice", "bearing [1]",
     )  # fmt: skip
 
     key: str

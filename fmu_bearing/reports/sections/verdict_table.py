@@ -11,6 +11,7 @@ from fmu_bearing.design.verdicts import cautions, shared_label, shared_limit, si
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent, Overall, Table
+from fmu_bearing.results.base import table
 from fmu_bearing.scene import Scene
 
 #: What the run itself is judged by, where it was kept: its extremes, as the figures above the table.
@@ -56,16 +57,9 @@ def judged(subject: Subject) -> Judged | None:
     judgements, several = verdicts(point), subject.several
     state = "perfect bearings in their steady state" if several else "perfect bearing in its steady state"
     caption = f"Verdicts at {subject.speed / RPM:,.0f} r/min: {ran}{state}"
-    columns, rows = (
-        _side_by_side(judgements, list(subject.prefixes), point.scene) if several else _one_by_one(judgements)
-    )
-    return Judged(judgements, Table(caption, columns, rows, note=_note(point, judgements), stacked=True))
-
-
-def _one_by_one(judgements: Iterable[Verdict]) -> tuple[list[str], list[list[str]]]:
-    """Return columns and a row per verdict."""
-    rows = [[one.label, one.text, one.judgement, one.limit, one.source] for one in judgements]
-    return ["", "value", "verdict", "limit", "source of the limit"], rows
+    names = list(subject.prefixes)
+    shown = _side_by_side(judgements, names, point.scene) if several else table(Verdict, judgements)
+    return Judged(judgements, Table(caption, *shown, note=_note(point, judgements), stacked=True))
 
 
 def _side_by_side(

@@ -272,6 +272,7 @@ def test_an_example_names_the_extra_that_it_needs(refused, script):
     assert left == []
 
 
+@pytest.mark.lint
 def test_examples_import_no_extra_by_a_statement():
     wrong = [
         f"{path.name}: {package}"

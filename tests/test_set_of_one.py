@@ -14,6 +14,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import Imperfections
 from tests.conftest import GATES
+from tests.marks import heavy_but
 from tests.spindle.one import MIDDLE, PRELOAD, gate_as_set, set_of_one
 from tests.spindle.test_dynamics_oracle import ECCENTRIC
 
@@ -77,7 +78,7 @@ def compare(ours, theirs, close):
     return len(wanted)
 
 
-@pytest.mark.parametrize("cage", [True, False])
+@pytest.mark.parametrize("cage", heavy_but([True, False], 0))
 @pytest.mark.parametrize(("radial", "close"), [(0.0, 1e-7), (-50.0, AT_REST)])
 def test_every_figure_at_rest(radial, close, cage):
     """Statics, operating point with life and verdicts, stiffness: one door each, one shape of the result.
@@ -297,7 +298,7 @@ def test_every_mode_of_a_gate_scene(name, cage, radial):
     same_modes(*gate_as_set(name, radial, cage=cage), close=1e-5)
 
 
-@pytest.mark.parametrize("radial", [0.0, -50.0])
+@pytest.mark.parametrize("radial", heavy_but([0.0, -50.0], 1))
 def test_every_figure_of_a_gate_scene_at_rest(radial):
     """The one whose pedestal holds its tilt; others differ by what a loose tilt leaves open."""
     at_rest(*gate_as_set("7003C-bare", radial, cage=False), AT_REST)

@@ -141,6 +141,7 @@ def test_refusals_are_one_line(arguments, message, run, scene_of, measured, tmp_
     assert not list(tmp_path.glob("*.toml"))
 
 
+@pytest.mark.heavy
 def test_ctrl_c_writes_the_best_so_far(run, scene_of, measured, tmp_path, monkeypatch):
     plain, calls = module.Levels.at, []
 

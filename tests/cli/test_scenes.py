@@ -16,7 +16,7 @@ KNOWN = ("--bearing", "7003C")
 DIMENSIONS = ("--bore", 40, "--outside-diameter", 68, "--width", 15)
 
 
-@pytest.mark.parametrize("bearing", ["7003C", "7009C", "NSK-7008AC"])
+@pytest.mark.parametrize("bearing", heavy_but(["7003C", "7009C", "NSK-7008AC"], 0))
 @pytest.mark.parametrize("kind", sorted(MATERIALS))
 def test_new_from_the_catalogue(run, tmp_path, bearing, kind):
     path = tmp_path / "my.toml"
@@ -347,15 +347,6 @@ def test_a_new_scene_names_the_file_of_its_bearing(run, own):
     assert run("scene", "check", scene).exit_code == 0 and read_scene(scene).bearing.ball_count == 11
 
 
-def test_every_command_that_reads_a_scene_takes_the_option(run):
-    with_scene = (
-        "info", "simulate", "plot", "build", "report", "sound", "choose", "tradeoff", "sensitivity", "sweep",
-        "compare", "identify", "scene new", "scene check", "scene show", "scene catalogue",
-    )  # fmt: skip
-    for command in with_scene:
-        assert "--catalogue" in run(*command.split(), "--help").stdout, command
-
-
 def test_a_catalogue_that_is_not_there_is_refused(run, own):
     _, scene = own
     for command in (("info", scene), ("scene", "catalogue"), ("scene", "new", scene, *KNOWN, "--force")):
@@ -445,6 +436,7 @@ def test_new_from_ratings(run, tmp_path):
     assert refused.exit_code == 2 and "--contact-angle is for --bore" in refused.stderr
 
 
+@pytest.mark.heavy
 def test_new_outside_the_data_of_its_rule(run, tmp_path):
     size = ("--bore", 40, "--outside-diameter", 52, "--width", 7)
     made = run("scene", "new", tmp_path / "a.toml", *size, "--speed", 5000, "--preload", 100)

@@ -66,6 +66,7 @@ def test_choose_prints_table_and_reason(run, auto_file):
     assert data["chosen"].startswith("fidelity auto: full / esdirk4") and len(data["candidates"]) == 2
 
 
+@pytest.mark.heavy
 def test_quick_studies_write_their_tables(run, silent_file, tmp_path):
     result = run("sensitivity", silent_file, "--quick", "-o", tmp_path, "--json")
     assert result.exit_code == 0, result.output

@@ -94,6 +94,7 @@ def test_the_picture_has_the_figures_asked(run, silent_file, tmp_path, monkeypat
     assert drawn == [["friction_torque", *heats, *loads], None]
 
 
+@pytest.mark.heavy
 def test_a_dry_run_runs_one_point_and_writes_nothing(run, silent_file, tmp_path):
     folder = tmp_path / "none"
     axes = ("-a", "fidelity=response", "-a", "preload=100:1000:10", "-a", "speed=1000:9000:100")

@@ -5,6 +5,7 @@ import pytest
 from fmu_bearing.compiled import make
 from fmu_bearing.compiled.settings import lean
 from tests.compiled import both_ways
+from tests.marks import heavy_but
 
 pytestmark = pytest.mark.skipif(
     not lean(make.version("numba")), reason="this Numba is compiled with the plain way only"
@@ -12,7 +13,7 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.mark.parametrize(
-    "statement", ["raise ValueError('negative')", "assert x > 0.0", "raise ValueError(x)"]
+    "statement", heavy_but(["raise ValueError('negative')", "assert x > 0.0", "raise ValueError(x)"], 0)
 )
 def test_a_kernel_that_raises_is_refused_by_name(statement):
     code = f"""

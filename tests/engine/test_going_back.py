@@ -6,6 +6,7 @@ import pytest
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.engine.test_response_sound import PLACES
+from tests.marks import heavy_but
 from tests.spindle.test_sound import pair, sound
 
 _STEP = 1e-4
@@ -13,7 +14,7 @@ _STEPS = 220
 
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
-@pytest.mark.parametrize("bearings", [1, 2])
+@pytest.mark.parametrize("bearings", heavy_but([1, 2], 0))
 def test_going_back_on_one_instance(scene, bearings, fidelity):
     """In a run-up with microphones, back by 1 to 200 steps: pieces of renewals go on where they were."""
     given = scene("7003C-spindle") if bearings == 1 else pair(sound("compact", *PLACES), flaws=True)

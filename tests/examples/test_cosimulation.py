@@ -128,6 +128,7 @@ def test_freed_memory_is_not_used_at_exit(builder, monkeypatch, tmp_path, comple
     assert (done.returncode, done.stdout) == (code, "runs\n"), done.stderr
 
 
+@pytest.mark.heavy
 def test_command_line_says_in_one_line_what_is_missing(tmp_path):
     done = subprocess.run(command(tmp_path, tmp_path / "out"), capture_output=True, text=True, timeout=120)
     assert done.returncode == 2

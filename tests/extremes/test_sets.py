@@ -6,6 +6,7 @@ import pytest
 from fmu_bearing import statics
 from fmu_bearing.engine.layout import S, U
 from fmu_bearing.engine.status import BAD_INPUT, BAD_STEP, OK
+from tests.marks import heavy_but
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 
@@ -57,7 +58,7 @@ def test_a_rear_bearing_without_load_at_the_start():
     assert front == pytest.approx(4000.0, rel=0.01) and -30.0 < rear < 0.0
 
 
-@pytest.mark.parametrize("rise", [10.0, 40.0, -40.0])
+@pytest.mark.parametrize("rise", heavy_but([10.0, 40.0, -40.0], 1))
 def test_warmth_in_a_ramp_ends_at_the_loads_of_statics(rise):
     still = statics(
         pair(

@@ -62,6 +62,7 @@ def measured(truth, table, seeds, **options):
     return [row | {"value_dB": float(value), "std_dB": 1.0} for row, value in zip(table, exact, strict=True)]
 
 
+@pytest.mark.heavy
 def test_levels_are_those_of_a_recording():
     found = levels(pair(), rows("leq", "leq_a"))
     made = record(pair(), 0.4, settle=0.05, progress=False, warn=False)

@@ -9,6 +9,7 @@ from fmu_bearing.acoustics.analysis.origins import bearing_origins, shaft_origin
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.metrology.line_fit import LineFit
 from fmu_bearing.metrology.polar_values import revolutions_of, synchronous
+from tests.marks import heavy_but
 
 POINTS = 256
 #: Orders of a 7003C hybrid at 2000 r/min: f_o lies 0.04 beside 5 f_r, f_i as far beside 7 f_r.
@@ -52,7 +53,7 @@ def test_sum_of_lines_and_its_parts():
     np.testing.assert_allclose(alone, np.cos(2.0 * angles(24) + 0.3), atol=1e-4)
 
 
-@pytest.mark.parametrize("revolutions", [16, 20, 50, 200])
+@pytest.mark.parametrize("revolutions", heavy_but([16, 20, 50, 200], 0, 1, 2))
 def test_a_race_near_a_whole_order_is_not_taken_for_synchronous(revolutions):
     """The trap: an average over few revolutions holds most of a line 0.04 orders beside a whole one."""
     turned = angles(revolutions)

@@ -200,6 +200,7 @@ def test_refusals(gate, speeds, more, words):
         campbell(gate("7003C-spindle"), speeds, **more)
 
 
+@pytest.mark.heavy
 def test_fifteen_speeds_take_less_than_20_s(gate):
     import time
 

@@ -35,9 +35,7 @@ CALM = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("bearing", "rpm", "preload", "support", "growth", "before"), heavy_but(GROWING, 0, 6)
-)
+@pytest.mark.parametrize(("bearing", "rpm", "preload", "support", "growth", "before"), heavy_but(GROWING, 6))
 def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, before):
     scene = scene_at(bearing, rpm, preload, support=support)
     mode = self_excited(modes(scene))
@@ -58,7 +56,7 @@ def test_a_ring_that_grows_is_named(bearing, rpm, preload, support, growth, befo
     assert verdict.judgement == "change" and verdict.advice == whirl(scene)
 
 
-@pytest.mark.parametrize(("bearing", "rpm", "preload", "support"), heavy_but(CALM, 0, 4))
+@pytest.mark.parametrize(("bearing", "rpm", "preload", "support"), heavy_but(CALM, 0))
 def test_a_ring_that_does_not_is_not(bearing, rpm, preload, support):
     scene = scene_at(bearing, rpm, preload, support=support)
     assert self_excited(modes(scene)) is None and whirl(scene) == ""

@@ -14,6 +14,7 @@ from fmu_bearing.prepare.surfaces import (
     law,
     mean_patches,
 )
+from tests.marks import heavy_but
 from tests.oracles import B7003C, B7009C
 from tests.oracles.hertz import race_contact
 from tests.oracles.jones_harris import JonesHarris
@@ -96,7 +97,7 @@ def cells_in_contact(half_length, half_width, count):
     return x, sum(np.sign(a) * np.sign(b) * corner(dx + a, dy + b) for a in ends for b in ends)
 
 
-@pytest.mark.parametrize("u", [1.0, 3.0, 4.0])
+@pytest.mark.parametrize("u", heavy_but([1.0, 3.0, 4.0], 1))
 @pytest.mark.parametrize(("ratio", "error"), [(1.0, 0.025), (4.0, 0.006)])
 def test_filter_against_pressures_that_follow_a_wave(u, ratio, error):
     """Change of load by a wave pressed into a half-space, over that by an approach of its height.

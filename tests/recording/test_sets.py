@@ -15,7 +15,6 @@ from fmu_bearing.recording.channels.sources import centre_of, sources_of
 from fmu_bearing.recording.measurements.sound_analysis import analyse_sound
 from fmu_bearing.scene import SceneError
 from tests.conftest import ROOT
-from tests.marks import heavy_but
 from tests.spindle.test_sound import LENGTH, single, sound, sounding
 
 RPM = 20e3
@@ -48,13 +47,10 @@ def run(scene, **options):
     )  # fmt: skip
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("model", "radiator"),
-    heavy_but(
-        [("compact", "bare"), ("paper", "bare"), ("bem", "bare"), ("compact", "housing"),
-         ("bem", "baffle")],
-        0,
-    ),
+    [("compact", "bare"), ("paper", "bare"), ("bem", "bare"), ("compact", "housing"), ("bem", "baffle")],
 )  # fmt: skip
 def test_a_recording_reads_what_the_meters_of_the_set_read(model, radiator):
     """Meters have filters of their own for every bearing; a recording multiplies spectra exactly.

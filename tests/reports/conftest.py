@@ -18,7 +18,7 @@ from tests.reports.reading import Page
 
 SECONDS = 0.1
 #: Choices of a page's study; all of them are run in tests/accuracy/test_changes.py.
-TOPICS = ("preload", "balls", "contact angle", "speed", "grade")
+TOPICS = ("preload", "balls", "speed")
 
 
 class Whole(NamedTuple):

@@ -15,6 +15,18 @@ def run(*arguments):
 
 
 @pytest.mark.usefixtures("brief")
+def test_a_recording_becomes_a_page(rings, tmp_path):
+    page, kept = tmp_path / "page.html", tmp_path / "run.npz"
+    rings.save(kept)
+    made = run(kept, "-o", page, "--title", "Try <1>", "--no-changes", "--json")
+    assert made.exit_code == 0, made.output
+    reported = json.loads(made.stdout)
+    assert reported["bytes"] == page.stat().st_size
+    assert Page(page).headings[0] == (1, "Try <1>") and "changes" not in reported["sections"]
+
+
+@pytest.mark.heavy
+@pytest.mark.usefixtures("brief")
 def test_a_scene_at_another_speed_with_run_up_and_its_recording_again(scene, tmp_path):
     file, page, kept = tmp_path / "s.toml", tmp_path / "new" / "page.html", tmp_path / "run.npz"
     file.write_text(with_fidelity(scene("7003C-spindle"), model="rings").to_toml(), "utf-8")

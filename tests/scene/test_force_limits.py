@@ -18,6 +18,7 @@ def large():
     return scene.replace({"bearing.ball_count": 16, "bearing.ball_diameter_mm": 22.225, "bearing.cage": None})
 
 
+@pytest.mark.heavy
 def test_a_large_bearing_takes_the_loads_that_books_print(large):
     """17,800 N axially, of which Harris prints contact angles of 41.6 deg (unloaded 40 deg)."""
     point = operating_point(large.replace({"mounting.preload_N": 17_800.0}))

@@ -11,7 +11,6 @@ from fmu_bearing.fmi.description import identifier
 from fmu_bearing.scene.designation import ascii_word
 from fmu_bearing.scene.scene import scene_name
 from tests.conftest import EXAMPLES
-from tests.marks import heavy_but
 
 SCENE = EXAMPLES / "7003C-bare.toml"
 NAMES = ["Prüfstand Größe 3", "主轴轴承-1", "Подшипник 7003", "ベアリング", "Ρουλεμάν", "7003C-spindle"]
@@ -25,7 +24,8 @@ def named(tmp_path, name):
     return file
 
 
-@pytest.mark.parametrize("name", heavy_but(NAMES, 1))
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", NAMES)
 def test_a_scene_may_have_any_letters(tmp_path, name):
     scene = read_scene(named(tmp_path, name)).replace(
         {"bearing.designation": name[:20], "fidelity.model": "response"}

@@ -89,7 +89,7 @@ def flush(load, pair, more, fewer):
 
 @pytest.mark.parametrize(
     ("arrangement", "more", "fewer"),
-    [("DB", 1, 1), ("DF", 1, 1), ("QBC", 2, 2), ("TBT", 2, 1), ("QBT", 3, 1)],
+    heavy_but([("DB", 1, 1), ("DF", 1, 1), ("QBC", 2, 2), ("TBT", 2, 1), ("QBT", 3, 1)], 0, 3),
 )
 @pytest.mark.parametrize("kind", heavy_but(["steel", "hybrid"], 1))
 def test_a_class_is_the_offset_of_the_loose_pair(arrangement, more, fewer, kind):

@@ -10,6 +10,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.instance import EngineError
 from fmu_bearing.prepare.bodies import inner_ring
 from tests.conftest import GATES
+from tests.marks import heavy_but
 from tests.oracles import B7003C
 from tests.oracles.jones_harris import JonesHarris
 from tests.oracles.shaft import shaft
@@ -107,14 +108,20 @@ def test_loads_of_a_pair_are_those_of_independent_bearings():
 
 @pytest.mark.parametrize(
     ("signs", "positions", "preload", "name"),
-    [
-        ("+-", (40, 70), 500.0, "DB (O)"),
-        ("-+", (40, 70), 500.0, "DF (X)"),
-        (*QBC, 300.0, "QBC (O)"),
-        ("++-", (40, 52, 150), 300.0, "TBT (O)"),
-        ("-++-", (40, 60, 80, 100), 300.0, "-++-"),
-        ("+" * 4 + "-" * 4, tuple(range(40, 280, 30)), 200.0, "++++----"),
-    ],
+    heavy_but(
+        [
+            ("+-", (40, 70), 500.0, "DB (O)"),
+            ("-+", (40, 70), 500.0, "DF (X)"),
+            (*QBC, 300.0, "QBC (O)"),
+            ("++-", (40, 52, 150), 300.0, "TBT (O)"),
+            ("-++-", (40, 60, 80, 100), 300.0, "-++-"),
+            ("+" * 4 + "-" * 4, tuple(range(40, 280, 30)), 200.0, "++++----"),
+        ],
+        0,
+        1,
+        2,
+        3,
+    ),
 )
 def test_forces_balance_and_a_mirrored_set_does_the_same(signs, positions, preload, name):
     force, at, rpm = (150.0, 60.0, -200.0), -0.02, 12e3

@@ -3,7 +3,8 @@
 An entry takes pointers to doubles, then a pointer to the lengths of its arrays (int64), then doubles, and
 returns a status (int32). Units ``init`` and ``step`` make up an FMU; there are two more with the same entries
 for single bearings alone, for who needs no more (`SINGLE`). ``study`` and ``sound`` serve Python: oracles and
-recordings the one, boundary elements the other.
+recordings the one, boundary elements the other. ``rest``, which oracles call, lies in ``init``: there its
+kernels are compiled anyway.
 """
 
 from collections.abc import Callable
@@ -43,6 +44,7 @@ class Entry:
 
 ENTRIES = {
     "init": Entry("init", "puszw", 1),
+    "rest": Entry("init", "psw", 1, (0, 2, 4)),
     "step": Entry("step", "puszw", 1),
     "outputs": Entry("step", "psz", 0, (0, 2, 3)),
     "copy": Entry("step", "pss", 0, (0, 2, 2)),
@@ -90,9 +92,17 @@ def functions(unit: str) -> dict[str, Callable[..., Any]]:
 
 
 def _init() -> dict[str, Callable[..., Any]]:
-    from fmu_bearing.engine import abi
+    from numba import carray
 
-    return {"init": _of_bearing(abi.init)}
+    from fmu_bearing.engine import abi
+    from fmu_bearing.engine.spindle.rest import balance, begin_rest
+
+    def rest(p, s, w, n, speed):
+        of_bearing, state, work = carray(p, (n[0],)), carray(s, (n[2],)), carray(w, (n[4],))
+        begin_rest(of_bearing, state, work, speed)
+        return balance(of_bearing, state, work, speed, 0.0)
+
+    return {"init": _of_bearing(abi.init), "rest": rest}
 
 
 def _step() -> dict[str, Callable[..., Any]]:

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.layout import EQ, SP, C, P, Q, S, U, W
 from fmu_bearing.engine.mechanics.conditions import conditions
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.rest import balance, begin_rest
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from tests.engine.helpers import RPM
@@ -44,8 +44,7 @@ class Bearing:
         self.c[[C.PRELOAD, C.LOAD_Y, C.LOAD_Z]] = load[:3]
         more = members.scratch(self.p, 0) + SP.START_MORE
         self.w[W.SET + more + Q.INNER_BY :][:2] = load[3:]
-        begin_rest(self.p, self.s, self.w, rpm * RPM)
-        assert balance(self.p, self.s, self.w, rpm * RPM, 0.0) == status
+        assert call("rest", self.p, self.s, self.w, rpm * RPM) == status
         self.out[:] = self.w[W.EQUILIBRIUM : W.EQUILIBRIUM + EQ.SIZE]
         return self
 

@@ -212,6 +212,7 @@ def test_figures_of_info_are_those_of_the_table():
     assert all(line.endswith(measured.PAGE) for line in lines.values())
 
 
+@pytest.mark.pages
 def test_a_figure_is_drawn_with_the_ends_of_what_is_assumed(tmp_path, monkeypatch):
     monkeypatch.setattr(compared, "of", lambda source: of(source)[:2])
     rows = drawable(skf())

@@ -140,6 +140,7 @@ def copies(tree):
                         yield one.lineno
 
 
+@pytest.mark.lint
 def test_kernels_copy_number_by_number():
     kernels = [
         (path, one)

@@ -11,6 +11,7 @@ from tests.mutants.schemata import woven
 EVERY = mutants()
 
 
+@pytest.mark.lint
 def test_texts_are_there_once_and_what_takes_their_place_is_another_program():
     for one in EVERY:
         source = (ROOT / one.file).read_text("utf-8")

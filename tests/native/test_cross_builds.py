@@ -108,6 +108,7 @@ def test_platform_without_its_compiler_names_the_extra(no_zig):
     )
 
 
+@pytest.mark.heavy
 def test_command_without_the_compiler_ends_with_one_line(no_zig, monkeypatch, tmp_path):
     monkeypatch.setattr(link, "folder", lambda: tmp_path / "no libraries kept")
     other = next(name for name in PLATFORMS if PLATFORMS[name] != own_platform())

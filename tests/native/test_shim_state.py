@@ -6,6 +6,8 @@ import subprocess
 
 import pytest
 
+from tests.messages import says
+
 from . import toy
 from .master import ERROR, OK
 
@@ -89,23 +91,16 @@ def test_foreign_or_damaged_state_is_refused(master, damage):
         reason = "not a state that this version"
     elif damage == "kernels":
         data[16] ^= 1
-        reason = (
-            f"the state was made by another version of the engine, {data[16:24].hex()}, and this FMU has "
-            f"{toy.KERNELS[:16]}: set it in the FMU that made it, or take a new one here"
-        )
+        reason = f"another version of the engine, {data[16:24].hex()} ... {toy.KERNELS[:16]} ... set it in"
     else:
         data[48] ^= 1
-        reason = (
-            f"the state belongs to another model, {data[48:56].hex()}, and this is "
-            f"{toy.CONTENTS.fingerprint[:16]}: its scene is another, or was prepared by another version of "
-            "fmu-bearing; set it in an FMU of that model, or take a new one here"
-        )
+        reason = f"another model, {data[48:56].hex()} ... {toy.CONTENTS.fingerprint[:16]} ... set it in"
     before = one.everything()
     status, state = one.from_bytes(bytes(data))
     assert status == ERROR
     assert state.value is None
     assert "state not taken" in one.messages
-    assert reason in one.messages
+    assert says(one.messages, reason)
     assert one.everything() == before
     assert one.step(0.1) == OK
 

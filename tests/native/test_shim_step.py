@@ -4,6 +4,8 @@ import math
 
 import pytest
 
+from tests.messages import says
+
 from . import toy
 from .master import DISCARD, ERROR, OK
 
@@ -64,9 +66,8 @@ def test_step_that_fails_leaves_no_trace(master):
     assert one.everything() == before
     status, category, message = one.log[-1]
     assert (status, category) == (DISCARD, "logStatusDiscard")
-    assert message == (
-        "step from 0.1 s by 0.2 s refused: step of 0.2 s from t = 0.1 s (reached 0.2 s): "
-        "it did not converge; inputs were speed = 5, load = 50, trouble = 1, no_start = 0"
+    assert says(
+        message, "0.1 s by 0.2 s ... reached 0.2 s ... speed = 5, load = 50, trouble = 1, no_start = 0"
     )
     assert one.set("trouble", 0.0) == OK
     after, other = one.run(2, 0.1), untouched.run(2, 0.1)

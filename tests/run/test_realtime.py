@@ -8,6 +8,7 @@ import pytest
 from fmu_bearing import realtime
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.run.step_times import COLUMNS, SHORT, Realtime, Timed
+from tests.messages import says
 
 
 def made(scene, *costs, step=1e-3, late=0):
@@ -35,29 +36,25 @@ def test_rows_have_quantiles_and_late_steps(scene):
 
 def test_all_keep_a_long_step(scene):
     costs = [(name, count, 1e-3, 2e-3) for name in ("full", "rings", "response") for count in (0, 4)]
-    assert made(scene, *costs, step=1e-2).advice() == (
-        "Full with 4 microphones keeps the step of 10 ms: its worst step takes 2 ms, 20 % of it. "
-        "So does every other that was timed."
-    )
+    advice = made(scene, *costs, step=1e-2).advice()
+    assert says(advice, "Full with 4 microphones keeps ... 10 ms ... 2 ms, 20 % ... every other")
+    assert "margin" not in advice and "not" not in advice
 
 
 def test_one_alone_is_compared_with_nothing(scene):
     advice = made(scene, ("rings", 4, 1e-4, 9.997e-3), step=1e-2).advice()
-    assert advice == (
-        "Rings with 4 microphones keeps the step of 10 ms: its worst step takes 10 ms, 100 % of it, which "
-        "leaves little margin."
-    )
+    assert says(advice, "Rings with 4 microphones keeps ... 10 ms ... 10 ms, 100 % ... little margin")
+    assert advice.count(". ") == 0
 
 
 def test_the_most_complete_that_keeps_is_named_with_what_the_next_needs(scene):
     costs = ("full", 0, 9e-4, 1.4e-3), ("full", 4, 1.2e-3, 2e-3), ("rings", 0, 1e-4, 2e-4)
     advice = made(scene, *costs, ("rings", 4, 3e-4, 9.96e-4), late=2).advice()
-    assert advice == (
-        "Rings with 4 microphones keeps the step of 1 ms: its worst step takes 996 us, 99.6 % of it, which "
-        "leaves little margin. Full with 4 microphones does not: its steps take "
-        "1.28 ms on average, so that a longer one helps little; take fidelity rings, fewer microphones, no "
-        "sound, a lower highest order of waves (`imperfections.highest_frequency_kHz`), or a faster machine. "
-        "By the clock 4 of its steps came late all the same, as other work took the processor."
+    assert says(
+        advice,
+        "Rings with 4 microphones keeps ... 1 ms ... 996 us, 99.6 % ... little margin ... Full with 4 "
+        "microphones does not ... 1.28 ms on average ... take fidelity rings, fewer microphones, no "
+        "sound ... imperfections.highest_frequency_kHz ... faster machine ... 4 of its steps came late",
     )
 
 
@@ -71,10 +68,10 @@ def test_sound_alone_may_be_too_much(scene):
 def test_none_keeps_but_at_a_held_speed_or_in_longer_steps(scene):
     """One step of ten takes 3.5 ms: four in a row take 3.5 and three of 0.1, which is 3.8."""
     advice = made(scene, ("rings", 4, 1e-4, 3.5e-3), ("rings", 0, 5e-5, 3.4e-3)).advice()
-    assert advice == (
-        "No fidelity keeps the step of 1 ms: rings without sound takes up to 3.4 ms. At the held speed rings "
-        "with 4 microphones does: its worst step takes 100 us, 10 % of it. To change: rings with 4 "
-        "microphones would keep a step of 4 ms, or a buffer as long."
+    assert says(
+        advice,
+        "No fidelity keeps ... 1 ms ... rings without sound ... 3.4 ms ... held speed rings with 4 "
+        "microphones does ... 100 us, 10 % ... To change: rings with 4 microphones ... step of 4 ms",
     )
 
 

@@ -7,6 +7,7 @@ from fmu_bearing.scene import Scene, SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.entries import catalogue, entries, entry_text, using
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import new_scene
+from tests.messages import says
 
 HEAD = 'catalogues = ["bearings/own.toml"]\n'
 
@@ -71,8 +72,8 @@ def test_errors_name_file_entry_and_key(own, tmp_path):
     path = own("bore_mm = 17.0", "boer_mm = 17.0")
     missing, unknown = refusal(tmp_path)
     where = f"a.toml: {path}: [OWN]"
-    assert missing == f"{where} bore_mm is missing, for example bore_mm = 17.0 (Bore of the inner ring, mm.)"
-    assert unknown == f"{where} boer_mm is not a key of a scene; did you mean 'bore_mm'?"
+    assert says(missing, f"{where} bore_mm ... for example bore_mm = 17.0")
+    assert says(unknown, f"{where} boer_mm ... did you mean 'bore_mm'?")
     own("bore_mm = 23.4", "bore_mm = 29.0")
     assert any(f"{path}: [OWN] cage.bore_mm = 29.0 must be below" in line for line in refusal(tmp_path))
     own("ball_count = 12", "ball_count = ")
@@ -89,10 +90,8 @@ def test_errors_name_file_entry_and_key(own, tmp_path):
 def test_a_name_of_the_package_is_refused_with_the_way_out(own, tmp_path):
     path = own("[OWN]", "[NSK-7003C]")
     path.write_text(path.read_text("utf-8").replace("[OWN.cage]", "[NSK-7003C.cage]"), "utf-8")
-    assert refusal(tmp_path) == (
-        f"a.toml: {path}: [NSK-7003C] is in the catalogue of the package: give it a name of its own, "
-        "for example [my-NSK-7003C]",
-    )
+    (line,) = refusal(tmp_path)
+    assert says(line, f"a.toml: {path}: [NSK-7003C] ... for example [my-NSK-7003C]")
     first, second = own(), own(name="more.toml")
     (line,) = refusal(tmp_path, 'catalogues = ["bearings/own.toml", "bearings/more.toml"]\n')
     assert line.startswith(f"a.toml: {second}: [OWN] is in {first}, too: give it a name of its own")

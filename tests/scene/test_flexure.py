@@ -4,6 +4,7 @@ import pytest
 
 from fmu_bearing.scene import SceneError, read_scene_text, si
 from tests.elastic.rings import bent, text_with
+from tests.messages import says
 
 LINES = "outer_ring = [2, 4]\ninner_ring = [3]\n"
 
@@ -66,10 +67,8 @@ def test_refusals(line, expected):
 @pytest.mark.parametrize(("ring", "body"), [("inner", "rotor"), ("outer", "housing")])
 def test_a_ring_on_a_tight_seat_does_not_bend(ring, body):
     (reported,) = refused("7003C-spindle", f"{ring}_ring = [2]")
-    assert reported == (
-        f"{ring}_ring: cannot bend on the tight seat of [mounting.{body}]: write {ring}_ring = [], or for a "
-        f"loose fit give {ring}_seat_stiffness_N_m, or leave out the {body}"
-    )
+    ways = f"{ring}_ring = [] ... {ring}_seat_stiffness_N_m ... leave out the {body}"
+    assert says(reported, f"{ring}_ring ... [mounting.{body}] ... {ways}")
     loose = bent("7003C-spindle", f"{ring}_ring = [2]\n{ring}_seat_stiffness_N_m = 1e6")
     assert getattr(loose.mounting.flexure, f"{ring}_ring") == (2,)
 

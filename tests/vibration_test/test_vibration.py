@@ -10,6 +10,7 @@ from fmu_bearing.vibration_test.lines import frequencies
 from fmu_bearing.vibration_test.reading import Reading
 from fmu_bearing.vibration_test.rig import rig
 from fmu_bearing.vibration_test.subject import subject
+from tests.messages import says
 from tests.vibration_test.played import play
 
 
@@ -60,9 +61,7 @@ def test_remarks_name_what_is_no_test_by_the_standard(quick):
     assert usual[1:] == ("The balls have no waves that sound above 6.7 kHz, inside H.",)
     slow = vibration("7003C", seeds=1, speed_rpm=900.0, load_N=50.0, rigid=True).remarks
     assert "The rings stay round here, for comparison: a sensor touches a ring that bends." in slow
-    assert slow[-1] == (
-        "This is no test by the standard, which asks for 1800 r/min, and for 100 N as is assumed here."
-    )
+    assert says(slow[-1], "no test by the standard ... 1800 r/min ... 100 N")
     # within its tolerances it is one: +1 -2 % of the speed, 10 % of the load
     assert vibration("7003C", seeds=1, speed_rpm=1765.0, load_N=109.0).remarks[:-1] == usual[:1]
     assert vibration("7003C", seeds=1, speed_rpm=1820.0).remarks[-1] == slow[-1]

@@ -95,31 +95,28 @@ def modes(
 def _show(study: "Modes", highest: float, words: str) -> None:
     from fmu_bearing.modal.modes.mode import Mode
     from fmu_bearing.results.base import table
-    from fmu_bearing.results.table import show
     from fmu_bearing.scene.words import designation_words
 
     typer.echo(
         f"{study.scene.name}: {designation_words(study.scene)}, {study.rpm:,.0f} r/min, fidelity full "
         f"without cage and imperfections{', ' + words if words else ''}"
     )
-    show("modes", *table(Mode, study.records(highest), _OF_MODES))
+    base.show("modes", *table(Mode, study.records(highest), _OF_MODES))
 
 
 def _show_crossings(diagram: "Campbell") -> None:
     from fmu_bearing.modal.campbell.diagram import Crossing
     from fmu_bearing.results.base import table
-    from fmu_bearing.results.table import show
 
     counted = diagram.crossings(in_scene=True)
     if counted:
-        show("crossings within 20 dB of the largest", *table(Crossing, counted, _OF_CROSSINGS))
+        base.show("crossings within 20 dB of the largest", *table(Crossing, counted, _OF_CROSSINGS))
     typer.echo(f"{len(diagram.crossings())} crossings, {len(counted)} of them count. {diagram.verdict()}")
 
 
 def _summary(study: "Modes", diagram: "Campbell | None", highest: float) -> dict[str, Any]:
-    result = study.summary() | {
-        "modes": study.table(highest), "apart": study.table(highest, apart=True),
-    }  # fmt: skip
+    rows = {"modes": study.records(highest), "apart": study.records(highest, apart=True)}
+    result = study.summary() | rows
     if diagram is not None:
         result |= diagram.summary()
         result["cautions"] = list(dict.fromkeys(study.cautions() + diagram.cautions()))

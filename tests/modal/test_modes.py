@@ -76,7 +76,7 @@ def test_hardly_damped_tilting_is_named(gate):
     found = modes(gate("7009C-full-ceramic"), {"shaft_speed": 18_000 * RPM})
     (weak,) = found.weak()
     assert weak.label == "inner tilt forward" and abs(weak.damping) < 1e-3
-    assert [row["name"] for row in found.table() if row["remark"]] == ["inner tilt"]
+    assert [mode.name for mode in found.records() if mode.remark] == ["inner tilt"]
     assert any("inner tilt forward" in line and "instability" in line for line in found.cautions())
     assert not modes(gate("7009C-full-ceramic"), {"shaft_speed": 12_000 * RPM}).weak()
 
@@ -151,12 +151,12 @@ def test_balls_of_a_shape_stand_at_their_angles(gate):
 
 def test_table_has_rows_of_balls_alone_once(gate):
     found = modes(gate("7009C-full-ceramic").with_rigid_rings(), {"shaft_speed": 12_000 * RPM})
-    rows = found.table(60e3)
-    (row,) = [row for row in rows if row["name"].startswith("ball n = 2 to ")]
-    assert row["name"] == "ball n = 2 to 8" and row["direction"] == ""
-    assert [row["frequency_Hz"] for row in rows] == sorted(row["frequency_Hz"] for row in rows)
-    assert max(row["frequency_Hz"] for row in found.table(5e3)) <= 5e3
-    assert all(row["frequency_Hz"] < 5e3 for row in found.table(5e3, apart=True))
+    rows = found.records(60e3)
+    (row,) = [row for row in rows if row.name.startswith("ball n = 2 to ")]
+    assert row.name == "ball n = 2 to 8" and row.direction == ""
+    assert [row.frequency for row in rows] == sorted(row.frequency for row in rows)
+    assert max(row.frequency for row in found.records(5e3)) <= 5e3
+    assert all(row.frequency < 5e3 for row in found.records(5e3, apart=True))
 
 
 def test_modes_are_those_of_fidelity_full_whatever_the_scene_takes(gate):

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +46,8 @@ class Modes(Result):
     """
 
     quantities = (
-        "scene = scene.name", "speed_rpm = rpm", "modes = table",
-        Quantity("apart", of=lambda found: found.table(apart=True)), "cautions",
+        "scene = scene.name", "speed_rpm = rpm", "modes = records",
+        Quantity("apart", of=lambda found: found.records(apart=True)), "cautions",
     )  # fmt: skip
 
     scene: Scene
@@ -165,10 +165,6 @@ class Modes(Result):
         if any(one.cage is not None for one in self.scene.geometries):
             sentences.append("the cage and its films are left out: it touches balls and lands with clearance")
         return sentences
-
-    def table(self, highest: float = 50e3, apart: bool = False) -> list[dict[str, Any]]:
-        """Return `records` by name, with frequency (Hz), damping ratio, kinetic energy, remark."""
-        return [record.summary() for record in self.records(highest, apart)]
 
     def records(self, highest: float = 50e3, apart: bool = False) -> list[Mode]:
         """Return the modes that a table has.

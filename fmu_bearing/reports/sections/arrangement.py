@@ -78,8 +78,7 @@ def pressure_centres(scene: Scene) -> list[float]:
     With the nominal contact angle and pitch diameter, as makers give it.
     """
     return [
-        one.position_mm
-        - one.sign * 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
+        one.position_mm - one.sign * 0.5 * bearing.pitch_diameter_mm * math.tan(bearing.nominal_angle)
         for one, bearing in zip(set_of(scene).bearing, scene.geometries, strict=True)
     ]
 

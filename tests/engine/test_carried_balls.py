@@ -84,7 +84,7 @@ def test_what_a_start_balances(rpm):
     assert np.abs(turning).max() < 1e-7 and np.abs(along).max() < 2e-4
     cage = F.BODY + Q.CAGE
     weight = GRAVITY * p[P.CAGE_MASS]
-    # the cage is found without the friction of its pockets: 0.05 of pushes of 0.1 N, which is 0.1 of its weight
+    # the cage is found without the friction of its pockets: 0.05 of pushes of 0.1 N, a tenth of its weight
     assert np.hypot(f[cage + Q.Y], f[cage + Q.Z]) * p[P.CAGE_MASS] < 0.15 * weight
     ratio = y[Y.V0 + Q.CAGE + Q.TURN] / (rpm * RPM)
     rolling = 0.5 * (1.0 - 2.0 * s[S.C + C.BALL_RADIUS] / (2.0 * p[P.PITCH_RADIUS]))

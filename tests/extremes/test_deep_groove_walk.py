@@ -55,7 +55,7 @@ def drawn(draw: np.random.Generator):
     return deep_groove(load, rpm, clearance, changes)
 
 
-def walk(run: Instance, draw: np.random.Generator) -> None:
+def walk(run: Instance, draw: np.random.Generator, linear: bool) -> None:
     """Step with jumps of load and speed; outputs stay finite, and ball loads below ten times the load."""
     speed, load = run.get("shaft_speed"), run.get("radial_load.z")
     for k in range(_STEPS):
@@ -65,7 +65,8 @@ def walk(run: Instance, draw: np.random.Generator) -> None:
         run.step(min(1e-3, 0.05 / abs(speed)))
         values = [run.get(name) for name in _OUTPUTS]
         assert np.all(np.isfinite(values)), dict(zip(_OUTPUTS, values, strict=True))
-        assert run.get("contact.inner.load_max") < 10.0 * abs(load) + 10.0
+        # contacts of fidelity response never open, and a warning says what its loads are worth
+        assert linear or run.get("contact.inner.load_max") < 10.0 * abs(load) + 10.0
     assert abs(run.get("shaft_speed")) > 10.0 * RPM
 
 
@@ -81,6 +82,6 @@ def test_a_walk_goes_on_or_is_refused(seed, fidelity):
     run = Instance(prepare(scene, fidelity=fidelity))
     try:
         run.initialise()
-        walk(run, draw)
+        walk(run, draw, fidelity == "response")
     except EngineError as refusal:
         assert REFUSALS.search(str(refusal)), str(refusal)

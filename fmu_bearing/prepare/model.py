@@ -365,7 +365,23 @@ def _cage(scene: Scene, cage_table: Cage, material: Material, p: NDArray[np.floa
             gamma = b.ball_diameter * math.cos(scene.bearing.nominal_angle) / b.pitch_diameter
             sliding = 1.0 + gamma if c.guidance == "inner" else 1.0 - gamma
             p[P.LAND_SLIDE] = 0.5 * sliding * p[P.LAND_RADIUS]
+    if scene.fidelity.terms.land_growth:
+        _land_growth(scene, material, p)
     p[P.LAND_STOP_STIFFNESS] = _STOP_STIFFNESS
     p[P.LAND_STOP_FRACTION] = _STOP_FRACTION
     p[P.LAND_STOP_FRICTION] = _STOP_FRICTION
     p[P.LAND_STOP_SLIP] = _STOP_SLIP
+
+
+def _land_growth(scene: Scene, material: Material, p: NDArray[np.float64]) -> None:
+    """Write by what a land's clearance grows; the cage by rotation as a thin ring, by rho r^3 w^2/E."""
+    b, cage = si(scene.bearing), si(material)
+    outside = scene.bearing.cage is not None and scene.bearing.cage.guidance == "outer"
+    side = 1.0 if outside else -1.0  # of the ring: it is outside of the cage, or inside
+    ring = si(scene.materials.outer_ring if outside else scene.materials.inner_ring)
+    radius = float(p[P.LAND_RADIUS])
+    turning = 0.5 * (1.0 - b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter)
+    p[P.LAND_BY_RACE] = side
+    p[P.LAND_BY_RING] = side * ring.expansion * radius
+    p[P.LAND_BY_CAGE] = -side * cage.expansion * radius
+    p[P.LAND_BY_SPEED] = -side * cage.density * radius**3 * turning**2 / cage.youngs_modulus

@@ -52,6 +52,11 @@ class Terms(Part):
         description="Film between the cage and the lands of the ring that guides it; the dry stop stays.",
         examples=[True],
     )
+    land_growth: bool = Field(
+        default=False, examples=[False],
+        description="Growth of a land's clearance from 20 degC and standstill on, by heat, fit and rotation "
+        "of cage and ring; without it the clearance is that of the running bearing.",
+    )  # fmt: skip
     gyroscopic: bool = Field(default=True, description="Gyroscopic moments of the balls.", examples=[True])
 
 

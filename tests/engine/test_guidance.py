@@ -56,21 +56,21 @@ def test_power_balance(scene, guidance, cage_offset, tilt, gate):
 def land(guidance):
     p = np.zeros(P.TABLES)
     p[P.GUIDANCE] = GUIDANCES.index(guidance)
-    p[P.LAND_CLEARANCE], p[P.LAND_LENGTH] = 4e-5, 2.25e-3
+    p[P.LAND_LENGTH] = 2.25e-3
     p[P.LAND_RADIUS] = {"inner": 11.66e-3, "outer": 14.3e-3}[guidance]
     p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_SLIP] = 0.96, 0.1
     return p
 
 
-SHAFT, CAGE, VISCOSITY = 2094.0, 880.0, 0.006  # rad/s, Pa s
+SHAFT, CAGE, GAP = 2094.0, 880.0, (0.006, 4e-5)  # rad/s; Pa s and m
 
 
 @pytest.mark.parametrize(("guidance", "ring"), [("inner", SHAFT), ("outer", 0.0), ("outer", -3.0)])
 def test_drag_of_a_centred_cage_is_petroffs(guidance, ring):
     """An inner land drives the cage, an outer one brakes it; what is lost heats the oil."""
     p = land(guidance)
-    fy, fz, on_ring, on_cage, energy, lost = guiding_land(p, VISCOSITY, 0.0, 0.0, 0.0, 0.0, ring, CAGE)
-    petroff = 2.0 * np.pi * VISCOSITY * p[P.LAND_RADIUS] ** 3 * p[P.LAND_LENGTH] / p[P.LAND_CLEARANCE]
+    fy, fz, on_ring, on_cage, energy, lost = guiding_land(p, GAP, 0.0, 0.0, 0.0, 0.0, ring, CAGE)
+    petroff = 2.0 * np.pi * GAP[0] * p[P.LAND_RADIUS] ** 3 * p[P.LAND_LENGTH] / GAP[1]
     assert on_cage == pytest.approx(petroff * (ring - CAGE), rel=1e-9)
     assert on_ring == -on_cage and energy == 0.0
     assert lost == pytest.approx(petroff * (ring - CAGE) ** 2, rel=1e-9)
@@ -80,7 +80,7 @@ def test_drag_of_a_centred_cage_is_petroffs(guidance, ring):
 def test_drags_of_both_guidances_go_with_radius_and_sliding():
     """At equal clearance and length: (R_o^3 w_c)/(R_i^3 (w - w_c))."""
     drags = [
-        abs(guiding_land(land(guidance), VISCOSITY, 0.0, 0.0, 0.0, 0.0, ring, CAGE)[3])
+        abs(guiding_land(land(guidance), GAP, 0.0, 0.0, 0.0, 0.0, ring, CAGE)[3])
         for guidance, ring in (("outer", 0.0), ("inner", SHAFT))
     ]
     ratio = (14.3 / 11.66) ** 3 * CAGE / (SHAFT - CAGE)
@@ -92,6 +92,6 @@ def test_the_film_in_the_outer_ring_turns_with_half_the_cage():
     across = []
     offset = 2e-5
     for whirl in (0.4 * CAGE, 0.5 * CAGE, 0.6 * CAGE):
-        found = guiding_land(land("outer"), VISCOSITY, offset, 0.0, 0.0, whirl * offset, 0.0, CAGE)
+        found = guiding_land(land("outer"), GAP, offset, 0.0, 0.0, whirl * offset, 0.0, CAGE)
         across.append(found[1])
     assert across[0] > 0.0 > across[2] and abs(across[1]) < 1e-9 * across[0]

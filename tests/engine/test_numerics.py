@@ -109,13 +109,15 @@ def test_land_film_is_smooth_where_the_motion_turns(ratio):
 def test_land_is_isotropic_in_its_middle():
     """The cage crosses the middle at any direction and speed: force and slope do not jump there."""
     p = np.zeros(P.TABLES)
-    p[P.LAND_CLEARANCE], p[P.LAND_RADIUS], p[P.LAND_LENGTH] = 4e-5, 11.66e-3, 2.25e-3
+    p[P.LAND_RADIUS], p[P.LAND_LENGTH] = 11.66e-3, 2.25e-3
     p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_SLIP] = 0.96, 0.1
     way = np.array([0.6, -0.8])
     velocity = 0.01, 0.03
     places = np.linspace(-2e-7, 2e-7, 41)
-    forces = np.array([land_contact(p, 0.006, *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places])
-    still = np.array(land_contact(p, 0.006, 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
+    forces = np.array(
+        [land_contact(p, (0.006, 4e-5), *(x * way), *velocity, 2094.0, 880.0)[:2] for x in places]
+    )
+    still = np.array(land_contact(p, (0.006, 4e-5), 0.0, 0.0, *velocity, 2094.0, 880.0)[:2])
     np.testing.assert_allclose(forces[20], still, rtol=1e-14)
     # squeezed evenly all round: against the velocity, half of a full film
     factor = 0.5 * np.pi * 0.006 * 11.66e-3 * 2.25e-3**3 / 4e-5**3
@@ -130,12 +132,12 @@ def test_the_dry_stop_drags_the_cage_along_and_brakes_the_ring(journal_speed, sl
     """Coulomb's law at the place behind the ring's centre where both surfaces touch; no oil."""
     p = np.zeros(P.TABLES)
     clearance, radius, share, stiffness, mu, slip = 4e-5, 11.66e-3, 0.96, 5e6, 0.05, 0.1
-    p[P.LAND_CLEARANCE], p[P.LAND_RADIUS], p[P.LAND_LENGTH] = clearance, radius, 2.25e-3
+    p[P.LAND_RADIUS], p[P.LAND_LENGTH] = radius, 2.25e-3
     p[P.LAND_STOP_FRACTION], p[P.LAND_STOP_STIFFNESS] = share, stiffness
     p[P.LAND_STOP_FRICTION], p[P.LAND_STOP_SLIP] = mu, slip
     way, apart = np.array([0.6, -0.8]), 3.9e-5
     *force, on_ring, on_cage, energy, lost = land_contact(
-        p, 0.0, *(apart * way), 0.0, 0.0, journal_speed, sleeve
+        p, (0.0, clearance), *(apart * way), 0.0, 0.0, journal_speed, sleeve
     )
     push = apart - share * clearance
     # both touch at -way; a spin about x moves a point at r by spin x r

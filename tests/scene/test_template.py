@@ -25,7 +25,7 @@ def test_the_least_scene_is_the_usual_one():
     scene = read_scene_text(LEAST)
     assert scene.fidelity.model == "full" and scene.fidelity.tolerance == 2e-3
     off = [term for term, on in scene.fidelity.terms.model_dump().items() if not on]
-    assert off == ["thermal_traction"]
+    assert off == ["thermal_traction", "land_growth"]
     assert scene.operation.oil_temperature_degC == 40.0 and scene.sound is None
     bearing = Instance(prepare(scene))
     bearing.initialise()

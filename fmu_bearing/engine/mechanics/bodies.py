@@ -53,12 +53,13 @@ def land_forces(p, c, y, speed, f, w):
     gi = F.BODY + ring
     gt = F.BODY + tilt
     gk = F.BODY + Q.CAGE
+    gap = (c[C.LAND_VISCOSITY], c[C.LAND_CLEARANCE])
     w[W.LANDS_ENERGY] = 0.0
     for side in range(2):
         x = p[P.LAND_OFFSET] if side == 0 else -p[P.LAND_OFFSET]
         dy, dz, vy, vz = cage_at_land(y, x, ring, tilt)
         fy, fz, on_ring, on_cage, stored, lost = guiding_land(
-            p, c[C.LAND_VISCOSITY], dy, dz, vy, vz, spin, y[Y.V0 + Q.CAGE + Q.TURN]
+            p, gap, dy, dz, vy, vz, spin, y[Y.V0 + Q.CAGE + Q.TURN]
         )
         f[gk + Q.Y] += fy
         f[gk + Q.Z] += fz

@@ -194,14 +194,14 @@ def film_force(ratio, closing, carried):
 
 
 @kernel
-def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
+def land_contact(p, gap, dy, dz, vy, vz, journal, sleeve):
     """Force (N) on the sleeve in y and z at one land, friction torques (N m) and stored energy (J).
 
-    ``viscosity`` in Pa s; ``d`` and ``v`` are the sleeve centre's offset (m) and velocity (m/s) against the
-    journal's at the land, ``journal`` and ``sleeve`` their spin rates (rad/s).
+    ``gap``: viscosity (Pa s) and clearance (m); ``d`` and ``v`` are the sleeve centre's offset (m) and
+    velocity (m/s) against the journal's at the land, ``journal`` and ``sleeve`` their spin rates (rad/s).
     Returns ``(fy, fz, torque on the journal, torque on the sleeve, energy, power lost)``.
     """
-    clearance = p[P.LAND_CLEARANCE]
+    viscosity, clearance = gap
     radius = p[P.LAND_RADIUS]
     length = p[P.LAND_LENGTH]
     limit = p[P.LAND_STOP_FRACTION] * clearance
@@ -246,7 +246,7 @@ def land_contact(p, viscosity, dy, dz, vy, vz, journal, sleeve):
 
 
 @kernel
-def guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage):
+def guiding_land(p, gap, dy, dz, vy, vz, ring, cage):
     """As `land_contact`, of the ring that guides the cage: force on the cage, torques on ring and cage.
 
     ``d`` and ``v``: offset and velocity of the cage's centre against that ring's at the land, ``ring`` and
@@ -258,7 +258,7 @@ def guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage):
     journal = cage if outside else ring
     sleeve = ring if outside else cage
     fy, fz, on_journal, on_sleeve, energy, lost = land_contact(
-        p, viscosity, side * dy, side * dz, side * vy, side * vz, journal, sleeve
+        p, gap, side * dy, side * dz, side * vy, side * vz, journal, sleeve
     )
     on_ring = on_sleeve if outside else on_journal
     on_cage = on_journal if outside else on_sleeve

@@ -2,7 +2,7 @@
 
 import math
 
-from fmu_bearing.engine.choices import WALTHER
+from fmu_bearing.engine.choices import OUTER_GUIDED, WALTHER
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, U
@@ -17,6 +17,7 @@ _STILL = 1e-15  # m: growth
 _ROUNDS = 8  # of Newton's method: 1e-12 after six
 _HALVINGS = 80  # of the range of a film's heating, at most 1e10 K in the coldest oil
 _NEARBY = 0.1  # K
+_LEFT = 0.1  # of a land's clearance: the least that growth leaves
 
 
 @kernel
@@ -206,6 +207,26 @@ def take_fit_growth_out(p, c):
 
 
 @kernel
+def grown_clearance(p, u, speed, c):
+    """Clearance (m) of the cage in its lands at ``speed`` (rad/s); the races in ``c`` have grown.
+
+    The cage has the mean of both rings' temperatures, as the balls; it keeps a tenth of its clearance.
+    The ring's shoulders grow by fit and rotation as much as its race.
+    """
+    drawn = p[P.LAND_CLEARANCE]
+    if p[P.LAND_BY_RACE] == 0.0:
+        return drawn
+    rise_i = u[U.INNER_T] - REFERENCE_TEMPERATURE
+    rise_o = u[U.OUTER_T] - REFERENCE_TEMPERATURE
+    outside = p[P.GUIDANCE] == OUTER_GUIDED
+    race = C.RACES + C.RACE_SIZE if outside else C.RACES
+    gained = p[P.LAND_BY_RACE] * c[race + C.GROWTH]
+    gained += p[P.LAND_BY_RING] * (rise_o if outside else rise_i)
+    gained += p[P.LAND_BY_CAGE] * 0.5 * (rise_i + rise_o) + p[P.LAND_BY_SPEED] * speed * speed
+    return max(drawn + gained, _LEFT * drawn)
+
+
+@kernel
 def conditions(p, u, speed, c):
     """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters reduction factors, lands and fits.
 
@@ -248,6 +269,7 @@ def conditions(p, u, speed, c):
     c[C.LAND_VISCOSITY] = p[P.LAND_VISCOSITY]
     if p[P.LAND_SLIDE] != 0.0:
         c[C.LAND_VISCOSITY] = sheared_viscosity(p, u[U.OIL_T], p[P.LAND_SLIDE] * speed)
+    c[C.LAND_CLEARANCE] = grown_clearance(p, u, speed, c)
     c[C.THINNING] = thinning(p, u[U.OIL_T]) if p[P.THERMAL_TRACTION] != 0.0 else 0.0
     radial = u[U.PEDESTAL]
     axial = p[P.AXIAL_RATIO] * radial

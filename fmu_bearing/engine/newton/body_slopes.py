@@ -110,15 +110,16 @@ def land_columns(p, x, ring, tilt, axis, rate, change, jac):
 
 
 @kernel
-def land_slope(p, viscosity, before, motion, spins, per):
+def land_slope(p, gap, before, motion, spins, per):
     """By how much forces and torques of a land differ from those ``before``, times ``per``: see `land_rows`.
 
-    ``motion``: place and velocity of the cage in its land, ``spins``: of ring and cage.
+    ``gap``: see `land_contact`; ``motion``: place and velocity of the cage in its land; ``spins``: of ring
+    and cage.
     """
     fy0, fz0, ring0, cage0, _, _ = before
     dy, dz, vy, vz = motion
     ring, cage = spins
-    fy, fz, on_ring, on_cage, _, _ = guiding_land(p, viscosity, dy, dz, vy, vz, ring, cage)
+    fy, fz, on_ring, on_cage, _, _ = guiding_land(p, gap, dy, dz, vy, vz, ring, cage)
     return (fy - fy0) * per, (fz - fz0) * per, (on_ring - ring0) * per, (on_cage - cage0) * per
 
 
@@ -128,22 +129,22 @@ def land_slopes(p, c, y, speed, x, jac):
     ring, tilt = guiding_ring(p)
     spin = ring_spin(ring, y, speed)
     cage = y[Y.V0 + Q.CAGE + Q.TURN]
-    viscosity = c[C.LAND_VISCOSITY]
+    gap = (c[C.LAND_VISCOSITY], c[C.LAND_CLEARANCE])
     dy, dz, vy, vz = cage_at_land(y, x, ring, tilt)
-    before = guiding_land(p, viscosity, dy, dz, vy, vz, spin, cage)
+    before = guiding_land(p, gap, dy, dz, vy, vz, spin, cage)
     for rate in range(2):
-        h = _VELOCITY if rate == 1 else _PLACE * p[P.LAND_CLEARANCE]
+        h = _VELOCITY if rate == 1 else _PLACE * c[C.LAND_CLEARANCE]
         near = h if rate == 0 else 0.0
         fast = h if rate == 1 else 0.0
         per = 1.0 / h
-        change = land_slope(p, viscosity, before, (dy + near, dz, vy + fast, vz), (spin, cage), per)
+        change = land_slope(p, gap, before, (dy + near, dz, vy + fast, vz), (spin, cage), per)
         land_columns(p, x, ring, tilt, 0, rate, change, jac)
-        change = land_slope(p, viscosity, before, (dy, dz + near, vy, vz + fast), (spin, cage), per)
+        change = land_slope(p, gap, before, (dy, dz + near, vy, vz + fast), (spin, cage), per)
         land_columns(p, x, ring, tilt, 1, rate, change, jac)
-    change = land_slope(p, viscosity, before, (dy, dz, vy, vz), (spin, cage + _RATE), 1.0 / _RATE)
+    change = land_slope(p, gap, before, (dy, dz, vy, vz), (spin, cage + _RATE), 1.0 / _RATE)
     land_rows(p, Q.SIZE + Q.CAGE + Q.TURN, 1.0, x, ring, tilt, change, jac)
     if ring == Q.OUTER:
-        change = land_slope(p, viscosity, before, (dy, dz, vy, vz), (spin + _RATE, cage), 1.0 / _RATE)
+        change = land_slope(p, gap, before, (dy, dz, vy, vz), (spin + _RATE, cage), 1.0 / _RATE)
         land_rows(p, Q.SIZE + Q.OUTER + Q.TURN, 1.0, x, ring, tilt, change, jac)
 
 

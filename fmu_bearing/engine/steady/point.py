@@ -67,13 +67,13 @@ def is_loaded(p, c, y, fixed):
 
 
 @kernel
-def eccentricity(p, y):
+def eccentricity(p, c, y):
     """Distance of the cage's middle from that of the ring that guides it, over the clearance of the lands."""
     k = Y.Q0 + Q.CAGE
     ring, _ = guiding_ring(p)
     aside_y = y[k + Q.Y] - y[Y.Q0 + ring + Q.Y]
     aside_z = y[k + Q.Z] - y[Y.Q0 + ring + Q.Z]
-    return math.sqrt(aside_y * aside_y + aside_z * aside_z) / p[P.LAND_CLEARANCE]
+    return math.sqrt(aside_y * aside_y + aside_z * aside_z) / c[C.LAND_CLEARANCE]
 
 
 @kernel
@@ -180,7 +180,7 @@ def begin_whirl(p, c, speed, even, whirl, w, jac):
         turning = _TURNING * land_speed(p, speed)
     ahead = balls_through(p, speed)
     take(p, even, turning, w)
-    return displace_cage(p, c, speed, aside * p[P.LAND_CLEARANCE], ahead, whirl, w, jac)
+    return displace_cage(p, c, speed, aside * c[C.LAND_CLEARANCE], ahead, whirl, w, jac)
 
 
 @kernel
@@ -325,7 +325,7 @@ def follow_whirl(p, c, speed, fixed, w, jac):
     came = whirl_once(p, c, speed, fixed, even, whirl, w, jac)
     w[W.PATTERN + PT.ROUND] += 1.0
     # beyond ``P.LAND_STOP_FRACTION`` the dry stop carries the cage
-    if came == SETTLED and eccentricity(p, whirl) > _LEAST:
+    if came == SETTLED and eccentricity(p, c, whirl) > _LEAST:
         return WHIRL
     if came == GOES_ON and w[W.PATTERN + PT.ROUND] < _ROUNDS:
         return SEARCHING

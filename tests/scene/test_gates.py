@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "bcf39056d238c22ade1904a6c27d43fbce229d49e2332f3d74d0d89e78748300",
-    "7003C-impact": "57f56d1b6873a25a25f51a303aee73530b9fe63c78cdb9a39207976ea3c67d59",
-    "7003C-spindle": "8e5055463fba521f568c641c7428df284a1737fd96068043ebf4e27448823303",
-    "7009C-full-ceramic": "eae27976ebb6f81bf6a17e7457796804f0baf21bf6b53a5bdffcbb6ca1769d05",
-    "7009C-steel": "52b7879bed029b037d351bb3194f8245340e6ae5b03d3c35ddf04e66ecf1e2d5",
+    "7003C-bare": "c8b292ef1a57bac8c8ba0cc8ed1ff3c28d85460ec6f6c6ddb0225e5bd6fdd589",
+    "7003C-impact": "7873594594951a2f061d1836d20e2949dd78b1cd93993fffb2a66719d06b0a33",
+    "7003C-spindle": "246c748f4138eaf2b13bb9473712d9d3639623ff896edbe2d4e805c8d8856875",
+    "7009C-full-ceramic": "3b32245e20ba0816cb195f07b9e98e37fc2f18b35618d953233ef8b8a3883cfc",
+    "7009C-steel": "d09e25f33348b60d67680ff1868f52d07b327378ee1fb1216ea4bd23a650d70c",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

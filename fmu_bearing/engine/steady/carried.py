@@ -19,7 +19,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.dense import eliminate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import PT, ST, STRIDE, C, F, J, P, Q, R, W, Y
-from fmu_bearing.engine.mechanics.bodies import land_forces
+from fmu_bearing.engine.mechanics.bodies import guiding_ring, land_forces
 from fmu_bearing.engine.mechanics.contact import approach_under
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.jacobian import jacobian
@@ -186,8 +186,9 @@ def film_at(p, c, y, speed, apart, w):
     f = w[W.F : W.F + F.SIZE]
     for i in range(F.SIZE):
         f[i] = 0.0
-    y[Y.Q0 + Q.CAGE + Q.Y] = y[Y.Q0 + Q.Y] + apart
-    y[Y.Q0 + Q.CAGE + Q.Z] = y[Y.Q0 + Q.Z]
+    ring, _ = guiding_ring(p)
+    y[Y.Q0 + Q.CAGE + Q.Y] = y[Y.Q0 + ring + Q.Y] + apart
+    y[Y.Q0 + Q.CAGE + Q.Z] = y[Y.Q0 + ring + Q.Z]
     land_forces(p, c, y, speed, f, w)
     return f[F.BODY + Q.CAGE + Q.Y], f[F.BODY + Q.CAGE + Q.Z]
 
@@ -199,12 +200,13 @@ def hang_cage(p, c, y, speed, aside, above, w):
     In the middle where the lands are dry or nothing acts. The film is the same all round: by how far off the
     cage is follows the size of its force, and then the direction.
     """
-    middle_y, middle_z = y[Y.Q0 + Q.Y], y[Y.Q0 + Q.Z]
+    ring, _ = guiding_ring(p)
+    middle_y, middle_z = y[Y.Q0 + ring + Q.Y], y[Y.Q0 + ring + Q.Z]
     if p[P.GRAVITY] != 0.0:
         above -= GRAVITY * p[P.CAGE_MASS]
     size = math.sqrt(aside * aside + above * above)
     near = 0.0
-    far = _FARTHEST * p[P.LAND_CLEARANCE]
+    far = _FARTHEST * c[C.LAND_CLEARANCE]
     if size > 0.0:
         for _ in range(_HALVINGS):
             middle = 0.5 * (near + far)

@@ -113,6 +113,13 @@ def test_a_spring_washer_changes_little(preload):
     assert started(scene, "rings").get("friction_torque") == pytest.approx(full, rel=0.1)
 
 
+def test_a_ring_that_tilts():
+    """It turns about the contact below it until light balls above hold it; these slide, and do not settle."""
+    scene = deep_groove(300.0, 1797.0, 12.0, {"mounting.tilt_support": None})
+    full = torque_of_full(scene)
+    assert started(scene, "rings").get("friction_torque") == pytest.approx(full, rel=0.15)
+
+
 def test_torque_follows_speed_and_load():
     """Renewals while the inputs move end where a start at these inputs is."""
     run = started(deep_groove(300.0, 1797.0, 12.0), "rings")

@@ -25,6 +25,11 @@ from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.newton.jacobian import jacobian
 
 _ROUNDS = 60
+# Rounds after which steps are halved, and a ball that still goes to and fro between its own orbit and the one
+# that the cage prescribes is carried: loaded balls take some ten.
+_PATIENCE = 30
+# Of the load on all balls: lighter ones need not settle, they slide at forces that nobody feels.
+_LIGHT = 0.02
 # Of the spin, in a round: see `spin_balance`.
 _STRIDE_LIMIT = 2.5e-3
 _ALONG = 2e-6  # m, in a round: along the orbit, about the depth of a pocket's contact
@@ -106,16 +111,20 @@ def longest_spin(rows, first):
 
 
 @kernel
-def roll_once(y, low, high, lanes, jac, f, rows):
+def roll_once(y, low, high, lanes, least, late, jac, f, rows, w):
     """Move the rates of all balls by a step, orbits within ``low`` and ``high`` (rad/s).
 
-    Returns the largest step over the longest one.
+    ``least``: load (N) at the inner race from which on a ball counts; ``late``: beyond `_PATIENCE`, when
+    balls that do not settle are marked in ``PT.SCALE`` and carried. Returns the largest step over the longest
+    one, of all balls and of those that count.
     """
     most = 0.0
+    felt = 0.0
+    mark = W.PATTERN + PT.SCALE
     for j in range(lanes):
         bound = min(max(y[Y.OM + j], low), high)
         first = 0
-        if not solve_ball(_ORBIT, 0, j, jac, f, rows):
+        if w[mark + j] != 0.0 or not solve_ball(_ORBIT, 0, j, jac, f, rows):
             first = 1
         else:
             step = rows[ST.SPIN_RATES]
@@ -123,35 +132,47 @@ def roll_once(y, low, high, lanes, jac, f, rows):
                 first = 1
         if first == 1 and not solve_ball(_ORBIT, 1, j, jac, f, rows):
             most = _NOWHERE
+            felt = _NOWHERE
             continue
         longest = _STRIDE_LIMIT * spin_of(y, j)
         ahead = longest_spin(rows, first) / longest
-        share = 1.0 / max(ahead, 1.0)
+        share = (0.5 if late else 1.0) / max(ahead, 1.0)
         if first == 0:
             before = y[Y.OM + j]
             y[Y.OM + j] = min(max(before + share * rows[ST.SPIN_RATES], low), high)
+            if late and ahead > 1.0:
+                w[mark + j] = 1.0
+                y[Y.OM + j] = low if f[F.TH + j] < 0.0 else high
         else:
             y[Y.OM + j] = bound
         move_spin(y, rows, first, share, j)
         most = max(most, ahead)
-    return most
+        if w[W.RACE + R.LOAD + j] > least:
+            felt = max(felt, ahead)
+    return most, felt
 
 
 @kernel
-def roll(p, c, y, speed, low, high, w, jac):
-    """Balance the rates of the balls in ``y`` with their pockets out of reach; whether that succeeds."""
+def roll(p, c, y, speed, low, high, load, w, jac):
+    """Balance the rates of the balls in ``y`` with their pockets out of reach; whether that succeeds.
+
+    ``load``: of the inner race on all balls (N).
+    """
     rows = w[W.SPIN_SYSTEM : W.SPIN_SYSTEM + ST.SPIN_SYSTEM_SIZE]
     f = w[W.F0 : W.F0 + F.SIZE]
     pocket = c[C.POCKET]
     c[C.POCKET] = 0.0
-    most = 1.0
-    for _ in range(_ROUNDS):
+    lanes = int(p[P.LANES])
+    for j in range(lanes):
+        w[W.PATTERN + PT.SCALE + j] = 0.0
+    felt = 1.0
+    for n in range(_ROUNDS):
         jacobian(p, c, y, 0.0, speed, 0.0, w, jac)
-        most = roll_once(y, low, high, int(p[P.LANES]), jac, f, rows)
+        most, felt = roll_once(y, low, high, lanes, _LIGHT * load, n >= _PATIENCE, jac, f, rows, w)
         if most < _SETTLED:
             break
     c[C.POCKET] = pocket
-    return most < 1.0
+    return felt < 1.0
 
 
 @kernel
@@ -346,7 +367,7 @@ def carry_balls(p, c, y, speed, w, jac):
         high = orbit + abs(orbit) * slack(p)
         if p[P.CAGE] != 0.0:
             y[Y.V0 + Q.CAGE + Q.TURN] = orbit
-        if not roll(p, c, y, speed, low, high, w, jac):
+        if not roll(p, c, y, speed, low, high, load, w, jac):
             copy_state(w, kept, y, 0)
             return False
         orbit, _ = mean_orbit(p, y, w)

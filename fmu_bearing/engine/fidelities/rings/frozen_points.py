@@ -57,6 +57,7 @@ FAR = 0.2  # of the speed: where it is that far from what is frozen, all pieces 
 # frozen is off by so many times its tolerance that it cannot wait (``hurry``). At rest it is within it.
 PAUSE = 4.0
 _NEAR = 1e-3  # of a load
+_TRIES = 4  # axial loads, ten times as large each, where balls find no rest under the one that is asked for
 # m: two contacts at some 15 degrees give way by half of that, an approach changes by an eighth: the 1e-9 that
 # a bearing's own geometry may change by
 _GROWN = 5e-9
@@ -132,6 +133,19 @@ def freeze_points(p, u, known, at_once, s, w):
 
 
 @kernel
+def find_even(p, c, speed, outer, y, w):
+    """Quasi-static state ``y`` of even balls under the axial load in ``c``; status code.
+
+    ``outer``: place of the outer ring along the axis (m).
+    """
+    axial = w[W.STILL_EQUILIBRIUM : W.STILL_END]
+    status = quasistatic(p, c, speed, axial)
+    if status == OK:
+        status = upright_point(p, c, speed, axial[ST.AXIAL_SHIFT], outer, y, w)
+    return status
+
+
+@kernel
 def freeze_point(p, u, b, at_once, s, w):
     """Renew what bearing ``b`` holds but its operator, where `rest_set` has found it at rest."""
     pb = members.parameters(p, b)
@@ -158,10 +172,13 @@ def freeze_point(p, u, b, at_once, s, w):
     if rigid or pb[P.SUPPORT_STIFFNESS] != 0.0:
         # mount and springs leave the balls the load that the present sizes and speed ask for
         c[C.PRELOAD] = carried
-    axial = wb[W.STILL_EQUILIBRIUM : W.STILL_END]
-    status = quasistatic(pb, c, turning, axial)
-    if status == OK:
-        status = upright_point(pb, c, turning, axial[ST.AXIAL_SHIFT], ws[at + SP.START_OUTER], y, wb)
+    status = find_even(pb, c, turning, ws[at + SP.START_OUTER], y, wb)
+    for _ in range(_TRIES):
+        if status == OK:
+            break
+        # balls that just touch may find no rest: some load along the axis gives even ones
+        c[C.PRELOAD] = 10.0 * max(c[C.PRELOAD], TOUCHING)
+        status = find_even(pb, c, turning, ws[at + SP.START_OUTER], y, wb)
     if status == OK:
         if rigid:
             y[Y.Q0] = sb[S.PLACE]

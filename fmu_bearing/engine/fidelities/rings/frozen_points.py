@@ -177,7 +177,7 @@ def freeze_point(p, u, b, at_once, s, w):
         if status == OK:
             break
         # balls that just touch may find no rest: some load along the axis gives even ones
-        c[C.PRELOAD] = 10.0 * max(c[C.PRELOAD], TOUCHING)
+        c[C.PRELOAD] = math.copysign(10.0 * max(abs(c[C.PRELOAD]), TOUCHING), c[C.PRELOAD])
         status = find_even(pb, c, turning, ws[at + SP.START_OUTER], y, wb)
     if status == OK:
         if rigid:

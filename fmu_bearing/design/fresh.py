@@ -7,7 +7,6 @@ from typing import Any
 from fmu_bearing.design.operating_point import operating_point
 from fmu_bearing.design.rating import speed_limit
 from fmu_bearing.design.verdicts import verdicts
-from fmu_bearing.formulas import iso281
 from fmu_bearing.modal.equations.remarks import LOOSE, UNSTEADY
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.scene import Scene, SceneError, read_scene_text, template
@@ -132,7 +131,7 @@ def _deep_groove(
         )
         rules["speed_rule"] = f"half of n d_m of {1e-6 * _DEEP_SPEED_NUMBER:g}e6 mm r/min, usual with grease"
     if force == 0.0 and given.get("radial_load_N") is None:
-        rules["radial_load_N"] = _rounded(_LIGHT * iso281.dynamic_rating(*bearing.for_ratings))
+        rules["radial_load_N"] = _rounded(_LIGHT * bearing.dynamic_rating)
         rules["radial_rule"] = f"{_LIGHT:g} C, a light load"
     return text(speed, force, **rules)
 

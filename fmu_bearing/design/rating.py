@@ -52,7 +52,7 @@ def rating(scene: Scene, axial: float, radial: float, speed_rpm: float) -> Ratin
     if not is_rated(scene):
         return None
     size = scene.bearing.for_ratings
-    dynamic, static = iso281.dynamic_rating(*size), iso76.static_rating(*size)
+    dynamic, static = scene.bearing.dynamic_rating, iso76.static_rating(*size)
     factor = iso76.static_factor(iso281.relative_ball(*size[1:]))
     relative = factor * axial / static
     load = iso281.equivalent_load(scene.bearing.nominal_angle_deg, relative, axial, radial)
@@ -119,5 +119,5 @@ def reference_life(scene: Scene, inner: NDArray[np.float64], outer: NDArray[np.f
         return None
     size = scene.bearing.for_ratings
     g = iso281.relative_ball(*size[1:])
-    ratings = iso16281.race_ratings(iso281.dynamic_rating(*size), size[0], g, size[3], iso281.GROOVES)
+    ratings = iso16281.race_ratings(scene.bearing.dynamic_rating, size[0], g, size[3], iso281.GROOVES)
     return iso16281.reference_life(ratings, inner, outer)

@@ -7,7 +7,7 @@ from typing import Any, get_args
 from fmu_bearing.engine.choices import FIDELITIES, METHODS
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import P
-from fmu_bearing.formulas import iso76, iso281, makers
+from fmu_bearing.formulas import iso76, makers
 from fmu_bearing.interface.variable import Variable, usual
 from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.fit import interferences
@@ -152,7 +152,7 @@ def _ratings(scene: Scene) -> list[Variable]:
         words = f"Shaft speed up to which makers run such a bearing with {supply}"
         speed = limit / bearing.pitch_diameter_mm * RPM
         table.append(_constant("rating.speed_limit", words, speed, "rad/s", display_unit="r/min"))
-    dynamic = iso281.dynamic_rating(*bearing.for_ratings)
+    dynamic = bearing.dynamic_rating
     words = "Dynamic load rating C (ISO 281)"
     table.append(_constant("rating.dynamic", words, dynamic, "N", nominal=1e4))
     factor, words = (iso76.HYBRID, ", 0.7 of it for ceramic balls (GMN)") if kind == "hybrid" else (1.0, "")

@@ -8,7 +8,7 @@ from pydantic import Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
 
 from fmu_bearing.engine.choices import Guidance
-from fmu_bearing.formulas import clearances, iso76
+from fmu_bearing.formulas import clearances, iso76, iso281
 from fmu_bearing.scene.base import Conflict, Label, Part, below
 from fmu_bearing.scene.seal import Seal
 
@@ -206,6 +206,11 @@ class Bearing(Part):
     def for_ratings(self) -> tuple[int, float, float, float]:
         """Number of balls, ball and pitch diameter (mm) and contact angle (rad), as ratings take them."""
         return self.ball_count, self.ball_diameter_mm, self.pitch_diameter_mm, self.nominal_angle
+
+    @property
+    def dynamic_rating(self) -> float:
+        """C (N) by ISO 281, for steel."""
+        return iso281.dynamic_rating(*self.for_ratings)
 
     @property
     def lip_diameter(self) -> float | None:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import ValidationError
 
-from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.formulas.makers import ANGLES, CLASS_NAMES, at_known_angle, preload_classes
 from fmu_bearing.scene import nsk
 from fmu_bearing.scene.bearing import Bearing
@@ -79,7 +78,7 @@ def classes(bearing: Bearing) -> Classes | None:
     angle = bearing.nominal_angle_deg
     if not at_known_angle(angle):
         return None
-    rating = dynamic_rating(*bearing.for_ratings)
+    rating = bearing.dynamic_rating
     shares = zip(CLASS_NAMES, preload_classes(angle), strict=True)
     return Classes("GMN", {name: float(f"{share * rating:.3g}") for name, share in shares})
 
@@ -220,7 +219,7 @@ def _of_class(wanted: Any, bearing: Bearing, key: str) -> Preload:
     if by_class.maker == "NSK":
         return Preload(force, f"{wanted} class of NSK: {force:g} N")
     share = dict(zip(CLASS_NAMES, preload_classes(angle), strict=True))[wanted]
-    rating = dynamic_rating(*bearing.for_ratings)
+    rating = bearing.dynamic_rating
     return Preload(force, f"{wanted} class of GMN: {share:.3g} of C = {rating:.0f} N, {force:g} N")
 
 

@@ -16,6 +16,7 @@ from fmu_bearing.interface.outputs import first_output
 from fmu_bearing.prepare.model import Model
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.fit import interferences
+from fmu_bearing.scene.words import loose_words
 
 
 @dataclass(frozen=True)
@@ -137,27 +138,6 @@ _BACKWARD = Caution(  # of a set that carries one way: another has bearings for 
     "and stiffness are computed for a whole groove; turn a bearing, or reverse the load",
 )
 _FRICTIONLESS = 1e-6  # N m: below it a torque is rounding, of a bearing without friction
-_LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
-_ROLLS = {
-    "full": "what they then do depends on gravity, loads and chance more than on the bearing",
-    "rings": "fidelity rings has balls that always roll: its loads and levels then mean little, its torque "
-    "is that of balls at rest under the loads across",
-    "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
-    "wrong by orders of magnitude",
-}
-
-
-def is_loose(scene: Scene) -> bool:
-    """Whether a single bearing has no preload; a deep groove one has a radial load in its place."""
-    return (
-        scene.mounting is not None and not scene.bearing.is_deep_groove and not scene.mounting.preload_N > 0.0
-    )
-
-
-def loose(fidelity: str) -> str:
-    """Return the warning about a bearing without preload at a fidelity."""
-    words = _LOOSE + _ROLLS[fidelity]
-    return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"
 
 
 #: Variables that say whether the figures of a run are in doubt, see `in_doubt`.
@@ -205,7 +185,7 @@ def _cautions(model: Model) -> tuple[Caution, ...]:
         return (*_skids(model, fidelity), *_cautions_of_set(model.scene))
     if model.scene.bearing.is_deep_groove:
         return (_IDLE, *_skids(model, fidelity), *_ALWAYS, *_fits(model.scene), *_tight(model.scene))
-    before, nothing, after = loose(fidelity).partition("0")
+    before, nothing, after = loose_words(fidelity).partition("0")
     smallest = math.ulp(float(nothing))
     without = Caution(U.PRELOAD, smallest, 1.0, before, after, decimals=0, array="u")
     return (without, *_skids(model, fidelity), *_ALWAYS, *_fits(model.scene))

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from fmu_bearing.design.rating import preload_classes
-from fmu_bearing.formulas import clearances
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.preload import CLASS, preload
 from fmu_bearing.scene.read import catalogue
@@ -165,8 +164,8 @@ def _clearances(scene: Scene) -> Iterator[Alternative]:
     """Yield the other groups of a deep groove bearing's clearance."""
     bearing = scene.bearing
     now = bearing.clearance or f"{1e6 * bearing.radial_clearance:g} um"
-    for group in clearances.GROUPS:
-        if group != bearing.clearance and clearances.limits(group, bearing.bore_mm) is not None:
+    for group in bearing.clearance_groups:
+        if group != bearing.clearance:
             yield Alternative("clearance", f"clearance {now} -> {group}", {"bearing.clearance": group})
 
 

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Sequence
 
-from fmu_bearing.cautions import is_loose, loose
 from fmu_bearing.files import check_file, check_folder
 from fmu_bearing.fmi.package import BuiltFmu, build, check_choice
 from fmu_bearing.modal.campbell import doubts
@@ -11,6 +10,7 @@ from fmu_bearing.prepare.model import Model, prepare
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.scene import Scene, SceneSource, scene_of
+from fmu_bearing.scene.words import is_loose, loose_words
 
 
 def model_of(source: SceneSource, tell: Tell = silent) -> Model:
@@ -28,7 +28,7 @@ def model_of(source: SceneSource, tell: Tell = silent) -> Model:
         tell("fidelity auto: probing the scene against fidelity full (kept for the next time)")
     resolved, choice = resolve(scene)
     if is_loose(resolved):
-        tell(f"caution: {loose(resolved.fidelity.model)}")
+        tell(f"caution: {loose_words(resolved.fidelity.model)}")
     notes = []
     if doubted := _doubt(resolved):
         tell(f"caution: {doubted}")

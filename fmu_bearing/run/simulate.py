@@ -12,7 +12,6 @@ import numpy as np
 from fmpy.simulation import Input as FmpyInput
 from numpy.typing import NDArray
 
-from fmu_bearing.cautions import loose
 from fmu_bearing.instance import EngineError, Instance, number
 from fmu_bearing.interface import Variable
 from fmu_bearing.interface.names import chosen_names, known
@@ -25,6 +24,7 @@ from fmu_bearing.run.inputs import Input, Inputs, input_table
 from fmu_bearing.run.march import Proceed, march, underway
 from fmu_bearing.scene import SceneSource, scene_of
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.words import loose_words
 
 if TYPE_CHECKING:
     from fmu_bearing.run.simulate_fmu import FmuPlayer
@@ -262,7 +262,7 @@ def _warn_of_loose(player: "FmuPlayer | _Library", start_values: Mapping[str, fl
     if scene.fidelity.model == "auto" or scene.bearing.is_deep_groove:
         return
     if by_name(start_values).get("preload", player.inputs["preload"].start) == 0.0:
-        warnings.warn(loose(scene.fidelity.model), stacklevel=3)
+        warnings.warn(loose_words(scene.fidelity.model), stacklevel=3)
 
 
 def _check_times(stop_time: float, step: float) -> None:

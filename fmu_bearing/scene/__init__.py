@@ -14,7 +14,7 @@
 ``preload``       newtons of a preload class or of an offset of the ring faces
 ``template``      the text of a new scene
 ``set_template``  its tables of a set of bearings on one shaft
-``words``         a scene in a line: materials, supply, temperatures
+``words``         a scene in a line: materials, supply, temperatures, no preload
 ``base``          base class of all tables: frozen, strict, reports all conflicts at once; `SceneError`
 ``bearing``       geometry of rings, balls and cage
 ``seal``          its seals: kind, diameter of the lips, or their torque

@@ -182,6 +182,13 @@ class Bearing(Part):
         return 0.0 if found is None else 1e-6 * found.middle
 
     @property
+    def clearance_groups(self) -> tuple[clearances.Group, ...]:
+        """Groups of radial clearance that are known for its bore."""
+        return tuple(
+            group for group in clearances.GROUPS if clearances.limits(group, self.bore_mm) is not None
+        )
+
+    @property
     def free_angle(self) -> float:
         """Angle (rad) of balls that just touch both races as drawn; 0 where they are pressed."""
         if not self.is_deep_groove:
@@ -302,7 +309,7 @@ class Bearing(Part):
         if self.clearance is not None:
             if self.radial_clearance_um is not None:
                 yield Conflict("clearance", "cannot be given with radial_clearance_um: keep one")
-            elif clearances.limits(self.clearance, self.bore_mm) is None:
+            elif self.clearance not in self.clearance_groups:
                 yield Conflict(
                     "clearance",
                     f"is known for bores of {clearances.LEAST_BORE:g} to {clearances.MOST_BORE:g} mm: give "

@@ -1,4 +1,4 @@
-"""A scene in a line: what the bearings are of, and how they run."""
+"""A scene in a line: what the bearings are of, how they run, and that nothing preloads them."""
 
 import functools
 from collections import Counter
@@ -6,6 +6,15 @@ from collections import Counter
 from fmu_bearing.scene.entries import catalogue
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.read import Scene
+
+_LOOSE = "preload = 0 N: no axial force holds balls and races together: loose balls skid or lift off; "
+_ROLLS = {
+    "full": "what they then do depends on gravity, loads and chance more than on the bearing",
+    "rings": "fidelity rings has balls that always roll: its loads and levels then mean little, its torque "
+    "is that of balls at rest under the loads across",
+    "response": "fidelity response has balls that always roll and contacts that never open: its loads may be "
+    "wrong by orders of magnitude",
+}
 
 
 @functools.cache
@@ -74,3 +83,16 @@ def conditions_words(scene: Scene) -> str:
         f"supply {scene.lubricant.supply}; oil {at.oil_temperature_degC:.4g}, inner ring "
         f"{at.inner_ring_temperature_degC:.4g}, outer ring {at.outer_ring_temperature_degC:.4g} degC"
     )
+
+
+def is_loose(scene: Scene) -> bool:
+    """Whether a single bearing has no preload; a deep groove one has a radial load in its place."""
+    return (
+        scene.mounting is not None and not scene.bearing.is_deep_groove and not scene.mounting.preload_N > 0.0
+    )
+
+
+def loose_words(fidelity: str) -> str:
+    """Return the warning about a bearing without preload at a fidelity."""
+    words = _LOOSE + _ROLLS[fidelity]
+    return f"{words}; give a preload (mounting.preload_N, input preload), or expect no more than a trend"

@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from fmu_bearing.cautions import is_loose, loose
 from fmu_bearing.extras import BENDING, need
 from fmu_bearing.prepare.sound_block import sound_key
 from fmu_bearing.run.choose import resolve
 from fmu_bearing.run.figures import Figure
 from fmu_bearing.scene import Scene, SceneError, SceneSource, scene_of
 from fmu_bearing.scene.values import value_at
+from fmu_bearing.scene.words import is_loose, loose_words
 from fmu_bearing.sweeps.axes import Axis, SweepError, axes_of
 from fmu_bearing.sweeps.figures import figures_of
 from fmu_bearing.sweeps.point import Task, task_of
@@ -117,7 +117,7 @@ def plan_of(
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # reported once, and not as the reason of every point
     for model in dict.fromkeys(one.fidelity.model for one in scenes if is_loose(one)):
-        warnings.warn(loose(model), stacklevel=3)  # once, and not by each worker
+        warnings.warn(loose_words(model), stacklevel=3)  # once, and not by each worker
     kept = figures_of(scene, figures)
     names = tuple(figure.name for figure in kept)
     first: dict[str, Scene] = {}  # the first scene of all with the same sound

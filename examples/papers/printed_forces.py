@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.layout import C, P
+from fmu_bearing.engine.layout import C, P, Q
 
 Array = NDArray[np.float64]
 
@@ -48,6 +48,9 @@ class Bearing:
     def __init__(self, p: Array, c: Array) -> None:
         self.__dict__.update({name.lower(): float(p[at]) for name, at in _places(P, p)})
         self.__dict__.update({name.lower(): float(c[at]) for name, at in _places(C, c)})
+        #: Of the springs and dampers to ground that hold the inner ring against tilting.
+        self.tilt_stiffness = float(p[P.SUPPORT_STIFFNESS + Q.INNER_BY])
+        self.tilt_damping = float(p[P.SUPPORT_DAMPING + Q.INNER_BY])
         both = []
         for race in (INNER, OUTER):
             own, held = p[P.RACES + race * P.RACE_SIZE :], c[C.RACES + race * C.RACE_SIZE :]

@@ -143,7 +143,7 @@ def test_a_misspelt_column_of_inputs_keeps_its_unit(run, folder, column, name):
         (
             "preload_N = 500.0",
             'preload_N = "300"',
-            "mounting.preload_N = '300' ... 0 to 1e+06 N ... write preload_N = 300",
+            "mounting.preload_N = '300' ... -1e+06 to 1e+06 N ... write preload_N = 300",
         ),
         (
             "seed = 1",
@@ -158,7 +158,7 @@ def test_a_misspelt_column_of_inputs_keeps_its_unit(run, folder, column, name):
         (
             "preload_N = 500.0",
             'preload_N = "300 N"',
-            "mounting.preload_N = '300 N' ... 0 to 1e+06 N ... no number",
+            "mounting.preload_N = '300 N' ... -1e+06 to 1e+06 N ... no number",
         ),
         (
             'radiator = "bare"',

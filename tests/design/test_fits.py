@@ -1,5 +1,6 @@
 """`fits`: five columns computed in full, two seats, sets, numbers of the design page."""
 
+import itertools
 import math
 
 import numpy as np
@@ -315,8 +316,8 @@ def test_a_preload_that_warmth_takes_away_takes_no_other_column():
                for said in operating_point(warm).statics.cautions())  # fmt: skip
 
 
-def test_a_fit_without_an_equilibrium_takes_no_other_column():
-    """20 N rigid as given loose, 20 to 54 K warm: the loosest shaft leaves no preload."""
+def test_a_fit_without_an_equilibrium_takes_no_other_column(monkeypatch):
+    """20 N rigid as given loose, 20 to 54 K warm: the loosest shaft leaves balls loose, and a column if they rest."""
     text = new_scene("cool", "NSK-7003AC", kind="hybrid", speed_rpm=1e3, preload_N=20.0)
     seats = {
         "shaft": {"shaft_class": "js5", "material": STEEL, "temperature_degC": 62.0},
@@ -331,6 +332,17 @@ def test_a_fit_without_an_equilibrium_takes_no_other_column():
             "mounting.fit": {"bearing_class": "P4", "preload": "unmounted"} | seats,
         }
     )  # fmt: skip
+    loose = fits(warm)
+    assert ["balls loose by, um, warm", "0.6", "0.6", "", "", ""] in fit_rows(loose, 1)
+
+    points = itertools.cycle([None, None, *(column.point for column in loose.columns[2:])])
+
+    def without_loose(scene):
+        if (point := next(points)) is None:
+            raise EngineError("no quasi-static equilibrium")
+        return point
+
+    monkeypatch.setattr(study, "operating_point", without_loose)
     found = fits(warm)
     assert [one.take for one in found.columns] == ["mean", "probable max", "max"]
     assert head(found) == ("", "mean", "prob. max", "max")

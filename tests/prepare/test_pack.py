@@ -417,23 +417,24 @@ def test_lands_of_a_cage_on_the_outer_ring():
 
     It turns at (1 - gamma)/2 of the shaft's speed.
     """
-    outer = ("bore_mm = 23.4", 'bore_mm = 22.65\nguidance = "outer"')
+    outer = ('guidance = "inner"', 'guidance = "outer"')
+    wide_bore = ("bore_mm = 23.4", "bore_mm = 22.65")
     wide = ("outside_diameter_mm = 27.6", "outside_diameter_mm = 28.6")
-    found = packed(outer, wide)
+    found = packed(outer, wide_bore, wide)
     assert found[P.GUIDANCE] == GUIDANCES.index("outer") and found[P.LAND] == 1.0
     assert list(found[places("LAND_RADIUS", "LAND_CLEARANCE")]) == pytest.approx([14.3e-3, 40e-6])
     # without a clearance: up to the outer ring's shoulders, which are outside of its effective diameter
-    own = packed(outer, ("outside_diameter_mm = 27.6", "outside_diameter_mm = 29.2"), (GIVEN, ""))
+    own = packed(outer, wide_bore, ("outside_diameter_mm = 27.6", "outside_diameter_mm = 29.2"), (GIVEN, ""))
     shoulder = ring_section(read_scene_text(TEXT), OUTER).low
     assert own[P.LAND_CLEARANCE] == pytest.approx(shoulder - 14.6e-3, rel=1e-9)
-    jet = packed(outer, wide, ('supply = "oil-air"', 'supply = "jet"'), ("land_viscosity_Pa_s = 0.006", ""))
+    jet = packed(outer, wide_bore, wide, ('supply = "oil-air"', 'supply = "jet"'), ("land_viscosity_Pa_s = 0.006", ""))
     gamma = 4.5 * math.cos(math.radians(15.0)) / 26.0
     assert jet[P.LAND_SLIDE] == pytest.approx(0.5 * (1.0 - gamma) * 14.3e-3)
 
 
 def test_a_cage_on_the_balls_has_spheres_and_no_lands():
     """Ball and sphere conform both ways: stiffness goes with the root of 1/(2/D - 2/D_p)."""
-    bores, found = packed(), packed(("bore_mm = 23.4", 'bore_mm = 23.4\nguidance = "balls"'), (GIVEN, ""))
+    bores, found = packed(), packed(('guidance = "inner"', 'guidance = "balls"'), (GIVEN, ""))
     assert found[P.GUIDANCE] == GUIDANCES.index("balls") and found[P.LAND] == 0.0
     sphere = 1.0 / (2.0 / 4.5e-3 - 2.0 / 4.6e-3)
     modulus = bores[P.POCKET_STIFFNESS] / point_contact(2.25e-3, sphere, 1.0).stiffness

@@ -188,13 +188,13 @@ def test_misspelt_catalogue_key():
         ("e_diameter_mm = 27.6", "e_diameter_mm = 29.6", "must be below outer_ring_inner_diameter_mm = 29.6"),
         # of the ring that guides the cage the clearance counts
         (
-            "outside_diameter_mm = 27.6\n",
-            'outside_diameter_mm = 29.55\nguidance = "outer"\n',
+            'guidance = "inner"\noutside_diameter_mm = 27.6\n',
+            'guidance = "outer"\noutside_diameter_mm = 29.55\n',
             "29.55 must be below outer_ring_inner_diameter_mm less twice the land's clearance, 29.52",
         ),
         (
-            "bore_mm = 23.4\n",
-            'bore_mm = 23.4\nguidance = "balls"\n',
+            'guidance = "inner"\n',
+            'guidance = "balls"\n',
             'cage.land_clearance_mm = 0.04 is of lands, which a cage with guidance = "balls" does not have',
         ),
         ("pocket_diameter_mm = 4.6", "pocket_diameter_mm = 4.5", "must exceed ball_diameter_mm = 4.5"),

@@ -154,3 +154,14 @@ def anchored(text: str, folder: Path) -> str:
     if files:
         document[KEY] = [str(real_path(path)) for path in files]
     return tomlkit.dumps(document)
+
+
+def named(known: Mapping[str, Entry]) -> str:
+    """Return names of entries; makers' sizes, which are many, by the first of them."""
+    made = (
+        [name for name in known if name.startswith(nsk.PREFIX)],
+        [name for name in known if name in deep_groove.sizes()],
+    )
+    others = [name for name in known if not any(name in of_maker for of_maker in made)]
+    more = [f"{len(one)} from {one[0]} on (`fmu-bearing scene catalogue`)" for one in made if one]
+    return ", ".join([*others, *more])

@@ -14,14 +14,12 @@ from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.bearing import CLEARANCE_KEYS
-from fmu_bearing.scene.deep_groove import sizes
 from fmu_bearing.scene.designation import suggestion
-from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named_files
+from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named, named_files
 from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.member import SceneBearing, bearings_of
-from fmu_bearing.scene.nsk import PREFIX
 from fmu_bearing.scene.preload import (
     CLASS,
     FORCE,
@@ -422,13 +420,13 @@ def _fill(
     wanted = given.pop(key)
     if not isinstance(wanted, str) or wanted not in known:
         where = dotted(path) + ("" if is_material(path) else f".{key}")
-        others = f"{suggestion(str(wanted), known)}known: {_named(known)}"
+        others = f"{suggestion(str(wanted), known)}known: {named(known)}"
         lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {others}")
         unresolved.append(path)
         return
     entry = copy.deepcopy(known[wanted].values)
     entry = _beside_harmonics(entry, given) if key == "grade" else entry
-    if path == ("bearing",) and not given.keys().isdisjoint(CLEARANCE_KEYS):
+    if path[-1] == "bearing" and not given.keys().isdisjoint(CLEARANCE_KEYS):
         entry = {name: value for name, value in entry.items() if name not in CLEARANCE_KEYS}
     nested = {
         name: {**value, **given[name]}
@@ -436,14 +434,6 @@ def _fill(
         if isinstance(value, dict) and isinstance(given.get(name), dict)
     }
     parent[path[-1]] = {**entry, **given, **nested}
-
-
-def _named(known: Mapping[str, Entry]) -> str:
-    """Return names of entries; makers' sizes, which are many, by the first of them."""
-    made = [name for name in known if name.startswith(PREFIX)], [name for name in known if name in sizes()]
-    others = [name for name in known if not any(name in of_maker for of_maker in made)]
-    more = [f"{len(one)} from {one[0]} on (`fmu-bearing scene catalogue`)" for one in made if one]
-    return ", ".join([*others, *more])
 
 
 def _beside_harmonics(entry: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:

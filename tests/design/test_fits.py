@@ -317,7 +317,7 @@ def test_a_preload_that_warmth_takes_away_takes_no_other_column():
 
 
 def test_a_fit_without_an_equilibrium_takes_no_other_column(monkeypatch):
-    """20 N rigid as given loose, 20 to 54 K warm: the loosest shaft leaves balls loose, and a column if they rest."""
+    """20 N rigid as given loose, 20 to 54 K warm: the loosest shaft leaves loose balls."""
     text = new_scene("cool", "NSK-7003AC", kind="hybrid", speed_rpm=1e3, preload_N=20.0)
     seats = {
         "shaft": {"shaft_class": "js5", "material": STEEL, "temperature_degC": 62.0},

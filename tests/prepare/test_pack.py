@@ -427,7 +427,9 @@ def test_lands_of_a_cage_on_the_outer_ring():
     own = packed(outer, wide_bore, ("outside_diameter_mm = 27.6", "outside_diameter_mm = 29.2"), (GIVEN, ""))
     shoulder = ring_section(read_scene_text(TEXT), OUTER).low
     assert own[P.LAND_CLEARANCE] == pytest.approx(shoulder - 14.6e-3, rel=1e-9)
-    jet = packed(outer, wide_bore, wide, ('supply = "oil-air"', 'supply = "jet"'), ("land_viscosity_Pa_s = 0.006", ""))
+    jet = packed(
+        outer, wide_bore, wide, ('supply = "oil-air"', 'supply = "jet"'), ("land_viscosity_Pa_s = 0.006", "")
+    )
     gamma = 4.5 * math.cos(math.radians(15.0)) / 26.0
     assert jet[P.LAND_SLIDE] == pytest.approx(0.5 * (1.0 - gamma) * 14.3e-3)
 

@@ -12,5 +12,6 @@ themselves. Imperfections count as none.
 ``growth``     whether the whirl of a cage grows about the pattern at rest
 ``carried``    where none is found: quasi-static balls, which roll or which the cage carries
 ``point``      the operating point of a bearing: which of them holds
+``transfer``   from a quasi-static state to it
 =============  ==========================================================================
 """

@@ -44,13 +44,8 @@ from fmu_bearing.engine.statics.spin_balance import balance_spins
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 from fmu_bearing.engine.steady.carried import carry_balls
 from fmu_bearing.engine.steady.even import BOTH, NONE
-from fmu_bearing.engine.steady.point import (
-    CARRIED,
-    NOT_FOUND,
-    move_to_steady,
-    needs_carrying,
-    settle_perfect,
-)
+from fmu_bearing.engine.steady.point import CARRIED, NOT_FOUND, needs_carrying, settle_perfect
+from fmu_bearing.engine.steady.transfer import move_to_steady
 
 _BACKWARD = 1e-6  # of all forces: what a bearing may carry against its direction
 

@@ -331,7 +331,7 @@ FIGURES = {
         "3.9 um, so": lambda: -left(motor(20.0, bearing__radial_clearance_um=13.0, group=None)),
         "9 K above": lambda: rubbed("RSH").places[1, "inner_ring"] - rubbed("RSH").places[1, "outer_ring"],
         "3.6 um and": lambda: left(motor(20.0)),
-        "75998 h": lambda: motor(20.0).bearings[0].life,
+        "75995 h": lambda: motor(20.0).bearings[0].life,
         "20.9 W in": lambda: rubbed("RSH").heats[0].seals,
         "1.3 W.**": lambda: rubbed("RSL").heats[0].seals,
     },

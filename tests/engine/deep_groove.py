@@ -1,6 +1,4 @@
-"""A 6205 as a scene of today: an angular contact bearing whose free angle is that of its radial clearance."""
-
-import math
+"""A 6205 of steel on the pedestal of a gate scene, with a machined cage on its inner ring."""
 
 from fmu_bearing.scene import Scene, read_scene
 from tests.conftest import GATES
@@ -9,12 +7,6 @@ _STEEL = (
     "youngs_modulus_GPa", "poisson_ratio", "density_kg_m3", "expansion_1e6_K", "conductivity_W_mK",
     "specific_heat_J_kgK",
 )  # fmt: skip
-
-
-def free_angle(clearance_um: float, ball_mm: float = 7.938, conformities: float = 1.05) -> float:
-    """Contact angle (deg) at which balls touch both races with this radial clearance, on the diameter."""
-    apart = 1e3 * (conformities - 1.0) * ball_mm
-    return math.degrees(math.acos(1.0 - 0.5 * clearance_um / apart))
 
 
 def deep_groove(load_N: float, rpm: float, clearance_um: float, changes: dict | None = None) -> Scene:
@@ -28,7 +20,8 @@ def deep_groove(load_N: float, rpm: float, clearance_um: float, changes: dict | 
         "name": "6205", "bearing.designation": "6205", "bearing.bore_mm": 25.0,
         "bearing.outside_diameter_mm": 52.0, "bearing.width_mm": 15.0, "bearing.pitch_diameter_mm": 39.04,
         "bearing.ball_diameter_mm": 7.938, "bearing.ball_count": 9, "bearing.inner_conformity": 0.52,
-        "bearing.outer_conformity": 0.53, "bearing.contact_angle_deg": free_angle(clearance_um),
+        "bearing.outer_conformity": 0.53, "bearing.kind": "deep-groove",
+        "bearing.contact_angle_deg": None, "bearing.radial_clearance_um": clearance_um,
         "bearing.inner_ring_outer_diameter_mm": 33.0, "bearing.outer_ring_inner_diameter_mm": 45.1,
         "bearing.cage.outside_diameter_mm": 42.0, "bearing.cage.bore_mm": 34.0,
         "bearing.cage.width_mm": 12.0, "bearing.cage.pocket_diameter_mm": 8.1, "mounting.preload_N": 0.0,

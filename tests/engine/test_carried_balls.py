@@ -113,6 +113,23 @@ def test_a_spring_washer_changes_little(preload):
     assert started(scene, "rings").get("friction_torque") == pytest.approx(full, rel=0.1)
 
 
+@pytest.mark.parametrize(
+    "cage",
+    heavy_but(
+        [{"guidance": "balls", "land_clearance_mm": None},
+         {"guidance": "outer", "land_clearance_mm": 0.15, "outside_diameter_mm": 44.6}],
+        0,
+    ),
+)  # fmt: skip
+def test_cages_of_any_guidance_carry_balls(cage):
+    """A pressed cage on its balls, and a machined one on the outer ring."""
+    scene = deep_groove(300.0, 1797.0, 12.0, {f"bearing.cage.{key}": value for key, value in cage.items()})
+    for fidelity in ("rings", "response"):
+        assert started(scene, fidelity).get("friction_torque") == pytest.approx(
+            torque_of_full(scene), rel=0.1
+        )
+
+
 def test_a_ring_that_tilts():
     """It turns about the contact below it until light balls above hold it; these slide, and do not settle."""
     scene = deep_groove(300.0, 1797.0, 12.0, {"mounting.tilt_support": None})

@@ -71,7 +71,8 @@ def test_tables_picture_and_files(run, rings_file, light_file, tmp_path):
 def test_machines(run, rings_file, quiet_cages):
     done = run("compare", *quiet_cages, *SHORT, "--fidelity", "response", "--seeds", 2, "--json")
     assert done.exit_code == 0, done.output
-    assert done.data["keys"] == {"mounting.preload_N": {"a": 500.0, "b": 300.0, "unit": "N"}}
+    changed = {"key": "mounting.preload_N", "a": 500.0, "b": 300.0, "unit": "N"}
+    assert done.data["keys"] == {"mounting.preload_N": changed}
     assert set(done.data["a"]["levels"]) == {"P1", "P2", "P3", "P4"} and done.data["files"] == []
     assert "fidelity response" in done.stderr
     model = read_scene(rings_file).sound.radiation_model

@@ -134,7 +134,7 @@ def test_an_end_without_equilibrium_is_left_out_and_named(monkeypatch):
 )
 def test_what_does_not_act_is_left_out(changes, without):
     scene = single({"fidelity.terms.rolling_hysteresis": True})
-    every = set(module._INPUTS) - {"grease"}
+    every = set(module._INPUTS) - {"grease", "seals"}
     assert set(inputs(torque_range(scene))) == every
     assert every - set(inputs(torque_range(scene.replace(changes)))) == without
 

@@ -56,8 +56,8 @@ WITHOUT = ("fmu_bearing.engine", "fmu_bearing.compiled", "fmu_bearing.fmi", "fmu
 BASES = (Diagram, StiffnessTable, Study)
 #: Values whose units are in the words beside them: of variables by name, counts, a scene's keys.
 BESIDE = (
-    "figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "value", "moved", "a",
-    "b", "change",
+    "figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "std", "value", "moved",
+    "a", "b", "change",
 )  # fmt: skip
 
 

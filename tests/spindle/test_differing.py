@@ -344,5 +344,5 @@ def test_a_report_of_bearings_that_differ(tmp_path):
         warnings.simplefilter("ignore")
         made = report(read_scene(MOTOR).replace({"fidelity.model": "response"}), tmp_path / "a.html")
     page = made.read_text("utf-8")
-    for words in ("2 x 7003C + 1 x NSK-7002C", "of bearing 3", "Campbell diagram", "15 x 32 x 9 mm"):
+    for words in ("2 x 7003C + 1 x NSK-7002C", "of bearing 3", "and what excites them", "15 x 32 x 9 mm"):
         assert words in page, words

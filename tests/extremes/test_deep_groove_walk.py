@@ -10,7 +10,7 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas import iso76
 from fmu_bearing.instance import EngineError, Instance
 from fmu_bearing.prepare.model import prepare
-from tests.engine.deep_groove import deep_groove, free_angle
+from tests.engine.deep_groove import deep_groove
 from tests.extremes.test_random_walk import REFUSALS
 
 DRAWS = 60
@@ -30,7 +30,7 @@ pytestmark = [pytest.mark.filterwarnings("ignore"), pytest.mark.heavy]
 
 
 def drawn(draw: np.random.Generator):
-    """Return a scene with dimensions, clearance, load, speed and ball material drawn."""
+    """Return a scene with dimensions, clearance, load, speed, ball material and cage drawn."""
     bore, outside, width, count, ball = _SIZES[draw.integers(len(_SIZES))]
     pitch = 0.5 * (bore + outside)
     clearance = float(np.exp(draw.uniform(np.log(4.0 * ball / 7.938), np.log(40.0))))
@@ -41,7 +41,6 @@ def drawn(draw: np.random.Generator):
     changes = {
         "bearing.bore_mm": bore, "bearing.outside_diameter_mm": outside, "bearing.width_mm": width,
         "bearing.pitch_diameter_mm": pitch, "bearing.ball_diameter_mm": ball, "bearing.ball_count": count,
-        "bearing.contact_angle_deg": free_angle(clearance, ball),
         "bearing.inner_ring_outer_diameter_mm": pitch - 0.75 * ball,
         "bearing.outer_ring_inner_diameter_mm": pitch + 0.75 * ball,
         "bearing.cage.bore_mm": pitch - 0.6 * ball, "bearing.cage.outside_diameter_mm": pitch + 0.4 * ball,
@@ -52,6 +51,9 @@ def drawn(draw: np.random.Generator):
         changes |= {"materials.balls.youngs_modulus_GPa": 310.0, "materials.balls.density_kg_m3": 3200.0}
     if draw.random() < 0.3:
         changes["mounting.tilt_support"] = None  # the ring tilts until balls on the other side hold it
+    changes["bearing.cage.guidance"] = guidance = str(draw.choice(["inner", "outer", "balls"]))
+    if guidance == "balls":
+        changes["bearing.cage.land_clearance_mm"] = None
     return deep_groove(load, rpm, clearance, changes)
 
 

@@ -140,7 +140,9 @@ def test_every_wheel_is_small_and_typed(wheels):
         assert first_use.look_into(wheel.path) > 500_000  # the package's own files take more than this
 
 
-@pytest.mark.parametrize(("size", "names", "words"), [(10**7, [], "11.00 MB"), (0, ["a.py"], "py.typed")])
+@pytest.mark.parametrize(
+    ("size", "names", "words"), [(11_000_000, [], "11.00 MB"), (0, ["a.py"], "py.typed")]
+)
 def test_a_wheel_that_is_large_or_untyped_is_refused(size, names, words, tmp_path):
     path = tmp_path / "a.whl"
     with zipfile.ZipFile(path, "w") as archive:

@@ -35,8 +35,8 @@ REASONS = {
     "(fmi2Reset, reset())",
     BAD_INPUT: "an input is not finite or outside its range",
     BAD_STEP: "the communication step must be above 0 s and below 1e6 s; give a run in several steps",
-    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload, less radial load "
-    "or a stiffer pedestal",
+    NO_START: "no quasi-static equilibrium was found for these inputs; give more preload, less radial load, "
+    "a stiffer pedestal, or loads and a speed some per cent away",
     RIGID_ONLY: exclusions.BENDING.words(),
     OTHER_FIDELITY: "its numbers were prepared for another fidelity: a set in response, or with rings "
     "on pedestals of their own, has numbers for one; bearings on another model's shaft have fidelity full "

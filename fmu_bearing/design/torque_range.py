@@ -286,11 +286,13 @@ def _lands(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
 
 
 def _seals(scene: Scene, p: NDArray[np.float64]) -> _Ends | None:
-    torque = scene.bearing.seal_torque
-    if scene.bearing.seal is None or torque == 0.0:
+    torques = {key: one.seal_torque for key, one in _geometries(scene).items() if one.seal_torque != 0.0}
+    if not torques:
         return None
+    name = "torque_N_mm"
     return _ends(
-        {"bearing.seal.torque_N_mm": _within(Seal, "torque_N_mm", share * torque)} for share in SEALS
+        {f"{key}.seal.{name}": _within(Seal, name, share * torque) for key, torque in torques.items()}
+        for share in SEALS
     )
 
 

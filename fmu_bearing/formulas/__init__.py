@@ -7,7 +7,7 @@
 ``iso76``       static load rating and safety
 ``iso16281``    reference rating life from the loads of the balls
 ``makers``      preload classes, speed limits and the least preload by makers' catalogues
-``seals``       friction of contact seals by SKF's formula, and the speed that their lips stand
+``seals``       friction of contact seals by SKF's formula, and the speed limit of their lips
 ``clearances``  radial clearance of deep groove bearings by its group (ISO 5753-1)
 ``fits``        a ring on its shaft or in its housing: pressure, race, hoop stress, speed of loss
 ``tolerances``  ISO 492 and ISO 286: limits of bores, outside diameters, shafts and housings

@@ -1,17 +1,15 @@
-"""Random walks of deep groove bearings under radial loads alone: they go on, or are refused with a reason."""
+"""Random walks of deep groove bearings under radial loads alone: all of them go on."""
 
 import math
 
 import numpy as np
 import pytest
 
-from fmu_bearing import SceneError
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas import iso76
-from fmu_bearing.instance import EngineError, Instance
+from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
 from tests.engine.deep_groove import deep_groove
-from tests.extremes.test_random_walk import REFUSALS
 
 DRAWS = 60
 _STEPS = 40
@@ -74,16 +72,8 @@ def walk(run: Instance, draw: np.random.Generator, linear: bool) -> None:
 
 @pytest.mark.parametrize("fidelity", ["full", "rings", "response"])
 @pytest.mark.parametrize("seed", range(DRAWS))
-def test_a_walk_goes_on_or_is_refused(seed, fidelity):
+def test_a_walk_goes_on(seed, fidelity):
     draw = np.random.default_rng([58, seed])
-    try:
-        scene = drawn(draw)
-    except SceneError as refusal:
-        assert "allowed" in str(refusal) or "refused" in str(refusal)
-        return
-    run = Instance(prepare(scene, fidelity=fidelity))
-    try:
-        run.initialise()
-        walk(run, draw, fidelity == "response")
-    except EngineError as refusal:
-        assert REFUSALS.search(str(refusal)), str(refusal)
+    run = Instance(prepare(drawn(draw), fidelity=fidelity))
+    run.initialise()
+    walk(run, draw, fidelity == "response")

@@ -338,6 +338,33 @@ def test_a_campbell_diagram_names_the_bearing_of_a_line():
     assert found.rates.f_o[1] == pytest.approx(first.f_o, rel=1e-3)
 
 
+@pytest.mark.parametrize("seal", [{}, {"kind": "RSH"}])
+def test_a_deep_groove_bearing_floats_behind(seal):
+    """Its spring presses it; each fidelity has the torque of `full`, with seals on this bearing alone."""
+    given = read_scene(MOTOR).replace({"spindle.bearing[3].bearing": "6002"})
+    given = given.replace({"imperfections": None, "sound": None})
+    if seal:
+        given = given.replace({"spindle.bearing[3].bearing.seal": seal})
+    rear = given.geometries[2]
+    assert rear.is_deep_groove and (rear.seal_torque > 5.0) == bool(seal)
+    point = operating_point(given)
+    # 150 N of the spring, less what the shaft's own place takes of it: 5e4 N/m over some micrometres
+    assert point.bearings[2].load.axial == pytest.approx(150.0, abs=0.5)
+    assert any(one.name == "seals" for one in point.torque_range.inputs) == bool(seal)
+    torques = {}
+    for fidelity in ("full", "rings", "response"):
+        run = Instance(prepare(given, fidelity=fidelity))
+        run.initialise()
+        means = []
+        for _ in range(40):
+            run.step(5e-4)
+            means.append([run.get(f"bearing[{k}].friction_torque") for k in (1, 2, 3)])
+        torques[fidelity] = np.mean(means, axis=0)
+        assert run.get("bearing[3].clearance") > 0.0
+    for fidelity in ("rings", "response"):
+        np.testing.assert_allclose(torques[fidelity], torques["full"], rtol=0.01)
+
+
 @pytest.mark.heavy
 def test_a_report_of_bearings_that_differ(tmp_path):
     with warnings.catch_warnings():

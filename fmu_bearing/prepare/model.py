@@ -380,7 +380,7 @@ def _land_growth(scene: Scene, material: Material, p: NDArray[np.float64]) -> No
     side = 1.0 if outside else -1.0  # of the ring: it is outside of the cage, or inside
     ring = si(scene.materials.outer_ring if outside else scene.materials.inner_ring)
     radius = float(p[P.LAND_RADIUS])
-    turning = 0.5 * (1.0 - b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter)
+    turning = 0.5 * (1.0 - b.ball_diameter * math.cos(scene.bearing.nominal_angle) / b.pitch_diameter)
     p[P.LAND_BY_RACE] = side
     p[P.LAND_BY_RING] = side * ring.expansion * radius
     p[P.LAND_BY_CAGE] = -side * cage.expansion * radius

@@ -364,7 +364,7 @@ def _deep_groove(wanted: str, known: Sequence[str]) -> str:
     """Say which entry a deep groove bearing may mean, by its figures, or how it is given."""
     of_size = [name for name in known if name.isdigit() and re.search(rf"(?<!\d){name}(?!\d)", wanted)]
     if of_size:
-        return f"did you mean '{of_size[0]}', with the clearance as bearing.clearance? "
+        return f"did you mean '{of_size[0]}', clearance and seals as bearing.clearance and bearing.seal? "
     return (
         "it is a deep groove ball bearing, of which the catalogue has 60, 62 and 63 with bores of 10 to 50 "
         "mm: give another one in a file of your own (`catalogues`); "

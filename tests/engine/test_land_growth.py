@@ -43,3 +43,13 @@ def test_some_clearance_is_left(scene):
     tight = growing(scene, "outer").replace({"bearing.cage.land_clearance_mm": 0.005})
     found, run = clearance(tight)
     assert found == pytest.approx(0.1 * run.p[P.LAND_CLEARANCE], rel=1e-12)
+
+
+def test_a_deep_groove_bearing_with_a_machined_cage(scene):
+    """It rolls at an angle of 0: the cage turns with (1 - D/d_m)/2 of the shaft's speed."""
+    changes = {"kind": "deep-groove", "contact_angle_deg": None, "radial_clearance_um": 12.0}
+    given = scene("7003C-spindle").replace({f"bearing.{key}": value for key, value in changes.items()})
+    found, run = clearance(given.replace({"fidelity.terms.land_growth": True, "mounting.preload_N": 50.0}))
+    radius, cage = run.p[P.LAND_RADIUS], 0.5 * (1.0 - 4.5 / 26.0) * 2000.0
+    gained = radius * (11.8e-6 * 40.0 - 30e-6 * 30.0) - 1400.0 * radius**3 * cage**2 / 8e9
+    assert found - run.p[P.LAND_CLEARANCE] == pytest.approx(-gained, rel=1e-9)

@@ -10,6 +10,7 @@ from fmu_bearing.scene.own_bearing import Dimensions
 from fmu_bearing.scene.read import read_scene_text
 from fmu_bearing.scene.symbols import CERAMIC, SOURCES, STEEL, SYMBOLS
 from fmu_bearing.scene.template import new_scene
+from tests.messages import says
 from tests.pages import DOCS
 
 WAY = (
@@ -59,7 +60,7 @@ def test_other_kinds_of_bearings_are_named(wanted, kind):
 def test_deep_groove_bearings_by_their_figures(wanted, name):
     words = suggestion(wanted, entries("bearings"))
     if name:
-        assert words == f"did you mean '{name}', with the clearance as bearing.clearance? "
+        assert says(words, f"did you mean '{name}' ... bearing.clearance and bearing.seal")
     else:
         assert words.startswith(
             "it is a deep groove ball bearing, of which the catalogue has 60, 62 and 63 with "

@@ -25,6 +25,8 @@
 ``shaft``         its shaft, in sections or of another model
 ``housing``       the housing of a set where it radiates: its place, what it needs
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
+``defect``        local defects of races and balls: shape, size, place
+``defect_conflicts`` what does not fit between them and their bearing
 ``surface``       `Surface`: the law of surfaces found from a measurement, with its uncertainty
 ``surface_file``  its file, and the median law for scenes that name it
 ``operation``     speed and temperatures at the start

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pydantic import Field
 
 from fmu_bearing.scene.base import Conflict, Part
+from fmu_bearing.scene.defect import MOST_DEFECTS, Defect
 
 RACES = ("inner", "outer")
 #: Highest order of a race's waviness: on a 7003C a wave is then 0.07 mm long, a contact 0.10 mm wide.
@@ -20,7 +21,10 @@ _SOURCES = {
     "outer race": ("outer_race_amplitude_um", "outer_race_harmonic"),
     "ball sizes": ("ball_diameter_spread_nm",),
     "form of the balls": ("ball_form_nm", "ball_waviness_nm"),
+    "defects": ("defect",),
 }
+#: Keys of arrays, which are taken away by none in them.
+_ARRAYS = (*(f"{race}_race_harmonic" for race in RACES), "defect")
 _SEEDS = 2**31  # there are
 
 
@@ -35,7 +39,7 @@ class Harmonic(Part):
 
 
 class Imperfections(Part):
-    """Race waviness, ball form, ball spread and unbalance; random values are drawn from a seed.
+    """Race waviness, ball form, ball spread, unbalance and local defects; random values are drawn by a seed.
 
     Each race's waviness is a power law or a list of harmonics. The power law gives order n the amplitude
     A_1 n^-p times the contact filter, with a random phase, from ``lowest_order`` up to ``highest_order``, or
@@ -107,6 +111,10 @@ class Imperfections(Part):
         description="Order of ball_waviness_nm, a zonal harmonic about one axis fixed in each ball.",
     )  # fmt: skip
 
+    defect: tuple[Defect, ...] = Field(
+        default=(), max_length=MOST_DEFECTS, strict=False, description="Local defects of races and balls."
+    )
+
     def conflicts(self) -> Iterator[Conflict]:
         """Yield waviness that is incomplete or given twice, and orders in the wrong sequence."""
         for race in RACES:
@@ -132,13 +140,20 @@ class Imperfections(Part):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Names of the imperfections that are there: unbalance, each race, sizes and form of the balls."""
+        """Names of the imperfections that are there: unbalance, races, sizes and form of balls, defects."""
         return tuple(name for name, keys in _SOURCES.items() if any(getattr(self, key) for key in keys))
 
     def alone(self, source: str) -> "Imperfections":
         """Return one of `sources` without the others; for a name that is not there none is left."""
         gone = [key for name in self.sources if name != source for key in _SOURCES[name]]
-        return self.model_copy(update={key: () if key.endswith("_harmonic") else 0.0 for key in gone})
+        return self.model_copy(update={key: () if key in _ARRAYS else 0.0 for key in gone})
+
+    def of_bearing(self, number: int) -> "Imperfections":
+        """Return them with the defects of one bearing of a set alone, as those of a single bearing."""
+        if not self.defect:
+            return self
+        own = (one.model_copy(update={"bearing": None}) for one in self.defect if one.bearing == number)
+        return self.model_copy(update={"defect": tuple(own)})
 
     def redrawn(self, count: int, apart: int = 1) -> "Iterator[Imperfections]":
         """Yield the same imperfections with ``count`` other seeds after its own; by `Scene.seeds_apart`."""
@@ -146,7 +161,7 @@ class Imperfections(Part):
             yield self.reseeded((1 + k) * apart)
 
     def reseeded(self, by: int) -> "Imperfections":
-        """Return the same imperfections with each of its seeds moved by ``by``."""
+        """Return the same imperfections with each of its seeds moved by ``by``; defects are as they were."""
         seeds = {"seed": self.seed, "order_scatter_seed": self.order_scatter_seed}
         moved = {key: (seed + by) % _SEEDS for key, seed in seeds.items() if seed is not None}
         return self.model_copy(update=moved)

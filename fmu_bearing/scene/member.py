@@ -97,7 +97,7 @@ def one_of(scene: Given, number: int = 0) -> Given:
     mounting = mounting.model_copy(update=own)
     flaws = scene.imperfections
     if flaws is not None:
-        flaws = flaws.reseeded(number)
+        flaws = flaws.reseeded(number).of_bearing(number + 1)
     changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
     return scene.model_copy(update=tables | changes)
 

@@ -30,7 +30,7 @@ _SOURCES = {
 #: What may be in the place of a key.
 _INSTEAD = {("mounting", "preload_N"): OR_CLASS}
 #: Keys that are in no source.
-_OWN = {"seed", "ball_springs", "seal", "inner_race_harmonic", "outer_race_harmonic"}
+_OWN = {"seed", "ball_springs", "seal", "inner_race_harmonic", "outer_race_harmonic", "defect"}
 _TEXTS = {
     LABEL: "text of 1 to 40 letters, digits, blanks and . , + - ( ) / _",
     NAME: "text of 1 to 60 letters, digits, blanks and . _ -, a letter or digit first",

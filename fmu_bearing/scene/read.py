@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from fmu_bearing.file_words import SCENE, text_of
 from fmu_bearing.files import real_path
-from fmu_bearing.scene import fit_conflicts, fit_file, surface, surface_file
+from fmu_bearing.scene import defect_conflicts, fit_conflicts, fit_file, surface, surface_file
 from fmu_bearing.scene.assembly import Assembly, assembly_of
 from fmu_bearing.scene.base import Conflict, SceneError
 from fmu_bearing.scene.bearing import CLEARANCE_KEYS
@@ -72,6 +72,7 @@ class Scene(Tables):
         """Yield conflicts between tables, and what such a scene cannot have."""
         yield from super().conflicts()
         yield from fit_conflicts.conflicts(self)
+        yield from defect_conflicts.conflicts(self)
         yield from conflicts_of(self)
 
     @property

@@ -48,7 +48,8 @@ DIMENSIONLESS = set(
     traction_slide_to_roll replenishment_constant drag_coefficient pedestal_stiffness_ratio
     pedestal_axial_ratio pedestal_damping_ratio weibull_modulus hysteresis_loss
     damping_ratio seed order_scatter_seed lowest_order highest_order order ball_waviness_order tolerance
-    traction_strips waviness_exponent ball_harmonics count walther_slope relative fixed_modes""".split()
+    traction_strips waviness_exponent ball_harmonics count walther_slope relative fixed_modes
+    ball bearing""".split()
 )
 
 

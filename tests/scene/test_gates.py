@@ -15,11 +15,11 @@ from tests.conftest import GATES
 
 #: SHA-256 of what each file is read as: remarks and layout do not count, every value does.
 FROZEN = {
-    "7003C-bare": "c8b292ef1a57bac8c8ba0cc8ed1ff3c28d85460ec6f6c6ddb0225e5bd6fdd589",
-    "7003C-impact": "7873594594951a2f061d1836d20e2949dd78b1cd93993fffb2a66719d06b0a33",
-    "7003C-spindle": "246c748f4138eaf2b13bb9473712d9d3639623ff896edbe2d4e805c8d8856875",
-    "7009C-full-ceramic": "3b32245e20ba0816cb195f07b9e98e37fc2f18b35618d953233ef8b8a3883cfc",
-    "7009C-steel": "d09e25f33348b60d67680ff1868f52d07b327378ee1fb1216ea4bd23a650d70c",
+    "7003C-bare": "93275fba85f79a8a71f0d4ee80d531a9114edabedb18a607d0da08bad277e381",
+    "7003C-impact": "db4572d540e67b0fcebc3e824409a0002126eae7da8fb1df60ac2bb2589e4e99",
+    "7003C-spindle": "d6b49b80770202e5e7d7180a71dfe97f0603238174f3b3014936df657f2f8169",
+    "7009C-full-ceramic": "f95ed2ec585ca4b420d622ba6fe5e7889bd5c5271373c277774df3088d21f147",
+    "7009C-steel": "8eb3e791dc02fb4d33d5b91c79bf449ad1c450c9fc650609b176c23c956590d8",
 }
 #: Keys that stand for values elsewhere.
 REFERENCES = {"catalogue", "grade"}

@@ -92,6 +92,7 @@ def test_example_pins_every_value(name):
     written["sound"].setdefault("microphone", [])
     for race in ("inner", "outer"):
         written["imperfections"].setdefault(f"{race}_race_harmonic", [])
+    written["imperfections"].setdefault("defect", [])
     resolved = tomllib.loads(read_scene(EXAMPLES / f"{name}.toml").to_toml())
     assert written == resolved
 

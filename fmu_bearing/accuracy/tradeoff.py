@@ -24,7 +24,7 @@ from fmu_bearing.run.metrics import SAMPLE, Errors, errors, measure
 from fmu_bearing.run.paces import COMMUNICATION, Paces
 from fmu_bearing.run.settings import TERMS, Setting
 from fmu_bearing.scene import Scene, SceneSource, scene_of
-from fmu_bearing.scene.exclusions import BENDING, require
+from fmu_bearing.scene.exclusions import require
 
 CHECK = 5e-3  # s over which two integrators are compared
 
@@ -223,8 +223,8 @@ def tradeoff(
 
     with keeping(rows, study):
         for setting in track(settings):
-            if not setting.carries(scene):
-                rows.append(Row(setting, remark=BENDING.reason))
+            if against := setting.against(scene):
+                rows.append(Row(setting, remark=against))
                 continue
             try:
                 run = measure(

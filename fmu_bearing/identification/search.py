@@ -129,8 +129,8 @@ def _fidelity(scene: Scene, wanted: str | None) -> str:
         return "response" if Setting("response").carries(scene) else "full"
     if wanted not in FIDELITIES:
         raise IdentifyError(f"fidelity '{wanted}' is unknown: there are {', '.join(FIDELITIES)}")
-    if not Setting(wanted).carries(scene):
-        raise IdentifyError(f"fidelity '{wanted}' does not compute bending rings: use full")
+    if against := Setting(wanted).against(scene):
+        raise IdentifyError(f"fidelity '{wanted}' does not compute this scene: {against}; use full")
     return wanted
 
 

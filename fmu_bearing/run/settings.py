@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.exclusions import exclusion
+from fmu_bearing.scene.exclusions import Subject, exclusion
 from fmu_bearing.scene.fidelity import Terms
 from fmu_bearing.scene.read import with_fidelity
 
@@ -34,8 +34,19 @@ class Setting:
         )
 
     def carries(self, scene: Scene) -> bool:
-        """Whether the scene can be computed this way: bending rings and another model's shaft need full."""
-        return self.fidelity == "full" or exclusion(scene, "fidelities") is None
+        """Whether the scene can be computed this way, see `against`."""
+        return not self.against(scene)
+
+    def against(self, scene: Scene) -> str:
+        """Return why the scene cannot be computed this way; "": it can.
+
+        Bending rings and another model's shaft need full; local defects full or rings.
+        """
+        subjects: tuple[Subject, ...] = () if self.fidelity == "full" else ("fidelities",)
+        if self.fidelity == "response":
+            subjects += ("response",)
+        found = (exclusion(scene, subject) for subject in subjects)
+        return next((row.reason for row in found if row is not None), "")
 
     @property
     def name(self) -> str:

@@ -32,6 +32,7 @@ Subject = Literal[
     "plane",
     "recording",
     "report",
+    "response",
     "sensitivity",
     "shaft",
     "short runs",
@@ -115,6 +116,11 @@ def _fidelities(tables: Tables) -> Keys:
         yield "fidelity.model"
 
 
+def _response(tables: Tables) -> Keys:
+    if tables.fidelity.model == "response":
+        yield "fidelity.model"
+
+
 def _load(tables: Tables) -> Keys:
     if set_of(tables).load != Load():
         yield "spindle.load"
@@ -162,6 +168,10 @@ _BENDING = Kind("a scene whose rings bend", lambda one: one.bends)
 _ROUND = Kind(
     "a scene of fidelity rings or response", lambda one: one.fidelity.model in ("rings", "response")
 )
+_DEFECTIVE = Kind(
+    "a scene with local defects (`[[imperfections.defect]]`)",
+    lambda one: one.imperfections is not None and bool(one.imperfections.defect),
+)
 _NOT_BEM = Kind("a scene with another radiation model than bem", lambda one: _model(one) not in ("", "bem"))
 _TABLE = Kind("a scene with the radiation model table", lambda one: _model(one) == "table")
 _PAPER = Kind("a scene with a paper's radiation model", lambda one: _model(one).startswith("paper"))
@@ -182,6 +192,13 @@ ROUND = Exclusion(
     {"vibration test": "a vibration test"},
     "its sensor touches the outer ring, which bends, and the rings of these fidelities are rigid",
     'give `fidelity.model` = "full" or "auto", or ask for rigid rings (`--rigid`), which read too little',
+)
+DEFECTS = Exclusion(
+    _DEFECTIVE,
+    {"response": "fidelity response"},
+    "it is linear, and a contact over a defect loses its load and strikes",
+    'give `fidelity.model` = "full", "rings" or "auto", or leave the defects out',
+    _response,
 )
 RIGID_PLANE = Exclusion(
     _NOT_BEM,
@@ -306,6 +323,7 @@ EXCLUSIONS = (
     ),
     BENDING,
     ROUND,
+    DEFECTS,
     RIGID_PLANE,
     TABLE_CHANNELS,
     PAPER_RUNS,

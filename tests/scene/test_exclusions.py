@@ -78,6 +78,8 @@ DIFFERING = pair(spindle__bearing=[
     {"position_mm": 40.0, "carries": "+x"},
     {"position_mm": 90.0, "carries": "-x", "bearing": "NSK-7002C"},
 ])  # fmt: skip
+SPALL = {"on": "outer", "shape": "spall", "length_mm": 1.2, "depth_um": 100.0}
+SPALLED = SINGLE.replace({"imperfections.defect": [SPALL]})
 SEATED = {"spindle.fit": {"preload": "mounted", "shaft": {"interference_um": 2.0}}}
 HOUSING = {"sound.radiator": "housing"}
 
@@ -120,6 +122,7 @@ DOORS = (
     }),
     (BENT, BENT.with_rigid_rings(), {"fidelities": {"fidelity.model": "response"}}),
     (with_fidelity(SINGLE, model="rings"), SINGLE, {"vibration test": lambda scene, folder: rig(scene)}),
+    (SPALLED, SPALLED.replace({"imperfections.defect": []}), {"response": {"fidelity.model": "response"}}),
     (sounding("compact"), sounding("bem"), {"plane": {"sound.reflecting_plane_mm": -50.0}}),
     (sounding("table", table_file="a.npz"), sounding("compact"), {
         "channels": lambda scene, folder: sources_of(scene, "table", [(0.0, 1.0, 0.0)], 4),
@@ -196,6 +199,12 @@ def test_a_port_is_refused_at_once_where_auto_would_have_to_be_probed(tmp_path, 
 def test_settings_ask_the_table(scene):
     assert [Setting(name).carries(scene) for name in FIDELITIES] == [name == "full" for name in FIDELITIES]
     assert all(Setting(name).carries(pair()) for name in FIDELITIES)
+
+
+def test_settings_leave_out_response_alone_where_contacts_lose_load():
+    assert [Setting(name).carries(SPALLED) for name in FIDELITIES] == [True, True, False]
+    assert "it is linear, and a contact over a defect loses its load" in Setting("response").against(SPALLED)
+    assert with_fidelity(SPALLED, model="rings").fidelity.model == "rings"
 
 
 @pytest.mark.pages

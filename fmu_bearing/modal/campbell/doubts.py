@@ -30,6 +30,7 @@ from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
 from fmu_bearing.modal.modes.points import given, modes
 from fmu_bearing.scene import Scene
+from fmu_bearing.scene.exclusions import exclusion
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 
 # Damping ratios, chosen: the 7009C with steel balls has 0.008 at 11,000 r/min, where both fidelities miss by
@@ -141,7 +142,9 @@ def reason_for_doubt(
     if (whirls := _whirls(scene, inputs)) is not None:
         return f"the {modes.body} whirls by itself at {whirls[0]:.0f} Hz (growth {whirls[1]:.0f} 1/s)"
     own = scene.fidelity.model
-    model = own if own in ("rings", "response") else "response"
+    # the linear one is refused where contacts lose load over local defects
+    other = "response" if exclusion(scene, "response") is None else "rings"
+    model = own if own in ("rings", "response") else other
     return (
         rings_depart(scene, model, inputs)
         or pockets_struck(scene, model, inputs)

@@ -112,9 +112,8 @@ def _obstacle(a: ComparisonData, b: ComparisonData, seeds: int) -> str:
             return f"{letter} has no imperfections, and a perfect bearing has no level that scatters"
         if side.radiation_model.startswith("paper"):
             return f"radiation model {side.radiation_model} needs channels of its own for each draw"
-        why = "its rings bend"
-        if Setting(_FIDELITY).carries(side.scene):
-            why = reason_for_doubt(side.scene, radiation_model=side.radiation_model)
+        why = Setting(_FIDELITY).against(side.scene)
+        why = why or reason_for_doubt(side.scene, radiation_model=side.radiation_model)
         if why:
             return f"draws of {letter} need fidelity full: {why}; `fmu-bearing sound` gives the range of each"
     for what, one, other in (

@@ -24,6 +24,7 @@ from fmu_bearing.recording.recording import Recording
 from fmu_bearing.recording.studies.level_estimator import LevelEstimator, check_model
 from fmu_bearing.results.base import Quantity, Result, table
 from fmu_bearing.results.table import Table
+from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.imperfections import ASSUMED_EXPONENTS, Imperfections
 from fmu_bearing.scene.read import with_fidelity
@@ -95,7 +96,7 @@ class Spread(Result):
     """How many other seeds were drawn."""
     doubt: str = ""
     weak: str = ""
-    """Why the levels in question are in doubt; which weakly damped mode made fidelity full draw the range."""
+    """Why the levels in question are in doubt; what made fidelity full draw the range."""
     surface: int = 0
     """How many draws of a surface that was found make the range; 0: the law is assumed."""
 
@@ -225,7 +226,8 @@ def spread(
     places = [place for _, place in chosen]
     estimator = LevelEstimator(places, radiation_model or recording.radiation_model, weighting)
     flaws = scene.imperfections
-    weak = reason_for_doubt(scene, radiation_model=radiation_model or recording.radiation_model)
+    weak = Setting("response").against(scene.with_rigid_rings())
+    weak = weak or reason_for_doubt(scene, radiation_model=radiation_model or recording.radiation_model)
     fidelity, seeds = ("full", min(seeds, _SEEDS_FULL)) if weak else ("response", seeds)
     others = list(_corners(flaws)) if surface is None else _found(surface, scene, bool(weak))
     draws = [flaws, *flaws.redrawn(seeds, scene.seeds_apart), *others]

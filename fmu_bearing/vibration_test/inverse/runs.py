@@ -113,6 +113,7 @@ def _reference(bearing: Scene) -> tuple[Scene, float]:
     rest: dict[str, Any] = {
         "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0, "ball_waviness_nm": 0.0, "ball_form_nm": form,
         "order_scatter_seed": None, "highest_order": None, "waviness_exponent": EXPONENT, "seed": 0,
+        "defect": (),
     }  # fmt: skip
     return bearing.replace(law | {f"imperfections.{key}": value for key, value in rest.items()}), form
 

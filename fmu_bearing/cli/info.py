@@ -65,23 +65,34 @@ def info(
     from fmu_bearing.design.measured import measured_elsewhere
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import cautions, verdicts
+    from fmu_bearing.results.defect_lines import defect_lines
+    from fmu_bearing.scene import scene_of
 
     with refusals():
         given = source_of(scene, at_speed(speed, settings, scene))
         warm = _warm(given, temperatures, ambient, cooling)
         point = operating_point(given if warm is None else warm.scene)
+        defects = defect_lines(scene_of(given), [one.frequencies for one in point.bearings])
     judgements = verdicts(point)
     lines = cautions(point, judgements)
     if as_json:
         judged = {"verdicts": judgements, "cautions": lines, "measured_elsewhere": measured_elsewhere()}
         seats = {} if point.scene.fit is None else {"fits": _seats(point)}
         steady = {} if warm is None else {"temperatures": warm}
-        print_json(point.summary() | judged | seats | steady)
+        passing = [
+            {"defect": one.defect, "words": one.words, "line": one.name, "frequency_Hz": one.frequency,
+             "side_bands_Hz": one.side}
+            for one in defects
+        ]  # fmt: skip
+        print_json(point.summary() | judged | seats | steady | ({"defects": passing} if passing else {}))
         return
     if point.scene.assembly.joined:
         _show_set(point.statics)
     else:
         _show_bearing(point.bearings[0])
+    if defects:
+        rows = [[one.defect, one.words, one.name, f"{one.frequency:.1f}", one.modulator] for one in defects]
+        show("local defects", ("", "", "line", "Hz", "side bands by"), rows)
     if point.scene.fit is not None:
         _show_fits(point)
     _show_heat(point)

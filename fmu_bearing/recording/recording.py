@@ -205,7 +205,13 @@ class Recording(ChannelHistory):
         first = next(iter(levels.values()))
         lines = [] if self.scene is None else strongest(self, spectrum.frequency[shown], first)
         return spectrum_picture(
-            spectrum.frequency[shown], levels, kinematics, title, self.excitation_end, lines
+            spectrum.frequency[shown],
+            levels,
+            kinematics,
+            title,
+            self.excitation_end,
+            lines,
+            self.defect_lines(),
         )
 
     def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":

@@ -13,6 +13,7 @@
 ``time_pictures``   pictures of them
 ``balls``           place, load and angle of every ball, read from the state
 ``rates``           how fast the balls orbit and spin, read from the state
+``defect_lines``    lines that local defects make, by their names
 ``result``          `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
 ==================  ===========================================================================
 """

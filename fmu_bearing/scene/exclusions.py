@@ -168,10 +168,7 @@ _BENDING = Kind("a scene whose rings bend", lambda one: one.bends)
 _ROUND = Kind(
     "a scene of fidelity rings or response", lambda one: one.fidelity.model in ("rings", "response")
 )
-_DEFECTIVE = Kind(
-    "a scene with local defects (`[[imperfections.defect]]`)",
-    lambda one: one.imperfections is not None and bool(one.imperfections.defect),
-)
+_DEFECTIVE = Kind("a scene with local defects (`[[imperfections.defect]]`)", lambda one: one.has_defects)
 _NOT_BEM = Kind("a scene with another radiation model than bem", lambda one: _model(one) not in ("", "bem"))
 _TABLE = Kind("a scene with the radiation model table", lambda one: _model(one) == "table")
 _PAPER = Kind("a scene with a paper's radiation model", lambda one: _model(one).startswith("paper"))

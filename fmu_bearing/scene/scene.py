@@ -312,6 +312,11 @@ class Tables(Part):
         return self.flexural_modes > 0
 
     @property
+    def has_defects(self) -> bool:
+        """Whether a race or a ball has a local defect."""
+        return self.imperfections is not None and bool(self.imperfections.defect)
+
+    @property
     def seeds_apart(self) -> int:
         """How far the seeds of two draws are apart: a set draws its k-th bearing with its seed + k."""
         return max(len(self.members), 1)

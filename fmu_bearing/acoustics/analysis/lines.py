@@ -1,8 +1,9 @@
 """Lines in spectra: where the kinematics expect them, which exceed their surroundings, what explains them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,7 +68,11 @@ class Line:
 
 
 def kinematic_lines(
-    frequencies: KinematicFrequencies, highest: float, harmonics: int = 12, whirl: float = float("nan")
+    frequencies: KinematicFrequencies,
+    highest: float,
+    harmonics: int = 12,
+    whirl: float = float("nan"),
+    defects: Mapping[str, str] = MappingProxyType({}),
 ) -> list[KinematicLine]:
     """Lines up to ``highest`` (Hz), in order of frequency.
 
@@ -75,24 +80,36 @@ def kinematic_lines(
     the passing of balls at the races f_i and f_o; with sidebands by what modulates them: the inner race's
     harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by f_r, as waviness
     and unbalance of the turning ring make, and two by f_c: more would explain anything.
-    ``whirl``: f_w (Hz), at which the cage goes round off its middle; NaN: it does not.
+    ``whirl``: f_w (Hz), at which the cage goes round off its middle; NaN: it does not. ``defects``: which
+    local defects make the lines at multiples of ``f_o``, ``f_i`` and ``2 f_b``, by these names, with what
+    modulates each: f_r, of a ball f_c. Their lines are named after them, and count as simpler than others.
     """
     both = {"f_r": 4, "f_c": 2}
     modulators: dict[str, dict[str, int]] = {
         "f_i": both, "f_o": both, "f_b": {"f_c": 2}, "f_r": {}, "f_c": {},
     }  # fmt: skip
-    lines = []
+    lines: list[KinematicLine] = []
+
+    def add(n: int, carrier: str, frequency: float, m: int = 0, modulator: str = "") -> None:
+        name, beside = combination(n, carrier, m, modulator), abs(m)
+        pair = carrier == "f_b"
+        source = defects.get(f"2 {carrier}" if pair else carrier, "")
+        if source and not (pair and n % 2) and modulator in ("", "f_c" if pair else "f_r"):
+            lines.append(KinematicLine(frequency, f"{name} ({source})", n - 1 + beside, n + beside))
+        else:
+            rank = n + 2 * beside + 1 if beside else n - 1
+            lines.append(KinematicLine(frequency, name, rank, n + beside))
+
     for carrier, by in modulators.items():
         base = float(getattr(frequencies, carrier))
         # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
         for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
-            lines.append(KinematicLine(n * base, combination(n, carrier), n - 1, n))
+            add(n, carrier, n * base)
             for modulator, sidebands in by.items():
                 step = float(getattr(frequencies, modulator))
                 for m in range(1, sidebands + 1):
                     for sign in (1, -1):
-                        name = combination(n, carrier, sign * m, modulator)
-                        lines.append(KinematicLine(n * base + sign * m * step, name, n + 2 * m + 1, n + m))
+                        add(n, carrier, n * base + sign * m * step, sign * m, modulator)
     if not math.isnan(whirl):
         lines += [KinematicLine(n * whirl, combination(n, "f_w"), n - 1, n) for n in range(1, _WHIRL + 1)]
     return sorted(

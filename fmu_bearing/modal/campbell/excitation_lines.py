@@ -17,7 +17,11 @@ from fmu_bearing.elastic.shaft import shaft_sections
 from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD, NEITHER
 from fmu_bearing.prepare.bodies import inner_ring
 from fmu_bearing.prepare.imperfections import ball_oversizes, ball_waves, race_harmonics
+from fmu_bearing.results.defect_lines import CARRIERS
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.bearing import Bearing
+from fmu_bearing.scene.defect import Defect
+from fmu_bearing.scene.defect_conflicts import race_radius
 from fmu_bearing.scene.member import set_of
 
 _SIGNS = {FORWARD: "+", BACKWARD: "-"}
@@ -42,7 +46,8 @@ class Line:
     name : str
         Its frequency by the kinematic ones: ``f_i + f_r``.
     source : str
-        What makes it: ``unbalance``, ``ball sizes``, ``inner race``, ``outer race``, ``ball form``.
+        What makes it: ``unbalance``, ``ball sizes``, ``inner race``, ``outer race``, ``ball form``,
+        ``defect 1`` and so on.
     surface_order : int
         Waves per turn of the surface; 0 where there is none.
     order, direction
@@ -113,7 +118,7 @@ def lines(scene: Scene, at: Rates, orders: set[int], highest: float, eccentric: 
     ``scene``: of a single bearing; ``eccentric``: `unbalance` of all that turns, m.
     """
     excitations = [*_shaft_and_sizes(scene, at, orders, eccentric), *_races(scene, at, orders, highest)]
-    excitations += _ball_form(scene, at, orders, highest)
+    excitations += [*_ball_form(scene, at, orders, highest), *lines_of_defects(scene, at, orders, highest)]
     return [line for line in excitations if float(line.frequency.min()) <= highest]
 
 
@@ -170,6 +175,60 @@ def _ball_form(scene: Scene, at: Rates, orders: set[int], highest: float) -> Ite
                 name = _times(q, "f_b") + (f" {_SIGNS[direction]} {_times(n, 'f_c')}" if n else "")
                 if frequency.min() > 0.0:
                     yield Line(name, "ball form", q, n, direction, frequency, amplitude, balls)
+
+
+def lines_of_defects(
+    scene: Scene, at: Rates, orders: set[int], highest: float, whose: str = ""
+) -> Iterator[Line]:  # fmt: skip
+    """Yield the lines of local defects: of each the orders of its height round the race or the ball.
+
+    Like waves of these orders, those of a race move the ring by multiples m N of the number of balls, n more
+    or n less. A ball's meets both races in each of its turns. ``scene``: of a single bearing; ``whose``:
+    words behind the number of a defect, as " of bearing 2".
+    """
+    balls = scene.bearing.ball_count
+    for number, defect in enumerate(scene.imperfections.defect if scene.imperfections else (), start=1):
+        source = f"defect {number}{whose}"
+        multiple, carrier, _ = CARRIERS[defect.on]
+        base = multiple * getattr(at, carrier)
+        for m in range(1, _most(base, highest) + 1):
+            name = _times(multiple * m, carrier)
+            for n in sorted(orders):
+                if defect.on == "ball" and n > balls // 2:
+                    continue
+                for direction, sign in ((FORWARD, 1), (BACKWARD, -1)) if n else ((NEITHER, 0),):
+                    if defect.on == "outer":
+                        # waves of the standing ring turn the other way
+                        order, side, step = m * balls - sign * n, "", 0.0 * at.f_r
+                    elif defect.on == "inner":
+                        order, side, step = m * balls + sign * n, "f_r", sign * n * at.f_r
+                    else:
+                        order, side, step = multiple * m, "f_c", sign * n * at.f_c
+                    beside = f" {_SIGNS[direction]} {_times(n, side)}" if n and side else ""
+                    frequency = m * base + step
+                    if order > 0 and frequency.min() > 0.0:
+                        amplitude = defect_order(scene.bearing, defect, order)
+                        # one ball of all has it
+                        amplitude /= balls if defect.on == "ball" else 1.0
+                        yield Line(name + beside, source, 0, n, direction, frequency, amplitude, balls)
+
+
+def defect_order(bearing: Bearing, defect: Defect, order: int) -> float:
+    """Amplitude (m) of an order of a defect's height round its race or ball, to rank lines.
+
+    Of a rigid ball that sinks in between the edges, as deep as the defect at most; of the area that its path
+    cuts out, with the spectrum of a triangle. A defect narrower than the contact moves the rings less: the
+    contact bridges it.
+    """
+    half, radius = 0.5e-3 * defect.along_mm, 0.5e-3 * bearing.ball_diameter_mm
+    around = rolling = radius
+    if defect.on != "ball":
+        around = 1e-3 * race_radius(bearing, defect.on)
+        rolling = 1.0 / (1.0 / radius + (1.0 if defect.on == "inner" else -1.0) / around)
+    deep = 1e-6 * defect.depth_um
+    edge = min(half, math.sqrt(2.0 * rolling * deep))
+    area = 2.0 * deep * (half - edge) + edge**3 / (3.0 * rolling)
+    return float(area / (math.pi * around) * np.sinc(order * half / (2.0 * math.pi * around)) ** 2)
 
 
 def _most(frequency: NDArray[np.float64], highest: float) -> int:

@@ -11,7 +11,15 @@ from scipy.optimize import linear_sum_assignment
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.campbell.diagram import Branch, Diagram, is_of_rings
 from fmu_bearing.modal.campbell.diagram_picture import campbell_picture
-from fmu_bearing.modal.campbell.excitation_lines import Line, Rates, kinds, lines, rates, unbalance
+from fmu_bearing.modal.campbell.excitation_lines import (
+    Line,
+    Rates,
+    kinds,
+    lines,
+    lines_of_defects,
+    rates,
+    unbalance,
+)
 from fmu_bearing.modal.equations.linearised import Linearised
 from fmu_bearing.modal.modes.mode import Mode
 from fmu_bearing.modal.modes.natural_modes import Modes
@@ -116,7 +124,12 @@ def campbell(
     excitations: list[Line] = []
     every = {words: _rates(systems, numbers, scene) for words, numbers in kinds(scene).items()}
     for (words, numbers), at in zip(kinds(scene).items(), every.values(), strict=True):
-        found = lines(scene.bearings()[numbers[0]].scene, at, orders, highest, unbalance(scene))
+        own = scene.bearings()
+        found = lines(own[numbers[0]].scene, at, orders, highest, unbalance(scene))
+        if scene.assembly.joined:  # those of local defects are of one bearing each
+            found = [one for one in found if not one.source.startswith("defect")]
+            for k in numbers:
+                found += lines_of_defects(own[k].scene, at, orders, highest, f" of bearing {k + 1}")
         if words:  # the unbalance is one of all
             found = [
                 one if one.name == "f_r" else replace(one, name=f"{one.name} of {words}")

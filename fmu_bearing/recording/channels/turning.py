@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies, kinematic_frequencies
+from fmu_bearing.results.defect_lines import DefectLine, defect_lines
 from fmu_bearing.results.rates import by_cage, frequencies, rates_of
 from fmu_bearing.scene import Scene, si
 
@@ -157,6 +158,12 @@ class Turning(ABC):
         return tuple(
             KinematicFrequencies(*(abs(w) / (2.0 * math.pi) * f / each.f_r for f in each)) for each in found
         )
+
+    def defect_lines(self) -> tuple[DefectLine, ...]:
+        """Return the lines (Hz) of the scene's local defects as cage and balls turned; none without scene."""
+        if self.scene is None or not self.scene.has_defects:
+            return ()
+        return defect_lines(self.scene, self.bearing_kinematics())
 
     @property
     def turning_known(self) -> bool:

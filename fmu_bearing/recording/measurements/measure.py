@@ -49,6 +49,7 @@ from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.sources import air_of, bodies_of, centre_of
 from fmu_bearing.recording.measurements.signals import signals_at
+from fmu_bearing.results.defect_lines import marked
 from fmu_bearing.scene import si
 
 __all__ = [
@@ -157,17 +158,23 @@ def fine(recording: ChannelHistory) -> float:
 def known_lines(recording: ChannelHistory, highest: float) -> list[KinematicLine]:
     """Return the lines of the recording's bearings up to ``highest`` (Hz), as cages and balls turned.
 
-    Bearings that turned as fast share their lines; else the name of a line says whose it is.
+    Bearings that turned as fast share their lines; else the name of a line says whose it is. Lines of local
+    defects are named after them.
     """
     every, whirls = recording.bearing_kinematics(), recording.whirls()
+    defects = recording.defect_lines()
     values, rounds = np.array(every), np.nan_to_num(whirls)
     same = (np.ptp(values, axis=0) <= _SAME * values.max(axis=0)).all()
     if same and np.ptp(rounds) <= _WHIRLS * rounds.max():
-        return kinematic_lines(recording.kinematics(), highest, whirl=float(np.mean(whirls)))
+        return kinematic_lines(
+            recording.kinematics(), highest, whirl=float(np.mean(whirls)), defects=marked(defects)
+        )
     lines: dict[str, KinematicLine] = {}
     for number, (one, whirl) in enumerate(zip(every, whirls, strict=True), start=1):
-        for line in kinematic_lines(one, highest, whirl=whirl):
+        own = marked([defect for defect in defects if defect.bearing == number - 1])
+        for line in kinematic_lines(one, highest, whirl=whirl, defects=own):
             shared = set(line.name.removesuffix("f_r")) <= set("0123456789 ")  # a multiple of f_r alone
+            shared = shared or line.name.endswith(")")  # a defect's, which says whose it is
             name = line.name if shared else f"{line.name} of bearing {number}"
             lines[name] = replace(line, name=name)
     return sorted(lines.values(), key=lambda line: line.frequency)

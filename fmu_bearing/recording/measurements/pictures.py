@@ -20,6 +20,7 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
 from fmu_bearing.extras import need
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
+from fmu_bearing.results.defect_lines import DefectLine
 from fmu_bearing.results.levels import RANGE, mapped, radial_range, sounding
 from fmu_bearing.results.picture_parts import (
     BEHIND,
@@ -72,6 +73,7 @@ def spectrum_picture(
     title: str = "",
     excitation_end: float | Mapping[str, float] | None = None,
     lines: Sequence[Line] = (),
+    defects: Sequence[DefectLine] = (),
 ) -> "Figure":
     """Draw levels (dB) over frequency (Hz), one curve each, kinematic frequencies and harmonics marked.
 
@@ -92,6 +94,8 @@ def spectrum_picture(
         Strongest lines, strongest first, as `measure.strongest` gives them: as many are named at their peaks
         as have room. One that no kinematic line explains has the nearest with a question mark and its
         distance.
+    defects : sequence of DefectLine
+        Whose first lines are marked, one entry of the legend each.
     """
     figure, ax = single((10.0, 5.0))
     f = np.asarray(frequency, dtype=float)
@@ -103,6 +107,7 @@ def spectrum_picture(
     ax.set_xlim(0.0, float(f[-1]))
     for whose, end in _ends(excitation_end):
         mark_excitation(ax, end, whose=whose)
+    _mark_defects(ax, defects, float(f[-1]))
     label(ax, "frequency, Hz", "level, dB re 20 uPa", title)
     if len(spectra) > _ABOVE:
         legend_beside(ax)
@@ -368,6 +373,17 @@ def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: 
             room = 0.5 * _NAME_ROOM * (right - left)
             side = "left" if n * base < left + room else "right" if n * base > right - room else "center"
             ax.text(n * base, height, words, fontsize=7, ha=side, va="top", color=colour, gid="mark")
+
+
+def _mark_defects(ax: "Axes", defects: Sequence[DefectLine], highest: float) -> None:
+    """Upright lines at what passes each local defect and its multiples, with an entry of the legend."""
+    for k, line in enumerate(defects):
+        for n in range(1, _HARMONICS + 1):
+            if 0.0 < n * line.frequency <= highest:
+                ax.axvline(
+                    n * line.frequency, color=OTHERS[-1 - k % len(OTHERS)], linewidth=0.8,
+                    linestyle="--", gid="defect", label=f"{line.defect}, {line.name}" if n == 1 else None,
+                )  # fmt: skip
 
 
 def _end_line(ax: "Axes", place: NDArray[np.float64], along: NDArray[np.float64]) -> None:

@@ -274,7 +274,10 @@ def spectra_picture(recording: ChannelHistory, analysis: SoundAnalysis) -> "Figu
     kinematics = recording.common_kinematics if still else None
     shown = {name: levels[0][audible] for name, levels in analysis.spectra.items()}
     frequency, end = analysis.frequency[audible], recording.excitation_end
-    return pictures.spectrum_picture(frequency, shown, kinematics, analysis.names[0], end, analysis.lines)
+    defects = recording.defect_lines() if still else ()
+    return pictures.spectrum_picture(
+        frequency, shown, kinematics, analysis.names[0], end, analysis.lines, defects
+    )
 
 
 def _sounds(made: _Made, wav_format: str) -> None:

@@ -66,6 +66,8 @@ def _operation(subject: Subject) -> Table:
          f"+-{imperfections.ball_diameter_spread_nm:g} nm, waviness orders from {imperfections.lowest_order} "
          f"to {imperfections.highest_order or f'{imperfections.highest_frequency_kHz:g} kHz'}, balls' form "
          f"{imperfections.ball_form_nm:g} nm"],
+        *([f"defect {k}", one.words]
+          for k, one in enumerate(imperfections.defect if imperfections else (), start=1)),
         ["fidelity", f"{scene.fidelity.model}: {_FIDELITIES.get(scene.fidelity.model, '')}"],
         ["method", _method(scene)],
         ["sound", _sound(subject)],
@@ -145,6 +147,11 @@ def _kinematics(subject: Subject) -> Table:
         order = " / ".join(dict.fromkeys(orders))
         cells = [f"{getattr(one, name):.2f}" for one in each]
         rows.append([name, OTHER_NAMES[name], _FREQUENCY_WORDS[name], *cells, order])
+    for line in recording.defect_lines():
+        shown = [f"{line.frequency:.2f}" if k == line.bearing else "" for k in range(len(each))]
+        order = f"{line.frequency / each[line.bearing].f_r:.4f}" if each[line.bearing].f_r else ""
+        words = f"balls past {line.defect}, with side bands by {line.modulator}: {line.words}"
+        rows.append([line.name, "", words, *shown, order])
     if not all(map(math.isnan, whirls)):
         cells = ["" if math.isnan(whirl) else f"{whirl:.2f}" for whirl in whirls]
         rows.append(["f_w", "", "turns of the cage about the middle of the inner ring", *cells, ""])

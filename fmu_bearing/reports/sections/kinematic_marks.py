@@ -29,29 +29,42 @@ def mark_kinematics(figure: Any, subject: Subject, highest: float = 20_000.0) ->
     for whose, found in kinematics.items():
         for name, base in found._asdict().items():
             _mark(figure, name, base, whose, highest)
+    for line in subject.recording.defect_lines():
+        _mark(figure, line.name, line.frequency, line.defect, highest)
     figure.update_layout(
         yaxis9={"overlaying": "y", "range": [0.0, 1.0], "visible": False, "fixedrange": True}
     )
 
 
 def _mark(figure: Any, name: str, base: float, whose: str, highest: float) -> None:
-    """Add a trace of upright lines at the multiples of one frequency (Hz); ``whose``: of which bearing."""
+    """Add a trace of upright lines at the multiples of one frequency (Hz).
+
+    ``whose``: of which bearing or local defect; those of a defect are shown at first.
+    """
     multiples = [n for n in range(1, HARMONICS + 1) if 0.0 < n * base <= highest]
     if not multiples:
         return
     of_one = whose and f" of {whose}"
+    carrier, defect = name.rpartition(" ")[2], whose.startswith("defect")
     x, y, text = [], [], []
     for n in multiples:
-        words = f"{name if n == 1 else f'{n} {name}'}{of_one} = {n * base:.1f} Hz"
+        words = f"{_times(n, name)}{of_one} = {n * base:.1f} Hz"
         x += [n * base, n * base, np.nan]
         y += [0.0, 1.0, np.nan]
         text += [words, words, ""]
     figure.add_scatter(
         x=small(x), y=small(y), text=text, mode="lines", yaxis="y9", name=label(name) + of_one,
-        line={"color": look.colour(_COLOURS[name]), "width": 1, "dash": "dot"},
+        line={"color": look.colour(_COLOURS[carrier]), "width": 1, "dash": "dash" if defect else "dot"},
         hovertemplate="%{text}<extra></extra>",
-        visible=True if name in _AT_FIRST else "legendonly",
+        visible=True if defect or name in _AT_FIRST else "legendonly",
     )  # fmt: skip
+
+
+def _times(n: int, name: str) -> str:
+    """Name of n times a frequency: of ``2 f_b`` and n = 3 ``6 f_b``."""
+    twice, _, carrier = name.rpartition(" ")
+    count = n * int(twice or 1)
+    return carrier if count == 1 else f"{count} {carrier}"
 
 
 def _mark_end(figure: Any, end: float | None, highest: float) -> None:
@@ -78,6 +91,6 @@ def end_words(subject: Subject) -> str:
 
 
 def label(name: str) -> str:
-    """Both names of a kinematic frequency."""
-    other = OTHER_NAMES[name]
+    """Both names of a kinematic frequency, or of twice one."""
+    other = OTHER_NAMES.get(name, "")
     return f"{name} ({other})" if other else name

@@ -6,6 +6,8 @@
 ``contacts``        oil and friction, rolling resistance and films of the races
 ``surfaces``        power law, contact filter and highest orders of races and balls
 ``imperfections``   waviness of races and balls, ball sizes, from a seed
+``defect_shapes``   spalls, pits, dents and scratches as depths below the surface
+``defects``         tables of the contact over a defect
 ``flexure``         bending modes of the rings as the engine's coordinates
 ``step_limits``     bearings in which nothing asks for short steps
 ``sound_block``     the sound block, kept on disk

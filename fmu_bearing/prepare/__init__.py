@@ -8,6 +8,7 @@
 ``imperfections``   waviness of races and balls, ball sizes, from a seed
 ``defect_shapes``   spalls, pits, dents and scratches as depths below the surface
 ``defects``         tables of the contact over a defect
+``defect_blocks``   defects and their tables as the engine's numbers
 ``flexure``         bending modes of the rings as the engine's coordinates
 ``step_limits``     bearings in which nothing asks for short steps
 ``sound_block``     the sound block, kept on disk

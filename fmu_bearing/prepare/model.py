@@ -10,7 +10,7 @@ from scipy.special import roots_jacobi
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, OUTER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, GUIDANCES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import FOUR, SD, STRIDE, P, Q
+from fmu_bearing.engine.layout import FOUR, MAX_DEFECTS, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.inputs import input_values
@@ -248,6 +248,7 @@ def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.TOLERANCE] = fidelity.tolerance
     p[P.MAX_STEP] = fidelity.max_internal_step
     p[P.IMPERFECTION_SCALE] = 1.0
+    p[P.DEFECT_SCALE : P.DEFECT_SCALE + MAX_DEFECTS] = 1.0
     terms = scene.fidelity.terms
     p[P.GRAVITY] = terms.gravity
     p[P.DRAG] = terms.drag

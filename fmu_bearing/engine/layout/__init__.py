@@ -19,6 +19,7 @@ module             as    array
 ``motion``         MO    one motion sample for the sound kernels
 ``flexure``        FL    bending rings: their rows and numbers in ``w``, what ``s`` keeps of them
 ``p``              P     parameters: written once by ``prepare``, read only in the engine
+``defect``         DE    a local defect in ``p``: its head and the table of its height
 ``jacobian``       J     blocks of the Jacobian
 ``factors``        A     factors of the Newton matrix
 ``history``        H     what a march of fidelity rings keeps of its coordinates
@@ -46,6 +47,7 @@ from fmu_bearing.engine.layout import (
     c as C,
     condensed as L,
     contact as K,
+    defect as DE,
     drift as DR,
     equilibrium as EQ,
     f as F,
@@ -72,9 +74,10 @@ from fmu_bearing.engine.layout import (
     y as Y,
     z as Z,
 )
-from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_MODES, STAGES, STRIDE
+from fmu_bearing.engine.layout.sizes import FOUR, MAX_BALLS, MAX_DEFECTS, MAX_MODES, STAGES, STRIDE
 
 __all__ = [
-    "A", "C", "DR", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD", "SL",
-    "SP", "ST", "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_MODES", "STAGES", "STRIDE",
+    "A", "C", "DE", "DR", "EQ", "F", "FL", "H", "J", "K", "L", "LN", "MO", "P", "PT", "Q", "R", "S", "SD",
+    "SL", "SP", "ST", "T", "TAB", "U", "W", "X", "Y", "Z", "FOUR", "MAX_BALLS", "MAX_DEFECTS", "MAX_MODES",
+    "STAGES", "STRIDE",
 ]  # fmt: skip

@@ -1,6 +1,6 @@
 """C: conditions, held over a communication step."""
 
-from fmu_bearing.engine.layout.sizes import Places
+from fmu_bearing.engine.layout.sizes import MAX_DEFECTS, Places
 
 _race = Places()
 GROOVE_X = _race()  # m: circle of groove centres, its place along the axis
@@ -36,6 +36,7 @@ LAND_VISCOSITY = _at()  # Pa s
 LAND_CLEARANCE = _at()  # m
 THINNING = _at()  # 1/K: what a kelvin takes of the logarithm of the viscosity; 0 without thermal traction
 OVERSIZE_SCALE = _at()  # factor on ball sizes and waviness
+DEFECT_SCALE = _at(MAX_DEFECTS)  # of each local defect of the bearing, beside OVERSIZE_SCALE
 ECCENTRICITY = _at()  # m, of the rotating parts
 CAGE_ECCENTRICITY = _at()  # m
 RACES = _at(2 * RACE_SIZE)  # inner, outer

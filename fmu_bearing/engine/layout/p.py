@@ -1,6 +1,6 @@
 """P: parameters, written by ``prepare``; the engine copies the tunable ones to all bearings of a set."""
 
-from fmu_bearing.engine.layout.sizes import Places
+from fmu_bearing.engine.layout.sizes import MAX_DEFECTS, Places
 
 _at = Places()
 # head: tunable before initialisation
@@ -12,6 +12,7 @@ TIME_WEIGHTING = _at()  # s: 0.125 Fast, 1 Slow
 METERING_START = _at()  # s after initialisation
 VISCOSITY = _at()  # Pa s at the reference temperature
 INTERFERENCE = _at(2)  # m on diameter, + tight, at the reference temperature: shaft, housing
+DEFECT_SCALE = _at(MAX_DEFECTS)  # of each local defect of the scene; may change between steps
 TUNABLE = _at.next  # places before this one
 # counts and choices
 METHOD = _at()  # integrator of fidelity full: see choices.METHODS
@@ -30,6 +31,8 @@ INNER_MODES = _at()  # those of the inner ring, which come first in the table
 BALL_WAVES = _at()  # zonal orders of the balls' waviness; 0: none
 WAVE_ORDERS = _at()  # highest order of the races' waviness; 0: none
 WAVE_INTERVALS = _at()  # of a race table: a power of two
+DEFECTS = _at()  # local defects of this bearing; 0: none
+BALL_DEFECTS = _at()  # of which on balls
 # switches: 1 computed, 0 left out
 CAGE = _at()
 GRAVITY = _at()
@@ -52,6 +55,7 @@ AT_ORDERS = _at()  # m: complex amplitudes of orders 1 .. WAVE_ORDERS, inner the
 AT_FORM = _at()  # form of the balls: FORM_ROW numbers per zonal order from 0 on
 AT_AXES = _at()  # the balls' body-fixed axes, 3 rows
 AT_MODES = _at()  # MODE_SIZE numbers per mode
+AT_DEFECTS = _at()  # heads of the local defects, then their tables: see defect
 AT_SOUND = _at()  # sound block; 0: there is none
 SOUND_SIZE = _at()  # its length, and the lengths of its state and work space
 SOUND_STATE = _at()
@@ -133,6 +137,7 @@ SEAL_TORQUE = _at()  # N m: of all seals of the bearing while it turns; 0: none
 MODE_STEP = _at()  # s: longest internal step that resolves the modes
 TURN_RATE = _at()  # rad per rad of the shaft: fastest whirl where no waves, sound or cage ask for short steps
 WAVE_RATE = _at()  # rad per rad of the shaft: the fastest phase of a wave under the balls; 0: none
+PASS_RATE = _at()  # longest steps over local defects per rad of the shaft; 0: there are none
 
 # per race
 _race = Places()

@@ -30,6 +30,12 @@ SINA = _at(STRIDE)  # of the contact angle
 COSA = _at(STRIDE)
 BUMP_T = _at(STRIDE)  # slope of the ball's own waviness towards e_t and e_m
 BUMP_M = _at(STRIDE)
+# local defects: no kernel reads these rows of a bearing without any
+GAIN = _at(STRIDE)  # change of the approach over that of the sound contact; 1 beside defects
+BUMP_N = _at(STRIDE)  # m/rad: approach by turning of a ball with a defect about e_n, over GAIN
+BEND_N = _at(STRIDE)  # 1/m: second derivative of the approach by the ball's place along e_n,
+BEND_T = _at(STRIDE)  # along e_n and along the track,
+BEND_TT = _at(STRIDE)  # and along the track
 SIZE = _at.next
 
 # rows of a race that the state keeps for outputs

@@ -6,6 +6,7 @@ FOUR = 4  # balls computed at a time: numbers of lanes are multiples of it
 STAGES = 6  # of a Runge-Kutta method at most
 BALL_ORDERS = 80  # zonal orders of a ball's form at most
 MAX_MODES = 16  # flexural modes of both rings
+MAX_DEFECTS = 8  # local defects of a scene
 
 
 class Places:

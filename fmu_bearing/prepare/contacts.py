@@ -76,7 +76,7 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
     for race, (side, conformity, material, shoulder) in enumerate(sides):
         block = p[P.RACES + race * P.RACE_SIZE :][: P.RACE_SIZE]
         ring = si(material)
-        rx, ry, modulus = _surfaces(scene, race)
+        rx, ry, modulus = surfaces(scene, race)
         hertz = race_contacts(scene)[race]
         block[P.RACE_STIFFNESS] = hertz.stiffness
         block[P.RACE_HALF_LENGTH] = hertz.half_length
@@ -99,10 +99,10 @@ def races(scene: Scene, p: NDArray[np.float64]) -> None:
 
 def race_contacts(scene: Scene) -> tuple[PointContact, PointContact]:
     """Hertzian contacts of a ball with inner and outer race, at the nominal contact angle."""
-    return point_contact(*_surfaces(scene, 0)), point_contact(*_surfaces(scene, 1))
+    return point_contact(*surfaces(scene, 0)), point_contact(*surfaces(scene, 1))
 
 
-def _surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
+def surfaces(scene: Scene, race: int) -> tuple[float, float, float]:
     """Effective radii along and across rolling (m) and E' (Pa) of a ball on a race."""
     b, ball = si(scene.bearing), si(scene.materials.balls)
     ring = si((scene.materials.inner_ring, scene.materials.outer_ring)[race])

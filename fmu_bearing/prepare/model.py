@@ -10,11 +10,12 @@ from scipy.special import roots_jacobi
 from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.elastic.section import INNER, OUTER, ring_section
 from fmu_bearing.engine.choices import FIDELITIES, GUIDANCES, METHODS, RACE_CONTROLS
-from fmu_bearing.engine.layout import FOUR, MAX_DEFECTS, SD, STRIDE, P, Q
+from fmu_bearing.engine.layout import DE, FOUR, MAX_DEFECTS, SD, STRIDE, P, Q
 from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare import bodies, contacts, fits
+from fmu_bearing.prepare.defect_blocks import block, of_scene, pass_rate
 from fmu_bearing.prepare.flexure import inner_modes, longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
     ball_oversizes,
@@ -33,6 +34,7 @@ from fmu_bearing.prepare.surfaces import form_rows
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
+from fmu_bearing.scene.member import SceneBearing
 from fmu_bearing.scene.read import with_fidelity
 
 # Assumed for the cage (see docs/theory): Hunt-Crossley factor, slip scales, dry stop of the lands.
@@ -165,14 +167,15 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     _require_computable(scene)
     bearings = scene.bearings()
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
-    packed = [_pack(bearing.scene, block, scene) for bearing, block in zip(bearings, blocks, strict=True)]
+    packed = [_pack(bearing, sound, scene) for bearing, sound in zip(bearings, blocks, strict=True)]
     fits.share(packed)
     return pack_set(scene, packed) if scene.assembly.joined else as_set_of_one(packed[0])
 
 
-def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> NDArray[np.float64]:
-    """Return the parameters of one bearing; ``with_microphones``: the scene that has the microphones."""
-    scene = fits.loose(scene)
+def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene) -> NDArray[np.float64]:
+    """Return the parameters of one bearing of the ``whole`` scene, which has microphones and defects."""
+    scene = fits.loose(bearing.scene)
+    defects = of_scene(scene, _numbers(whole, bearing.number))
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -188,6 +191,7 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
         P.AT_AXES: _joined([_lanes(row) for row in axes] if form.size else []),
         P.AT_SOUND: sound,
         P.AT_MODES: _modes(scene),
+        P.AT_DEFECTS: block(defects),
     }
     p = np.zeros(P.TABLES + sum(table.size for table in tables.values()))
     start = P.TABLES
@@ -203,13 +207,16 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
     p[P.WAVE_INTERVALS] = intervals(highest)
     p[P.WAVE_ORDERS] = highest if wavy else 0
     p[P.WAVE_RATE] = fastest_wave(scene, waves, int(p[P.BALL_WAVES]))
+    p[P.DEFECTS] = len(defects)
+    p[P.BALL_DEFECTS] = sum(one.on == DE.BALL for one in defects)
+    p[P.PASS_RATE] = pass_rate(scene, defects)
     p[P.TURN_RATE] = turn_rate(scene, silent=sound.size == 0)
     if tables[P.AT_MODES].size:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.INNER_MODES] = inner_modes(tables[P.AT_MODES])
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
-    _sound(with_microphones, sound, p)
+    _sound(whole, sound, p)
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
@@ -218,6 +225,12 @@ def _pack(scene: Scene, sound: NDArray[np.float64], with_microphones: Scene) -> 
     if scene.bearing.cage is not None and scene.materials.cage is not None:
         _cage(scene, scene.bearing.cage, scene.materials.cage, p)
     return p
+
+
+def _numbers(whole: Scene, number: int) -> list[int]:
+    """Return which defects of a scene the bearing ``number`` has, in their order from 0."""
+    flaws = () if whole.imperfections is None else whole.imperfections.defect
+    return [k for k, one in enumerate(flaws) if one.bearing in (None, number)]
 
 
 def _modes(scene: Scene) -> NDArray[np.float64]:

@@ -1,8 +1,8 @@
 """DE: a local defect of a race or a ball in the parameters: its head, and the table of its height.
 
 Heads of ``SIZE`` numbers lie one after the other from ``p[P.AT_DEFECTS]`` on, ``p[P.DEFECTS]`` of them: those
-of one bearing; their tables follow. With the approach delta of the sound contact and the place x of the ball's
-centre along the track, from the defect's middle, a table gives what is left of the approach:
+of one bearing; their tables follow. With the approach delta of the sound contact and the place x of the
+ball's centre along the track, from the defect's middle, a table gives what is left of the approach:
 
     e = delta - touch(x),    eta = e - drop(e, x),    no force where e <= 0 or eta <= 0
 
@@ -13,6 +13,7 @@ from fmu_bearing.engine.layout.sizes import Places
 
 # on what it is
 INNER, OUTER, BALL = 0, 1, 2
+VECTOR = 3  # numbers of a direction
 
 _at = Places()
 NUMBER = _at()  # in the scene, from 0: its scale is at ``P.DEFECT_SCALE`` + number
@@ -21,7 +22,7 @@ ANGLE = _at()  # rad: of its middle on the race
 RADIUS = _at(2)  # m: of the contacts' circle on each race that meets it; on a ball both times the ball's
 LENGTH = _at()  # m: along rolling
 OF_BALL = _at()  # number of the ball that has it, from 0
-DIRECTION = _at(3)  # unit vector from the ball's centre to it at the start, in the orbiting axes
+DIRECTION = _at(VECTOR)  # unit vector from the ball's centre to it at the start, in the orbiting axes
 ACROSS = _at(4)  # m: off the ball's track up to here it acts wholly, not at all beyond; at each race
 AT_TABLE = _at(2)  # offset from ``p[P.AT_DEFECTS]`` of its table at each race; 0: this race does not meet it
 SIZE = _at.next

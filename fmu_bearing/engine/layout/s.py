@@ -4,6 +4,7 @@ from fmu_bearing.engine.choices import RESPONSE
 from fmu_bearing.engine.layout import (
     c as _C,
     condensed as _L,
+    defect as _DE,
     drift as _DR,
     f as _F,
     factors as _A,
@@ -62,7 +63,9 @@ CONTACTS = _at(2 * _R.KEPT)  # of the balls with both races at the last communic
 CHANGE = _at(_F.WORK)  # m/s2, rad/s2: of the accelerations towards the end of the last step of full,
 CHANGE_TIME = _at()  # s: and in what time; 0: unknown
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes in their orbiting axes
-DEFECT_AXES = _at(3 * MAX_DEFECTS)  # from ball centre to each local defect on a ball, in its orbiting axes
+DEFECT_AXES = _at(
+    _DE.VECTOR * MAX_DEFECTS
+)  # from ball centre to each local defect on a ball, in its orbiting axes
 JAC = _at(_J.SIZE)  # Jacobian
 FAC = _at(_A.SIZE)  # factors
 _MORE = _at(-(-max(_LN.SIZE - _J.SIZE - _A.SIZE, 0) // FOUR) * FOUR)  # the lines' scratch is larger

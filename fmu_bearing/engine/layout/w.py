@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import (
     c as _C,
     condensed as _L,
     contact as _K,
+    defect as _DE,
     equilibrium as _EQ,
     f as _F,
     factors as _A,
@@ -61,7 +62,7 @@ LOSS = _at(2 * STRIDE)  # W: dissipated at inner race, outer race,
 LOSS_CAGE = _at(STRIDE)  # in the pockets,
 LOSS_DRAG = _at(STRIDE)  # by drag on the balls and by the dampers between them
 AXES = _at(3 * STRIDE)  # the balls' body-fixed axes at the state evaluated
-DEFECT_AXES = _at(3 * MAX_DEFECTS)  # and the directions of local defects on balls
+DEFECT_AXES = _at(_DE.VECTOR * MAX_DEFECTS)  # and the directions of local defects on balls
 ROWS = _at.next
 LANDS_ENERGY = _at()  # J: stored in the cage's lands
 LOAD = _at(_EQ.FREEDOMS)  # N, N m: on the inner ring, for the quasi-static kernel
@@ -151,7 +152,7 @@ LEDGER: tuple[Area, ...] = (
     Area("LANDS_ENERGY", LANDS_ENERGY, 1, _EVALUATED),
     # turned once per stage, then read by every evaluation between solutions; at a start between factors too
     Area("AXES", AXES, 3 * STRIDE, _EVALUATED | {"factor", "solve"}),
-    Area("DEFECT_AXES", DEFECT_AXES, 3 * MAX_DEFECTS, _EVALUATED | {"factor", "solve"}),
+    Area("DEFECT_AXES", DEFECT_AXES, _DE.VECTOR * MAX_DEFECTS, _EVALUATED | {"factor", "solve"}),
     # the state at the end of a step is sampled; in fidelities rings and response the trial state
     Area(
         "STAGE",

@@ -11,6 +11,7 @@
 ``race``          load, damping, traction strips and hysteresis of all balls on one race
 ``traction``      Eyring's law, the multi-source paper's and heated oil on the same strips
 ``ball_waves``    waviness that turns with the balls, and the turning of their axes
+``defects``       local defects of races and balls, from their tables
 ``cage``          pockets and land guidance
 ``springs``       springs between neighbouring balls in place of a cage
 ``seals``         torque of the seals between the rings

@@ -15,14 +15,15 @@ ball's centre. Force and moment act on the race with the opposite sign at the sa
 import math
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.lanes import consecutive, load, select, splat, store
-from fmu_bearing.engine.layout import FOUR, STRIDE, C, P, R, W, X, Y
+from fmu_bearing.engine.lanes import consecutive, lane, load, select, splat, store
+from fmu_bearing.engine.layout import DE, FOUR, STRIDE, C, P, R, S, W, X, Y
 from fmu_bearing.engine.mechanics.contact import first_zonal, next_zonal
 from fmu_bearing.engine.mechanics.race import contact_load
 from fmu_bearing.engine.mechanics.trigonometry import cosine_and_sine
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, store_three, three
 
 _STILL = 1e-24  # rad2: below this turn sin x / x is 1
+_DEFECTS = S.DEFECT_AXES - S.AXES  # behind the axes
 
 
 @kernel
@@ -145,13 +146,41 @@ def turning(y, j):
 
 
 @kernel
+def turn_directions(p, axes, y0, y1, t, out, to):
+    """Directions of local defects on balls, turned for the time ``t`` (s) into ``out[to:]``.
+
+    The spin is the mean of that in both states.
+    """
+    for k in range(int(p[P.DEFECTS])):
+        head = int(p[P.AT_DEFECTS]) + k * DE.SIZE
+        if p[head + DE.ON] == DE.BALL:
+            j = int(p[head + DE.OF_BALL])
+            at = _DEFECTS + DE.VECTOR * k
+            turned_x, turned_r, turned_t = turned_vector(
+                (splat(axes[at]), splat(axes[at + 1]), splat(axes[at + 2])),
+                (
+                    splat(0.5 * (y0[Y.WX + j] - y0[Y.OM + j] + y1[Y.WX + j] - y1[Y.OM + j])),
+                    splat(0.5 * (y0[Y.WR + j] + y1[Y.WR + j])),
+                    splat(0.5 * (y0[Y.WT + j] + y1[Y.WT + j])),
+                ),
+                t,
+            )
+            turned = to + DE.VECTOR * k
+            out[turned] = lane(turned_x, 0)
+            out[turned + 1] = lane(turned_r, 0)
+            out[turned + 2] = lane(turned_t, 0)
+
+
+@kernel
 def turn_axes(p, axes, y, lanes, t, w):
     """Rows ``W.AXES``: the axes (3 rows, orbiting axes) turned with the spin in ``y`` for the time ``t`` (s).
 
     In the orbiting axes a' = (w - theta' e_x) x a. Exact while that spin is constant, as it nearly is in
     rolling; else the direction is off by t^2/2 of the spin's rate, 5e-6 rad for 10 us at 1e5 rad/s2.
-    Without ball waviness nothing is done.
+    Without ball waviness none is turned. ``axes`` ends with the directions of defects on balls.
     """
+    if p[P.BALL_DEFECTS] != 0.0:
+        turn_directions(p, axes, y, y, t, w, W.DEFECT_AXES)
     if p[P.BALL_WAVES] == 0.0:
         return
     for j in range(0, lanes, FOUR):
@@ -164,6 +193,8 @@ def advance_axes(p, axes, y0, y1, lanes, h):
 
     Second order: the local error is h^3/12 of (the spin's second rate + spin x its rate).
     """
+    if p[P.BALL_DEFECTS] != 0.0:
+        turn_directions(p, axes, y0, y1, h, axes, _DEFECTS)
     if p[P.BALL_WAVES] == 0.0:
         return
     for j in range(0, lanes, FOUR):
@@ -174,6 +205,10 @@ def advance_axes(p, axes, y0, y1, lanes, h):
 @kernel
 def first_axes(p, axes):
     """Axes at the start, from their table; spare lanes copy ball 0 there already."""
+    for k in range(int(p[P.DEFECTS])):
+        head = int(p[P.AT_DEFECTS]) + k * DE.SIZE
+        for i in range(DE.VECTOR):
+            axes[_DEFECTS + DE.VECTOR * k + i] = p[head + DE.DIRECTION + i]
     if p[P.BALL_WAVES] == 0.0:
         return
     table = int(p[P.AT_AXES])

@@ -5,7 +5,7 @@ import math
 from fmu_bearing.engine.choices import OUTER_GUIDED, WALTHER
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import C, P, U
+from fmu_bearing.engine.layout import DE, MAX_DEFECTS, C, P, U
 from fmu_bearing.engine.mechanics.inlet import REGIME_SPEED, inlet_powers
 
 _TO_RPM = 30.0 / math.pi
@@ -227,6 +227,14 @@ def grown_clearance(p, u, speed, c):
 
 
 @kernel
+def defect_scales(p, pb, c):
+    """Scales of the local defects of a bearing, with the parameters ``pb``, from the choices in ``p``."""
+    for k in range(int(pb[P.DEFECTS])):
+        number = int(pb[int(pb[P.AT_DEFECTS]) + k * DE.SIZE + DE.NUMBER])
+        c[C.DEFECT_SCALE + k] = p[P.DEFECT_SCALE + number]
+
+
+@kernel
 def conditions(p, u, speed, c):
     """Fill ``c`` from the inputs ``u``; ``speed`` (rad/s) enters reduction factors, lands and fits.
 
@@ -290,5 +298,8 @@ def conditions(p, u, speed, c):
     c[C.DAMPING_ROTATIONAL] = twice * math.sqrt(rotational * p[P.OUTER_TRANSVERSE])
     c[C.DAMPING_SPIN] = twice * math.sqrt(rotational * p[P.OUTER_POLAR])
     c[C.OVERSIZE_SCALE] = p[P.IMPERFECTION_SCALE]
+    for i in range(MAX_DEFECTS):
+        c[C.DEFECT_SCALE + i] = 0.0
+    defect_scales(p, p, c)
     c[C.ECCENTRICITY] = p[P.IMPERFECTION_SCALE] * p[P.ECCENTRICITY]
     c[C.CAGE_ECCENTRICITY] = p[P.IMPERFECTION_SCALE] * p[P.CAGE_ECCENTRICITY]

@@ -6,6 +6,7 @@ from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import C, P, Q, R, W, Y
 from fmu_bearing.engine.mechanics.contact import hertz
+from fmu_bearing.engine.mechanics.defects import has_defects
 from fmu_bearing.engine.mechanics.springs import spring_energy
 
 
@@ -31,7 +32,7 @@ def kinetic_spin(p, y):
 
 
 @kernel
-def ball_energy(p, y, w):
+def ball_energy(p, c, y, w):
     """Kinetic and potential energy of the balls and the elastic energy of their contacts (J)."""
     pitch = p[P.PITCH_RADIUS]
     mass = p[P.BALL_MASS]
@@ -46,7 +47,10 @@ def ball_energy(p, y, w):
         total += 0.5 * mass * (vx * vx + vr * vr + vt * vt) + mass * gravity * radius * w[W.COS + j]
         for race in range(2):
             row = W.RACE + race * R.SIZE
-            total += 0.4 * w[row + R.ELASTIC + j] * max(w[row + R.APPROACH + j], 0.0)
+            elastic = w[row + R.ELASTIC + j]
+            if has_defects(p, c):  # by Hertz's law of the approach, not by the load
+                elastic /= w[row + R.GAIN + j]
+            total += 0.4 * elastic * max(w[row + R.APPROACH + j], 0.0)
         if caged:
             pressing, _, _ = hertz(p[P.POCKET_STIFFNESS], w[W.POCKET + j])
             total += 0.4 * pressing * w[W.POCKET + j]
@@ -63,7 +67,7 @@ def stored_energy(p, c, y, w):
     cage = Y.Q0 + Q.CAGE
     vo = Y.V0 + Q.OUTER
     vc = Y.V0 + Q.CAGE
-    total = ball_energy(p, y, w) + w[W.LANDS_ENERGY]
+    total = ball_energy(p, c, y, w) + w[W.LANDS_ENERGY]
     if p[P.SPRINGS] != 0.0 and p[P.CAGE] == 0.0:
         total += spring_energy(p, y, w)
     total += 0.5 * p[P.INNER_MASS] * squares(y, Y.V0, 3)

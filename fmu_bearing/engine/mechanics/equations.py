@@ -7,6 +7,7 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, P, Q, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import add_ball_waves, ball_wave_forces, has_wavy_balls
 from fmu_bearing.engine.mechanics.bodies import body_equations
 from fmu_bearing.engine.mechanics.cage import pocket_forces
+from fmu_bearing.engine.mechanics.defects import add_defects, defect_forces, has_defects
 from fmu_bearing.engine.mechanics.flexure import (
     add_groove_sliding,
     add_groove_slope,
@@ -99,6 +100,8 @@ def race_forces(p, c, y, lanes, race, turned, w):
         add_groove_sliding(lanes, race, w)
     if has_wavy_balls(p, c):
         add_ball_waves(p, c, lanes, race, w)
+    if has_defects(p, c):
+        add_defects(p, c, y, lanes, race, turned, w)
     if plain_traction(p):
         traction(p, lanes, race, w)
     else:
@@ -107,6 +110,8 @@ def race_forces(p, c, y, lanes, race, turned, w):
     sum_contact_forces(p, c, lanes, race, w)
     if has_wavy_balls(p, c):
         ball_wave_forces(p, lanes, race, w)
+    if has_defects(p, c):
+        defect_forces(p, c, lanes, race, w)
     if flexible:
         modal_forces(p, c, lanes, race, w)
 

@@ -25,6 +25,13 @@ def wave_time(p, speed):
 
 
 @kernel
+def passing_time(p, speed):
+    """Longest step (s) that sees the local defects of a bearing pass, at a shaft speed (rad/s)."""
+    rate = p[P.PASS_RATE] if p[P.IMPERFECTION_SCALE] != 0.0 else 0.0
+    return 1.0 / (rate * abs(speed) + 1.0)
+
+
+@kernel
 def waviness_under(p, c, y_angle, race, turned, j, w):
     """Race height (m, towards the ball), slope (m/rad) and curvature (m/rad2) under four balls.
 

@@ -15,6 +15,7 @@ from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, K, P, R, W, X, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
 from fmu_bearing.engine.mechanics.cage import in_bore, in_sphere, pocket_axis
 from fmu_bearing.engine.mechanics.contact import damped_slopes, hertz
+from fmu_bearing.engine.mechanics.defects import has_defects
 from fmu_bearing.engine.mechanics.race import waviness_under
 from fmu_bearing.engine.mechanics.triples import added, along, cross, dot, scaled, three
 
@@ -211,21 +212,40 @@ def own_spin(arm, w):
 
 
 @kernel
-def contact_columns(y, body, ball, contact, j, w):
+def deepen_columns(ball, deeper, pressing, bent, j, w):
+    """Add what a defect's second derivatives do to the columns of the ball's place along e and t.
+
+    ``deeper``: change (1/m) of the approach's gradient along e, the answer to which is ``bent``; the load
+    that goes with it, along both, brings its traction.
+    """
+    by_e, by_t, _ = deeper
+    with_load = with_moment(w, K.LOAD, j, ball)
+    along_e = W.CONTACT + K.PLACE
+    along_t = along_e + A.SIX
+    column = plus_scaled(six(w, along_e, FOUR), 1.0, bent)
+    store_six(w, along_e, FOUR, plus_scaled(column, pressing * by_e, with_load))
+    store_six(w, along_t, FOUR, plus_scaled(six(w, along_t, FOUR), pressing * by_t, with_load))
+
+
+@kernel
+def contact_columns(y, body, ball, contact, defective, j, w):
     """Fill all columns of a contact, in the ball's axes; the columns of traction are there.
 
     ``ball``: its radius (m); ``contact``: as :func:`race_contact` and :func:`pocket_contact` give it. That
     is its axes; the gradient of the approach by the ball's place, and the ball's own slopes towards t and m;
     load by approach, load by its rate and logarithm of the ellipse by approach; load, and damping of a film
     along e and m and along t; the axis of one turn, of a race the body's; turns about it and about -t, by
-    places along the three axes; change of the gradient along t; entrainment speed by the ball's spin.
+    places along the three axes; change of the gradient along e, only over ``defective`` races, and along t;
+    entrainment speed by the ball's spin.
     """
-    frame, gradient, bumps, stiffness, pressing, film, about, around, over, change, arm = contact
+    frame, gradient, bumps, stiffness, pressing, film, about, around, over, deeper, change, arm = contact
     loaded, pressed = motion_columns(ball, gradient, bumps, stiffness, film, j, w)
     _, by_rate, _ = stiffness
     v = components(three(w, W.POSE + body * X.SIZE + X.DV + j), frame)
     bent = bent_gradient(change, pressing, by_rate, v, loaded)
     place_columns(y, body, ball, frame, gradient, pressed, bent, about, around, over, j, w)
+    if defective:
+        deepen_columns(ball, deeper, pressing, bent_gradient(deeper, pressing, by_rate, v, loaded), j, w)
     into_ball_axes(frame, w)
     own_spin(arm, w)
 
@@ -250,21 +270,31 @@ def race_contact(p, c, y, race, turned, j, w):
     root = math.sqrt(max(load(w, row + R.APPROACH + j), 0.0))
     per_root = 1.0 / max(root, _SHALLOWEST)
     touching = load(w, row + R.LOAD + j) > 0.0
+    defective = has_defects(p, c)
+    rate = load(w, row + R.RATE + j)
+    if defective:
+        rate = rate * load(w, row + R.GAIN + j)
     by_approach, by_rate = damped_slopes(
-        p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS], 1.5 * p[P.CONTACT_DAMPING],
-        root, per_root, load(w, row + R.RATE + j),
-    )  # fmt: skip
-    stiffness = (
-        select(touching, by_approach, 0.0),
-        select(touching, by_rate, 0.0),
-        0.5 * per_root * per_root,
+        p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS], 1.5 * p[P.CONTACT_DAMPING], root, per_root, rate
     )
+    growth = 0.5 * per_root * per_root
     zero = splat(0.0)
+    deeper = (zero, zero, zero)
+    bend = zero
+    if defective:
+        gain = load(w, row + R.GAIN + j)
+        by_approach = gain * gain * by_approach
+        by_rate = gain * gain * by_rate
+        growth = gain * growth
+        turning = load(w, row + R.BEND_T + j) / gain
+        deeper = (load(w, row + R.BEND_N + j) / gain, turning, zero)
+        bend = load(w, row + R.BEND_TT + j) / gain
+    stiffness = (select(touching, by_approach, 0.0), select(touching, by_rate, 0.0), growth)
     lean = load(w, row + R.SLOPE + j) * per_rho
     tip = zero
     bump_t = zero
     bump_m = zero
-    if has_wavy_balls(p, c):
+    if has_wavy_balls(p, c) or defective and p[P.BALL_DEFECTS] != 0.0:
         bump_t = load(w, row + R.BUMP_T + j)
         bump_m = load(w, row + R.BUMP_M + j)
         lean += bump_t * cosa * per_rho
@@ -272,6 +302,10 @@ def race_contact(p, c, y, race, turned, j, w):
     curvature = zero
     if p[P.WAVINESS] != 0.0:
         _, _, curvature = waviness_under(p, c, y[Y.TH : Y.TH + STRIDE], race, turned, j, w)
+    _, along, _ = deeper
+    change = (zero, curvature * per_rho * per_rho, zero)
+    if defective:
+        change = (along, curvature * per_rho * per_rho + bend, zero)
     return (
         frame,
         (splat(1.0), lean, tip),
@@ -282,7 +316,8 @@ def race_contact(p, c, y, race, turned, j, w):
         (sina, zero, cosa),
         (zero, per_rho, zero),
         (zero, zero, per_distance),
-        (zero, curvature * per_rho * per_rho, zero),
+        deeper,
+        change,
         scaled(ball, m),
     )
 
@@ -376,6 +411,7 @@ def pocket_contact(p, c, y, turned, j, w):
         (zero, zero, splat(sphere)),
         (zero, sphere * per_apart, zero),
         (zero, zero, per_apart),
+        nothing,
         nothing,
         nothing,
     )

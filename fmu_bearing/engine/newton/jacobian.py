@@ -24,6 +24,7 @@ from fmu_bearing.engine.lanes import (
     sum_four,
 )
 from fmu_bearing.engine.layout import FOUR, STRIDE, A, C, F, J, K, P, Q, W, X, Y
+from fmu_bearing.engine.mechanics.defects import has_defects
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled, three
 from fmu_bearing.engine.newton.body_slopes import body_slopes, cage_unbalance, inertia
@@ -316,6 +317,7 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
     lanes = int(p[P.LANES])
     right_hand_side(p, c, y, angle, speed, speed_rate, w, w[W.F0 : W.F0 + F.SIZE])
     clear(p, jac, w)
+    defective = has_defects(p, c)
     for j in range(0, lanes, FOUR):
         free_ball(p, y, j, w, jac)
     for body in range(2 if p[P.CAGE] == 0.0 else 3):
@@ -334,7 +336,7 @@ def jacobian(p, c, y, angle, speed, speed_rate, w, jac):
                 contact = race_contact(p, c, y, body, turned, j, w)
             else:
                 contact = pocket_contact(p, c, y, turned, j, w)
-            contact_columns(y, body, splat(c[C.BALL_RADIUS]), contact, j, w)
+            contact_columns(y, body, splat(c[C.BALL_RADIUS]), contact, defective and body < 2, j, w)
             per = per_inertia(p, y, j)
             live = select(consecutive(j) < p[P.BALLS], 1.0, 0.0)
             shift_columns(body, per, live, j, w, jac)

@@ -8,7 +8,7 @@ import math
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, P, Q, S, U, W
-from fmu_bearing.engine.mechanics.conditions import conditions, regrow
+from fmu_bearing.engine.mechanics.conditions import conditions, defect_scales, regrow
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.shaft import has_housing, static_load
 
@@ -45,7 +45,10 @@ def bearing_conditions(p, u, b, speed, w):
     given = members.set_work(p, w)[SP.INPUT : SP.INPUT + U.SIZE]
     bearing_inputs(p, u, b, given)
     wb = members.work(p, w, b)
-    conditions(members.parameters(p, b), given, speed, wb[W.CONDITIONS : W.CONDITIONS + C.SIZE])
+    c = wb[W.CONDITIONS : W.CONDITIONS + C.SIZE]
+    conditions(members.parameters(p, b), given, speed, c)
+    # they may change between steps, when the first bearing's alone are set
+    defect_scales(p, members.parameters(p, b), c)
 
 
 @kernel

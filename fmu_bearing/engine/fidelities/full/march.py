@@ -23,7 +23,7 @@ from fmu_bearing.engine.fidelities.full.step import grow_all, runge_kutta_step
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import grow_on, ramp
-from fmu_bearing.engine.mechanics.race import wave_time
+from fmu_bearing.engine.mechanics.race import passing_time, wave_time
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
@@ -137,7 +137,8 @@ def longest_step(p, s, speed):
         pb = members.parameters(p, b)
         if pb[P.MODES] != 0.0:
             longest = min(longest, pb[P.MODE_STEP])
-        longest = min(longest, _WAVE * wave_time(pb, max(abs(s[S.SPEED]), abs(speed))))
+        fastest = max(abs(s[S.SPEED]), abs(speed))
+        longest = min(longest, _WAVE * wave_time(pb, fastest), passing_time(pb, fastest))
     return longest
 
 

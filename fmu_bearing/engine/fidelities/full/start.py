@@ -10,8 +10,9 @@ from fmu_bearing.engine.choices import FULL
 from fmu_bearing.engine.fidelities.full.progress import show_axes, total_energy
 from fmu_bearing.engine.fidelities.full.settle import settle
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import EQ, PT, SP, C, F, P, Q, S, U, W, Y
+from fmu_bearing.engine.layout import EQ, MAX_DEFECTS, PT, SP, C, F, P, Q, S, U, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import first_axes
+from fmu_bearing.engine.mechanics.conditions import defect_scales
 from fmu_bearing.engine.mechanics.contact import carries_both_ways
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
@@ -330,6 +331,9 @@ def start(p, u, s, w, t):
         sb = members.state(p, s, b)
         for i in range(C.USED):
             sb[S.C + i] = members.work(p, w, b)[W.CONDITIONS + i]
+        # the start is that of sound places, whatever the balls meet there
+        for i in range(MAX_DEFECTS):
+            sb[S.C + C.DEFECT_SCALE + i] = 0.0
     status = rest_all(p, u, s, w, speed)
     if status != OK:
         return status
@@ -340,6 +344,8 @@ def start(p, u, s, w, t):
     for i in range(0 if members.has_shaft(p) else members.coordinates(p)):
         own[SP.S_HEAD + i] = s[S.Y + Y.Q0 + i]
     copy_rows(p, s, w)
+    for b in range(members.bearing_count(p)):
+        defect_scales(p, members.parameters(p, b), members.state(p, s, b)[S.C : S.C + C.SIZE])
     s[S.ENERGY_START] = total_energy(p, s, w)
     s[S.ENERGY_NOW] = s[S.ENERGY_START]
     for b in range(members.bearing_count(p)):

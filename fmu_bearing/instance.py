@@ -122,17 +122,18 @@ class Instance:
         return [name for name, one in self.by_name.items() if one.causality in causalities]
 
     def set(self, name: str, value: float) -> None:
-        """Set an input, or a parameter before initialisation; ``ValueError`` if refused."""
+        """Set an input, a parameter before initialisation, or a tunable one; ``ValueError`` if refused."""
         variable = self.variable(name)
         value = number(name, value)
         if variable.array == "u":
             check(variable, value)
             self.u[variable.index] = value
         elif variable.array == "p" and variable.causality == "parameter":
-            if self.initialised:
+            if self.initialised and variable.variability == "fixed":
                 raise ValueError(f"{name} is fixed once the bearing is initialised; call reset() first")
             check(variable, value)
             self.p[variable.index] = value
+            self._since.clear()  # steps are repeated with the parameters that they had
         else:
             raise ValueError(f"{name} cannot be set: its causality is {variable.causality}")
 

@@ -299,6 +299,7 @@ def test_every_variable_is_described(name, reference, site):
             (r"mic\[\d+\]", "mic[k]"),
             (r"third_octave\[\d+\]", "third_octave[f]"),
             (r"flexure\.n\d+", "flexure.n*"),
+            (r"defect\[\d+\]", "defect[k]"),
         ):
             shown = re.sub(pattern, index, shown)
         row = re.search(rf"<td><code>{re.escape(shown)}</code></td>(.*?)</tr>", page, flags=re.DOTALL)

@@ -19,7 +19,7 @@ from fmu_bearing.fmi.documentation import range_of
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
-from fmu_bearing.results.variable_names import any_sets
+from fmu_bearing.results.variable_names import any_sets, spalled
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.exclusions import EXCLUSIONS
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, sizes as printed_sizes
@@ -188,9 +188,10 @@ _AT_RACES = ("contact.", "film.", "stiffness.", "fit.")
 #: Heading, then what a variable of that group must satisfy; the first group that fits takes it.
 GROUPS = (
     ("Inputs", lambda v: v.causality == "input"),
-    ("Parameters, set before initialisation", lambda v: v.causality == "parameter"),
+    ("Parameters", lambda v: v.causality == "parameter"),
     ("Outputs: torque and heat", lambda v: v.causality == "output" and v.unit in ("N.m", "W")),
     ("Outputs: sound", lambda v: v.causality == "output" and v.name.startswith("mic[")),
+    ("Outputs: local defects", lambda v: v.causality == "output" and v.name.startswith("defect[")),
     ("Outputs: motion", lambda v: v.causality == "output"),
     ("Constants: how the model was built", lambda v: v.variability == "constant"),
     ("Local: sound by component and type of motion", lambda v: v.name.startswith("mic[")),
@@ -205,6 +206,7 @@ _INDICES = (
     (r"mic\[\d+\]", "mic[k]", r"microphone [^,;]+", "microphone k"),
     (r"third_octave\[\d+\]", "third_octave[f]", r"around [\d.]+ Hz", "around f Hz"),
     (r"flexure\.n\d+", "flexure.n*", r"of order \d+", "of order *"),
+    (r"defect\[\d+\]", "defect[k]", r": (spall|pit|dent|scratch) .*", ""),
 )
 
 
@@ -239,7 +241,7 @@ def fmu():
 
 
 def all_variables():
-    """Variables of scenes that together have everything: sound in bands, bending rings, a cage, fits, a set.
+    """Variables of scenes that together have everything: third octaves, bending, cage, fits, defects, a set.
 
     Of the set those that no single bearing has.
     """
@@ -251,7 +253,8 @@ def all_variables():
         {"mounting.fit": {k: {key: value, "temperature_degC": 40.0} for k, (key, value) in seats.items()}}
         | {"mounting.fit.housing.outside_diameter_mm": 60.0}
     )
-    single = [*variables(spindle, 0.0), *variables(fitted, 0.0), *variables(bending, 0.0)]
+    scenes = spindle, fitted, bending, spalled(spindle)
+    single = [one for scene in scenes for one in variables(scene, 0.0)]
     names = {variable.name for variable in single}
     sets = {one.name: one for found in any_sets(spindle) for one in variables(found, 0.0)}
     return [*single, *(one for name, one in sets.items() if name.split("].", 1)[-1] not in names)]

@@ -14,7 +14,7 @@ _CONTACTS_ALONE = "stiffness of the present contacts between the rings, friction
 
 
 def outputs(scene: Scene) -> list[Variable]:
-    """Return the outputs: velocities, microphones, friction torque and heats."""
+    """Return the outputs: velocities, microphones, local defects, friction torque and heats."""
     speed: dict[str, Any] = {"display_unit": "mm/s"}
     table: list[Variable] = []
     for body, words in _bodies(scene):
@@ -26,7 +26,7 @@ def outputs(scene: Scene) -> list[Variable]:
         place = Z.BALLS + Z.PER_BALL * j
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += microphones(scene, "output", Z.mics(scene.bearing.ball_count))
-    table += _flexure(scene)
+    table += [*_flexure(scene), *_defects(scene)]
     torque = (
         "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus "
         "sign; without inertia, which the drive owns"
@@ -95,9 +95,9 @@ def internals(scene: Scene) -> list[Variable]:
     return table + microphones(scene, "local", Z.mics(scene.bearing.ball_count))
 
 
-def _count(name: str, description: str) -> Variable:
+def _count(name: str, words: str, causality: str = "local", index: int | None = None) -> Variable:
     """Whole number that only grows."""
-    variable = read(name, "local", description, quantity="", min=0, max=2**31 - 1, nominal=None)
+    variable = read(name, causality, words, index=index, quantity="", min=0, max=2**31 - 1, nominal=None)
     return replace(variable, type="Integer", variability="discrete")
 
 
@@ -219,4 +219,38 @@ def _flexure(scene: Scene) -> list[Variable]:
                 table.append(
                     read(name, "output", words, "m/s", first + len(table), display_unit="mm/s", nominal=1e-3)
                 )
+    return table
+
+
+def _defects(scene: Scene) -> list[Variable]:
+    """Return what is told of local defects, in the order of the engine's :data:`Z.DEFECT_OUTPUTS`."""
+    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+    at = Z.defects(scene.bearing.ball_count, len(scene.microphones), bands, scene.flexural_modes)
+    time: dict[str, Any] = {"display_unit": "ms", "min": -1e9, "max": 1e9}
+    table: list[Variable] = []
+    for k, defect in enumerate(scene.defects_of(0).values()):
+        one = "contact of its ball" if defect.on == "ball" else "ball"
+        name, first = f"defect[{k + 1}]", at + Z.PER_DEFECT * k
+        passed, load, since, entry, impact = (first + i for i in range(Z.PER_DEFECT))
+        over, middle = "over the edge of the defect", f"middle of a {one}"
+        table += [
+            _count(f"{name}.passages", f"How often the {middle} has passed the defect", "output", passed),
+            read(
+                f"{name}.load", "output",
+                f"Load of the {one} nearest to the defect, 0 where none is within its reach", "N", load,
+            ),
+            read(
+                f"{name}.time", "output",
+                f"Time since the {middle} came {over}; 0 before the first", "s", since, **time,
+            ),
+            read(
+                f"{name}.entry", "output",
+                f"When the {middle} last came {over}; 0 before the first", "s", entry, **time,
+            ),
+            read(
+                f"{name}.impact", "output",
+                f"When a {one} in the defect last turned from sinking to rising; 0 before the first",
+                "s", impact, **time,
+            ),
+        ]  # fmt: skip
     return table

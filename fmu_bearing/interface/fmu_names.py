@@ -24,6 +24,7 @@ GROUPS = {
     "stiffness": ("*stiffness.*",),
     "levels": ("mic[*].spl*", "mic[*].leq*", "mic[*].third_octave[*]"),
     "energy": ("*heat.*", "*friction_torque*", "energy.residual"),
+    "defects": ("*defect[*].*",),
     "forces": ("bearing[*].force.*", "bearing[*].moment.*", "port.force*", "port.moment*"),
 }  # fmt: skip
 _ALWAYS = "friction_torque"  # a shaft cannot be driven without it

@@ -52,7 +52,9 @@ def first_output(scene: Scene, number: int) -> int:
 
     ``prepare`` lays them out so, each as of a single bearing without sound.
     """
-    return sum(Z.size(one.ball_count, 0, 0, scene.flexural_modes) for one in scene.geometries[:number])
+    modes = scene.flexural_modes
+    bearings = enumerate(scene.geometries[:number])
+    return sum(Z.size(one.ball_count, 0, 0, modes, len(scene.defects_of(k))) for k, one in bearings)
 
 
 def _count(scene: Scene) -> int:

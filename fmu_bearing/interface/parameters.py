@@ -50,8 +50,21 @@ def parameters(scene: Scene) -> list[Variable]:
     if scene.imperfections is not None:
         words = "Factor on all imperfections"
         table.append(_tunable("imperfection.scale", P.IMPERFECTION_SCALE, words, 1.0, 0.0, 100.0))
+        table += _defect_scales(scene)
     if scene.sound is not None:
         table += _metering(scene.sound.time_weighting, si(scene.sound).metering_start)
+    return table
+
+
+def _defect_scales(scene: Scene) -> list[Variable]:
+    """Return the scales of the local defects, which may be changed between steps: growth can be stepped."""
+    table = []
+    for b, bearing in enumerate(scene.bearings()):
+        for k, (number, defect) in enumerate(scene.defects_of(b).items(), start=1):
+            words = f"Factor on the depth of a local defect, which may change between steps: {defect.words}"
+            place = P.DEFECT_SCALE + number
+            scale = _tunable(f"{bearing.prefix}defect[{k}].scale", place, words, 1.0, 0.0, 100.0)
+            table.append(replace(scale, variability="tunable"))
     return table
 
 

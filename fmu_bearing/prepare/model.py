@@ -175,7 +175,7 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
 def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene) -> NDArray[np.float64]:
     """Return the parameters of one bearing of the ``whole`` scene, which has microphones and defects."""
     scene = fits.loose(bearing.scene)
-    defects = of_scene(scene, _numbers(whole, bearing.number))
+    defects = of_scene(scene, list(whole.defects_of(bearing.number - 1)))
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
     # what the scene leaves out is an empty table: it takes no place, and its offset is 0
     waves = race_harmonics(scene)
@@ -225,12 +225,6 @@ def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene
     if scene.bearing.cage is not None and scene.materials.cage is not None:
         _cage(scene, scene.bearing.cage, scene.materials.cage, p)
     return p
-
-
-def _numbers(whole: Scene, number: int) -> list[int]:
-    """Return which defects of a scene the bearing ``number`` has, in their order from 0."""
-    flaws = () if whole.imperfections is None else whole.imperfections.defect
-    return [k for k, one in enumerate(flaws) if one.bearing in (None, number)]
 
 
 def _modes(scene: Scene) -> NDArray[np.float64]:

@@ -275,7 +275,7 @@ def _block(
     places = {"P": 0, "S": 0, "W": 0, "Z": 0}
     for k, (p, (mass, _)) in enumerate(zip(bearings, rows, strict=True)):
         row = block[at + k * SP.ROW : at + (k + 1) * SP.ROW]
-        outputs = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]))
+        outputs = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]), int(p[P.DEFECTS]))
         sizes = {"P": p.size, "S": S.front(p), "W": W.size(p), "Z": outputs}
         for name, length in sizes.items():
             row[getattr(SP, f"ROW_{name}")] = places[name]

@@ -27,15 +27,15 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
     read = {variable.index for variable in shown if variable.array == "z"}
     bands, mics = int(p[P.BANDS]), int(p[P.MICS])
     together, parts = SP.has_shaft(p), parts_of(p)
-    each = Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]))
-    own = len(parts) * each
+    sizes = [_size(p[part]) for part, _ in parts]
+    own = sum(sizes)
     first = own + SP.z_mics(len(parts)) if together else Z.mics(int(p[P.BALLS]))
     octaves = first + Z.PER_MIC * mics
     alone = octaves + bands * mics
     microphone_places = range(first, alone + (len(parts) * mics if together else 0))
     for b, (part, _) in enumerate(parts):
-        of, at = parameters[part], b * each if together else 0
-        balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(p[P.BALLS]))))}
+        of, at = parameters[part], sum(sizes[:b]) if together else 0
+        balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(of[P.BALLS]))))}
         if together:
             forces = own + SP.Z_FORCES + b * SP.Z_FORCE
             balls |= set(range(forces, forces + SP.Z_FORCE))
@@ -51,3 +51,8 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
             of[block + SD.H_BANDS] = 0.0
     parameters.setflags(write=False)
     return parameters
+
+
+def _size(p: NDArray[np.float64]) -> int:
+    """Return how many outputs one of several bearings has, without sound."""
+    return Z.size(int(p[P.BALLS]), 0, 0, int(p[P.MODES]), int(p[P.DEFECTS]))

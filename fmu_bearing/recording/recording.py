@@ -20,6 +20,7 @@ from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
 from fmu_bearing.recording.measurements import measure
 from fmu_bearing.recording.measurements.signals import Signals
+from fmu_bearing.results.defect_lines import defect_labels
 from fmu_bearing.results.result import read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.results.table import html_table, number
@@ -218,7 +219,7 @@ class Recording(ChannelHistory):
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.
 
         Names and places (m) of microphones are coordinates; units are attributes, the scene is TOML text in
-        ``scene``.
+        ``scene``, the table of its local defects JSON text in ``defects``.
 
         Raises
         ------
@@ -243,6 +244,7 @@ class Recording(ChannelHistory):
             "scene": "" if self.scene is None else self.scene.to_toml(),
             "radiation_model": radiation_model or self.radiation_model,
             "rate_Hz": self.rate,
+            **defect_labels(self.scene),
         }
         return xr.Dataset(data, coords, head)
 

@@ -1,5 +1,6 @@
 """Lines that local defects make: how often balls pass them, and what modulates that."""
 
+import json
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -75,3 +76,22 @@ def marked(lines: Sequence[DefectLine]) -> dict[str, str]:
     for line in lines:
         names.setdefault(line.name, []).append(line.defect)
     return {name: " and ".join(defects) for name, defects in names.items()}
+
+
+def defect_labels(scene: Scene | None) -> dict[str, str]:
+    """Return the table of a scene's defects as an attribute of a data file: JSON text; empty without any.
+
+    Of each what its outputs are called, the first line it makes, what modulates it, and its keys in the
+    scene.
+    """
+    if scene is None or not scene.has_defects:
+        return {}
+    table = []
+    for bearing in scene.bearings():
+        flaws = bearing.scene.imperfections
+        for number, defect in enumerate(() if flaws is None else flaws.defect, start=1):
+            multiple, carrier, modulator = CARRIERS[defect.on]
+            keys = defect.model_dump(exclude_none=True)
+            line = {"line": combination(multiple, carrier), "side_bands": modulator}
+            table.append({"defect": f"{bearing.prefix}defect[{number}]", **line, **keys})
+    return {"defects": json.dumps(table)}

@@ -21,6 +21,7 @@ from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.results.base import Result, write_netcdf, written
 from fmu_bearing.results.column_units import unit_of_suffix, written_unit
+from fmu_bearing.results.defect_lines import defect_labels
 from fmu_bearing.results.levels import present, shown
 from fmu_bearing.results.rows import read_columns
 from fmu_bearing.results.series import Series, structured
@@ -114,10 +115,14 @@ class Run(Series, Result):
         return write_netcdf(path, self.to_xarray())
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``."""
+        """Return the run as a dataset over time, units in attributes, the scene as TOML text in ``scene``.
+
+        The table of its local defects is JSON text in ``defects``.
+        """
         xr = need("xarray", "a dataset")
         scene = "" if self.scene is None else self.scene.to_toml()
         head = {"name": self.name, "ended": self.ended, "note": self.note, "scene": scene}
+        head |= defect_labels(self.scene)
         columns = {name: ("time", self[name], {"units": unit}) for name, unit in self._units().items()}
         return xr.Dataset(columns, {"time": ("time", self.time, {"units": "s"})}, head)
 

@@ -3,6 +3,7 @@
 import functools
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 from fmu_bearing.interface import flat, variables
 from fmu_bearing.scene import Scene, read_scene_text
@@ -16,11 +17,21 @@ _NUMBER = re.compile(r"_\d+(?=_|$)")
 def _usual_units() -> dict[str, str]:
     """Return units by flat name of the variables of scenes with all options, without indices."""
     scene = read_scene_text(new_scene("any", "7003C"))
+    defects = [variable for variable in variables(spalled(scene), 0.0) if variable.name.startswith("defect[")]
     every = [
         *variables(scene, 0.0),
+        *defects,
+        *(replace(variable, name=f"bearing[1].{variable.name}") for variable in defects),
         *(variable for found in any_sets(scene) for variable in variables(found, 0.0)),
     ]
     return {_without_index(variable.name): variable.unit for variable in every}
+
+
+def spalled(scene: Scene) -> Scene:
+    """Return a scene of one bearing with a local defect."""
+    return scene.replace({
+        "imperfections.defect": [{"on": "outer", "shape": "spall", "length_mm": 0.1, "depth_um": 1.0}]
+    })  # fmt: skip
 
 
 def any_sets(scene: Scene) -> tuple[Scene, Scene]:

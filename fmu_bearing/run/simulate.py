@@ -65,10 +65,10 @@ def simulate(
     step : float
         Communication step (s), at the end of which variables are kept.
     inputs : mapping, structured array or path, optional
-        Numbers or functions of time (s) by name; or a table with ``time`` and columns of inputs, linear in
-        between, or a CSV file of one (`run.input_file.read_inputs`). SI units; columns of a file may be
-        in r/min and degC by their names. Inputs that are not named keep their start values. Beyond the
-        times of a table its first and last values are held, with a warning.
+        Numbers or functions of time (s) by name, of inputs and tunable parameters; or a table with ``time``
+        and columns of them, linear in between, or a CSV file of one (`run.input_file.read_inputs`). SI units;
+        columns of a file may be in r/min and degC by their names. Inputs that are not named keep their start
+        values. Beyond the times of a table its first and last values are held, with a warning.
     input_from_start : bool
         Shift the times of a table or file so that the first is 0.
     start_values : mapping, optional
@@ -184,7 +184,7 @@ class _Library:
         self.inputs = {
             name: Input(float(v.start or 0.0), v.min, v.max, v.unit)
             for name, v in variables.items()
-            if v.causality == "input"
+            if v.causality == "input" or v.variability == "tunable"
         }
         self.settable = self.bearing.names("input", "parameter")
 

@@ -13,6 +13,7 @@ from pydantic import Field
 from fmu_bearing.scene import housing
 from fmu_bearing.scene.base import Conflict, Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
+from fmu_bearing.scene.defect import Defect
 from fmu_bearing.scene.fidelity import Fidelity
 from fmu_bearing.scene.fmu import Fmu
 from fmu_bearing.scene.housing import SKIN
@@ -315,6 +316,11 @@ class Tables(Part):
     def has_defects(self) -> bool:
         """Whether a race or a ball has a local defect."""
         return self.imperfections is not None and bool(self.imperfections.defect)
+
+    def defects_of(self, number: int) -> dict[int, Defect]:
+        """Return the local defects of a bearing, from 0, by their numbers in the scene, from 0."""
+        every = self.imperfections.defect if self.imperfections is not None else ()
+        return {k: one for k, one in enumerate(every) if (one.bearing or 1) == number + 1}
 
     @property
     def seeds_apart(self) -> int:

@@ -8,7 +8,8 @@ from fmu_bearing.modal.campbell.doubts import doubt
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import EXAMPLES
 
-OWN = [(path.stem, None) for path in sorted(EXAMPLES.glob("*.toml"))]  # the examples' sets have no sound
+#: The examples' sets have no sound, nor has the one with a local defect, which response refuses.
+OWN = [(path.stem, None) for path in sorted(EXAMPLES.glob("*.toml")) if path.stem != "6205-outer-spall"]
 #: Where `rings` and `response` were found 18, 15 and 6 dB(A) off.
 FOUND = [("7003C-impact", 8000.0), ("7003C-impact", 22000.0), ("7009C-steel", 11000.0)]
 TRUSTED = {"7003C-bare", "7003C-spindle"}  # at their own speed

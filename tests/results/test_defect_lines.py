@@ -1,18 +1,20 @@
 """Lines of local defects: their frequencies and names in spectra, pictures, and Campbell diagrams."""
 
+import json
 import math
 
 import matplotlib as mpl
 import numpy as np
 import pytest
+import xarray as xr
 
-from fmu_bearing import read_scene
+from fmu_bearing import Run, read_scene
 from fmu_bearing.acoustics.analysis.lines import explain, kinematic_lines
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.modal.campbell.excitation_lines import Rates, defect_order, lines, lines_of_defects
 from fmu_bearing.modal.modes.energies import BACKWARD, FORWARD
 from fmu_bearing.recording.measurements import pictures
-from fmu_bearing.results.defect_lines import defect_lines, marked
+from fmu_bearing.results.defect_lines import defect_labels, defect_lines, marked
 from tests.conftest import GATES, ROOT
 
 BARE = read_scene(GATES / "7003C-bare.toml")
@@ -109,3 +111,14 @@ def test_the_height_of_an_order_is_that_of_the_path_of_a_rigid_ball():
     shallow = spall.model_copy(update={"depth_um": 0.5})
     exact = 2.0 * np.mean(np.minimum(path, 5e-7))
     assert defect_order(bearing, shallow, 1) == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_file_has_the_table_of_defects_in_an_attribute(tmp_path):
+    run = Run("a", np.array([(0.0, 1.0)], dtype=[("time", float), ("friction_torque", float)]), {}, SCENE)
+    path = run.save(tmp_path / "a.nc")
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        table = json.loads(data.attrs["defects"])
+    assert [one["defect"] for one in table] == ["defect[1]", "defect[2]", "defect[3]"]
+    assert table[1] == DEFECTS[1] | {"defect": "defect[2]", "line": "f_i", "side_bands": "f_r"}
+    assert Run.load(path).scene == SCENE
+    assert defect_labels(BARE) == defect_labels(None) == {}

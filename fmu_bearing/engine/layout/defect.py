@@ -45,3 +45,13 @@ DROP_X = _node()  # its slope along the track,
 DROP_E = _node()  # along the approach: zero at the last one, beyond which the drop stays,
 DROP_XE = _node()  # 1/m: and along both
 DROP_ROW = _node.next
+
+# what the state keeps of each defect of a bearing, one after the other at ``S.SEEN``: see readout/defects
+_seen = Places()
+PASSAGES = _seen()  # balls, or contacts of its ball, whose middle has passed it
+ENTRY = _seen()  # s: time of the last one that came over its edge; 0: none came yet
+IMPACT = _seen()  # s: time when one last turned round in it, from sinking to rising; 0: none did yet
+NEAR = _seen()  # 1 + number of the ball that is nearest, on a ball 1 + that of the race; 0: not known yet
+PLACE = _seen()  # m: of its middle along the track, from that of the defect, at the end of the last step
+SINKING = _seen()  # m/s: towards the race, against the ring
+SEEN_SIZE = _seen.next

@@ -59,6 +59,7 @@ PEAK = _at()  # error estimates over what is allowed: the largest, as far as it 
 SETTLED = _at()  # what the start found of the steady state: see steady/point
 RESTARTS = _at()  # of fidelities rings and response at rest, where a step had failed
 GROWTH = _at()  # 1/s: of the motion that grows most by itself, in fidelities rings and response
+SEEN = _at(_DE.SEEN_SIZE * MAX_DEFECTS)  # what outputs tell of local defects
 CONTACTS = _at(2 * _R.KEPT)  # of the balls with both races at the last communication point
 CHANGE = _at(_F.WORK)  # m/s2, rad/s2: of the accelerations towards the end of the last step of full,
 CHANGE_TIME = _at()  # s: and in what time; 0: unknown

@@ -1,4 +1,4 @@
-"""Z: outputs. The bearing's in the order of :data:`BEARING_OUTPUTS`, then balls, microphones, modes."""
+"""Z: outputs. Those of :data:`BEARING_OUTPUTS` in their order, then balls, microphones, modes, defects."""
 
 BEARING_OUTPUTS = (
     "inner_ring.velocity.x", "inner_ring.velocity.y", "inner_ring.velocity.z", "outer_ring.velocity.x",
@@ -75,6 +75,8 @@ BANDS = (
     25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0, 500.0, 630.0, 800.0,
     1000.0, 1250.0, 1600.0, 2000.0, 2500.0, 3150.0, 4000.0, 5000.0, 6300.0, 8000.0, 10000.0, 12500.0, 16000.0,
 )  # fmt: skip
+DEFECT_OUTPUTS = ("passages", "load", "time", "entry", "impact")
+PER_DEFECT = len(DEFECT_OUTPUTS)
 
 
 def mics(n_balls):
@@ -92,6 +94,11 @@ def flexures(n_balls, n_mics, n_bands=0):
     return bands(n_balls, n_mics) + n_bands * n_mics
 
 
-def size(n_balls, n_mics, n_bands=0, n_modes=0):
-    """Length of ``z`` for microphones of ``n_bands`` third octaves each, and ``n_modes`` flexural modes."""
+def defects(n_balls, n_mics, n_bands=0, n_modes=0):
+    """Place of the outputs of local defects: :data:`DEFECT_OUTPUTS` of each, one after the other."""
     return flexures(n_balls, n_mics, n_bands) + 2 * n_modes
+
+
+def size(n_balls, n_mics, n_bands=0, n_modes=0, n_defects=0):
+    """Length of ``z`` for microphones of ``n_bands`` third octaves each, flexural modes and local defects."""
+    return defects(n_balls, n_mics, n_bands, n_modes) + PER_DEFECT * n_defects

@@ -9,6 +9,7 @@ from fmu_bearing.engine.mechanics.bodies import guiding_ring
 from fmu_bearing.engine.mechanics.flexure import flexure_state
 from fmu_bearing.engine.mechanics.race import wave_time
 from fmu_bearing.engine.readout.contacts import contacts, knows_balls
+from fmu_bearing.engine.readout.defects import observe_defects
 from fmu_bearing.engine.readout.losses import seal_loss
 from fmu_bearing.engine.readout.motion import sound_block
 from fmu_bearing.engine.sound.meter import levels
@@ -148,6 +149,9 @@ def observe_motion(p, s, z, mics):
         fits(p, s, z)
     clearance(s, z)
     flexure(p, s, z, mics)
+    if p[P.DEFECTS] != 0.0:
+        at = Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+        observe_defects(p, s, z, at + 2 * int(p[P.MODES]))
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
     z[Z.RESTARTS] = s[S.RESTARTS]

@@ -24,6 +24,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, TAB, C, F, P, S, U, W, Y
 from fmu_bearing.engine.mechanics.conditions import grow_on, ramp
 from fmu_bearing.engine.mechanics.race import passing_time, wave_time
+from fmu_bearing.engine.readout.defects import watch_defects
 from fmu_bearing.engine.readout.losses import summarise
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.coupling import solve_set, turn_since
@@ -234,6 +235,8 @@ def accept_all(p, s, w, h, tableau):
         wb = members.work(p, w, b)
         keep_change(pb, sb, wb, h, tableau)
         accept(pb, sb, wb, h)
+        if pb[P.DEFECTS] != 0.0:
+            watch_defects(pb, sb, h)
         if p[P.FITS] != 0.0:
             grow_on(sb[S.C : S.C + C.SIZE], h)
         control.follow_rings(sb, h)

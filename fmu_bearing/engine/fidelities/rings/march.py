@@ -25,6 +25,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, U, W, Y
 from fmu_bearing.engine.mechanics.race import wave_time
+from fmu_bearing.engine.readout.defects import watch_defects
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import grow
 from fmu_bearing.engine.spindle.sound_sum import emit
@@ -136,6 +137,16 @@ def emit_shown(p, s, w, h):
 
 
 @kernel
+def watches(p):
+    """Whether a bearing has local defects, whose passing balls are watched."""
+    found = False
+    for b in range(members.bearing_count(p)):
+        if members.parameters(p, b)[P.DEFECTS] != 0.0:
+            found = True
+    return found
+
+
+@kernel
 def accept(p, s, w, h):
     """Move the state to the end of the step ``h`` (s)."""
     own = members.set_state(p, s)
@@ -154,10 +165,12 @@ def accept(p, s, w, h):
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
     equations.share_march(p, s)
-    if p[P.SOUND_SIZE] != 0.0:
+    if p[P.SOUND_SIZE] != 0.0 or watches(p):
         emit_rings(p, s, w, h)
     for b in range(members.bearing_count(p)):
         advance(members.parameters(p, b), members.state(p, s, b), h)
+        if members.parameters(p, b)[P.DEFECTS] != 0.0:
+            watch_defects(members.parameters(p, b), members.state(p, s, b), h)
 
 
 @kernel

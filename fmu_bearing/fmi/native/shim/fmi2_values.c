@@ -188,6 +188,7 @@ static fmi2Status take(Instance *it, fmi2ValueReference reference, unsigned type
         return instance_refuse(it, fmi2Discard, &said);
     }
     *slot->at = value;
+    if (it->model.variables[reference].array == ARRAY_P) instance_forget(it); /* see `note`: inputs are kept alone */
     instance_end_waiting(it, reference);
     if (it->phase != PHASE_STEPPING) it->settled = 0;
     return fmi2OK;

@@ -11,6 +11,7 @@ from fmu_bearing.engine.layout import SP, P, Q, S, U, Y
 from fmu_bearing.engine.status import (
     BAD_INPUT,
     BAD_STEP,
+    DEEP_DEFECT,
     NO_START,
     NOT_CONVERGED,
     OK,
@@ -43,6 +44,9 @@ REASONS = {
     "only; prepare the scene in the fidelity wanted (with_fidelity)",
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
+    DEEP_DEFECT: "a local defect takes more than half of what loaded balls are pressed into the races, where "
+    "balls may leave them, which fidelity rings does not follow; give a smaller defect "
+    "(imperfections.defect), more load, or fidelity full",
 }
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {

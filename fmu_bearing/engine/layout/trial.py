@@ -6,7 +6,7 @@ the stages of a Runge-Kutta step.
 """
 
 from fmu_bearing.engine.layout import condensed as _L, f as _F, jacobian as _J, lines as _LN, w as _W
-from fmu_bearing.engine.layout.sizes import FOUR, STRIDE, Places
+from fmu_bearing.engine.layout.sizes import FOUR, MAX_DEFECTS, STRIDE, Places
 from fmu_bearing.engine.layout.w import Area
 
 # forces of the balls on one ring: rows
@@ -32,6 +32,7 @@ ET = _contact(STRIDE)
 MX = _contact(STRIDE)  # direction across the track
 MR = _contact(STRIDE)
 MT = _contact(STRIDE)
+APPROACH = _contact(STRIDE)  # m: of the sound contact; no kernel reads it of a bearing without local defects
 CONTACT_SIZE = _contact.next
 
 _at = Places()
@@ -53,6 +54,11 @@ CONTACT = _at(2 * CONTACT_SIZE)  # with inner race, then with outer race
 DX = _at(STRIDE)  # m: a ball's move in the last sweep
 DR = _at(STRIDE)
 PHASES = _at(STRIDE)  # rad: of one row of lines
+# local defects: see condensed/defects
+MEETS = _at(2 * STRIDE)  # 1 for a ball within reach of one, at the inner and at the outer race
+OVER = _at(2 * MAX_DEFECTS * STRIDE)  # m: from each defect along the track, at the inner race first
+MEET_SCALE = _at(2 * MAX_DEFECTS)  # factor on its depth; 0: that race does not meet it
+MEET_AHEAD = _at(2 * MAX_DEFECTS)  # m: by which the place along the track changes in the damping time
 ROWS = _at.next
 
 FORCE_OUTER = FORCE + FORCE_SIZE

@@ -26,8 +26,8 @@ from fmu_bearing.engine.mechanics.flexure import bends
 from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_LEAST_GAIN = 1e-3  # no table has less where it carries
-_LEAST_SCALE = 1e-6  # of a defect: less is none
+LEAST_GAIN = 1e-3  # no table has less where it carries
+LEAST_SCALE = 1e-6  # of a defect: less is none
 
 
 @kernel
@@ -192,7 +192,7 @@ def change_contact(at, rho, left, ahead, w):
     """
     eta, gain, _, by_two, by_both, by_places, _ = left
     before = w[at + R.GAIN]
-    gain = max(gain, _LEAST_GAIN)
+    gain = max(gain, LEAST_GAIN)
     along = before * w[at + R.SLOPE] / rho
     w[at + R.BEND_TT] = (
         gain * w[at + R.BEND_TT]
@@ -285,7 +285,7 @@ def meet_on_ball(p, race, k, table, scale, j, w):
     x = radius * math.atan2(-dt, de)
     edges = head + DE.ACROSS + 2 * race
     share, share_y = acts_across(radius * dm, p[edges], p[edges + 1])
-    if not within(p, table, x) or scale * share < _LEAST_SCALE:
+    if not within(p, table, x) or scale * share < LEAST_SCALE:
         return
     rho = w[pose + X.RHO]
     left = scaled_left_over(p, table, scale * share, w[at + R.APPROACH], x)
@@ -324,7 +324,7 @@ def add_defects(p, c, y, lanes, race, turned, w):
         head = head_of(p, k)
         table = table_of(p, head, race)
         scale = c[C.OVERSIZE_SCALE] * c[C.DEFECT_SCALE + k]
-        if table == 0 or not (scale > _LEAST_SCALE):
+        if table == 0 or not (scale > LEAST_SCALE):
             continue
         for j in range(lanes):
             if p[head + DE.ON] == DE.BALL:

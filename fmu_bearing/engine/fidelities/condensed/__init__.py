@@ -3,6 +3,7 @@
 =====================  ==============================================================================
 ``rows``               coordinates and components; places of the balls between state and work space
 ``ball_form``          form and waviness of the balls under both races
+``defects``            local defects under the balls
 ``balls``              each ball at rest between the races, and what it puts on the rings
 ``families``           motions of rings, cage and patterns of the balls that do not act on each other
 ``operator``           what balls and cage do beside that, by modes of the linearised full equations

@@ -19,6 +19,7 @@ import math
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
+from fmu_bearing.engine.fidelities.condensed.defects import meet_defects, place_defects
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, select, store, sum_four, sum_lanes
@@ -68,6 +69,8 @@ def set_angles(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
         store(w, T.OUTER + j, size)
         store(w, T.FORM_SLOPE + j, 0.0)
         store(w, T.FORM_SLOPE_OUTER + j, 0.0)
+    if p[P.DEFECTS] != 0.0:
+        place_defects(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w)
     if scale == 0.0:
         return
     if p[P.BALL_WAVES] != 0.0:
@@ -110,7 +113,8 @@ def write_contacts(p, c, race, first, tilt, heights, row, q, w):
         ex, er, _ = e
         # the rate of approach; products of the ring's tilt and its rates along the track are left out
         leaving = ex * vx + er * (co * vz - si * vy) + (sa * qr - ca * axial) * (co * dby + si * dbz)
-        pressed, stiff, _ = hertz(stiffness, distance - free + load(w, heights + j) - leaving)
+        approach = distance - free + load(w, heights + j) - leaving
+        pressed, stiff, _ = hertz(stiffness, approach)
         at = row + j
         store_three(w, at + T.QX, (qx, qr, qt))
         store(w, at + T.LOAD, pressed)
@@ -118,6 +122,7 @@ def write_contacts(p, c, race, first, tilt, heights, row, q, w):
         store(w, at + T.ACROSS, pressed * per)
         store_three(w, at + T.EX, e)
         store_three(w, at + T.MX, m)
+        store(w, at + T.APPROACH, approach)
 
 
 @kernel
@@ -240,6 +245,9 @@ def sweep(p, c, lv, speed, part, q, w):
     lanes = int(p[P.LANES])
     write_contacts(p, c, 0, Q.INNER, Q.INNER_BY, T.INNER, T.CONTACT, q, w)
     write_contacts(p, c, 1, Q.OUTER, Q.OUTER + Q.BY, T.OUTER, T.CONTACT_OUTER, q, w)
+    if p[P.DEFECTS] != 0.0:
+        meet_defects(p, c, 0, T.INNER, T.CONTACT, w)
+        meet_defects(p, c, 1, T.OUTER, T.CONTACT_OUTER, w)
     balance(p, lv, speed, part, w)
     forces_on_ring(lv, lanes, lv[L.PAIR_INNER] * speed * speed, T.FORM_SLOPE, T.CONTACT, T.FORCE, w)
     forces_on_ring(

@@ -3,10 +3,12 @@
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
 from fmu_bearing.engine.fidelities.condensed.ball_motion import show_moving
+from fmu_bearing.engine.fidelities.condensed.defects import show_directions
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, splat, store
 from fmu_bearing.engine.layout import FOUR, STRIDE, C, F, L, P, Q, R, S, T, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import has_wavy_balls
+from fmu_bearing.engine.mechanics.defects import add_defects, has_defects
 from fmu_bearing.engine.mechanics.equations import inner_pose, outer_pose
 from fmu_bearing.engine.mechanics.race import normal_contact, waviness
 from fmu_bearing.engine.mechanics.seals import seal_moment
@@ -108,6 +110,8 @@ def find_contacts(p, s, w):
     for j in range(lanes):
         s[own + j] = w[T.INNER + j]
         s[own + STRIDE + j] = w[T.OUTER + j]
+    if has_defects(p, c):
+        show_directions(p, lv, w)
     ball_angles(y, Y.TH, lanes, w)
     inner_pose(p, c, y, s[S.SPEED], w)
     outer_pose(p, c, y, w)
@@ -118,3 +122,5 @@ def find_contacts(p, s, w):
         for j in range(0, lanes, FOUR):
             store(w, row + j, load(w, row + j) + load(s, own + race * STRIDE + j))
         normal_contact(p, c, y, lanes, race, w)
+        if has_defects(p, c):
+            add_defects(p, c, y, lanes, race, turned, w)

@@ -24,7 +24,7 @@ from fmu_bearing.engine.fidelities.rings.correction import correct
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, store
 from fmu_bearing.engine.layout import FOUR, SP, STRIDE, H, L, P, S, T, U, W, Y
-from fmu_bearing.engine.mechanics.race import wave_time
+from fmu_bearing.engine.mechanics.race import passing_time, wave_time
 from fmu_bearing.engine.readout.defects import watch_defects
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import grow
@@ -54,7 +54,7 @@ def longest_step(p, highest, speed):
     """Longest internal step (s) at ``speed``: see the limits above; ``highest``: mode (rad/s)."""
     h = min(_LONGEST, p[P.MAX_STEP])
     h = min(h, _MODE / (highest + 1.0))
-    return min(h, _WAVE * wave_time(p, speed))
+    return min(h, _WAVE * wave_time(p, speed), passing_time(p, speed))
 
 
 @kernel

@@ -4,6 +4,7 @@ Arguments: see `spindle.members`.
 """
 
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled, set_angles
+from fmu_bearing.engine.fidelities.condensed.defects import taken_by_defects
 from fmu_bearing.engine.fidelities.condensed.rows import from_equilibrium, keep_balls
 from fmu_bearing.engine.fidelities.full.start import begin_means
 from fmu_bearing.engine.fidelities.rings import equations, frozen_points, growth
@@ -12,7 +13,10 @@ from fmu_bearing.engine.fidelities.rings.rest import at_rest
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, C, H, L, P, S, W, Y
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.status import NO_START, OK
+from fmu_bearing.engine.status import DEEP_DEFECT, NO_START, OK
+
+# of the mean approach of loaded balls: what a local defect may take
+_MOST_TAKEN = 0.5
 
 
 @kernel
@@ -87,6 +91,11 @@ def start_rings(p, u, s, w, t):
             status = NO_START
         if status != OK:
             return status
+    for b in range(members.bearing_count(p)):
+        sb = members.state(p, s, b)
+        c = sb[S.C : S.C + C.SIZE]
+        if taken_by_defects(members.parameters(p, b), c, members.work(p, w, b)) > _MOST_TAKEN:
+            return DEEP_DEFECT
     growth.search_at_once(p, s, w)
     for b in range(members.bearing_count(p)):
         begin_means(members.state(p, s, b))

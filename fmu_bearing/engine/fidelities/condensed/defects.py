@@ -1,0 +1,193 @@
+"""Local defects under balls that rest between the races; tables and law are those of `mechanics.defects`.
+
+Where each ball is over each defect follows from the time alone, as race heights do: by the orbit that is
+frozen, on a ball by the spin and the contact directions that are (`ball_form`). So a defect's place under a
+ball misses what rings move aside: micrometres, of a table that is tenths of a millimetre long.
+
+Contact damping acts on the rate of what is left of the approach. To first order that is what is left at the
+approach advanced by it, plus tau times its slope along the track times the speed there: see `balls`.
+
+What a defect pushes along its track is left out, as of waves: the load times the slope of the table, 1 % of
+it, on balls whose orbit is frozen, and on the rings across the load. So is what a defect on a ball that lies
+aside does across the track.
+"""
+
+import math
+
+from fmu_bearing.engine.constants import PI
+from fmu_bearing.engine.fidelities.condensed.ball_form import turned_back, vector_of
+from fmu_bearing.engine.jit import kernel
+from fmu_bearing.engine.layout import DE, MAX_DEFECTS, STRIDE, C, L, P, T, W
+from fmu_bearing.engine.mechanics.contact import hertz
+from fmu_bearing.engine.mechanics.defects import (
+    LEAST_GAIN,
+    LEAST_SCALE,
+    acts_across,
+    head_of,
+    scaled_left_over,
+    table_of,
+    within,
+)
+from fmu_bearing.engine.mechanics.trigonometry import wrap
+from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled
+
+_FAR = 1.0  # m: a place beyond any table
+_LOADED = 0.5  # share of a load by both races from which on a ball counts as loaded, see `balls.loaded_share`
+
+
+@kernel
+def place_balls_over(p, head, table, angle, ahead, race, meet, w):
+    """Put the places of all balls over a defect of a race to row ``meet`` of ``T.OVER``.
+
+    ``angle`` (rad): of ball 0 from the defect; ``ahead`` (rad): by which it changes in the damping time.
+    """
+    radius = p[head + DE.RADIUS + race]
+    balls = int(p[P.BALLS])
+    w[T.MEET_AHEAD + meet] = radius * ahead
+    for j in range(int(p[P.LANES])):
+        own = j if j < balls else 0
+        x = radius * wrap(angle + 2.0 * PI * own / balls)
+        if within(p, table, x):
+            w[T.OVER + meet * STRIDE + j] = x
+            w[T.MEETS + race * STRIDE + j] = 1.0
+
+
+@kernel
+def place_ball_over(p, lv, head, table, scale, rolled, ahead, race, meet, w):
+    """Put the place of a race over a defect of a ball to row ``meet`` of ``T.OVER``, and its scale there.
+
+    As `mechanics.defects.meet_on_ball`. ``rolled`` (rad): by which the balls have turned; ``ahead`` (rad): by
+    which they do in the damping time.
+    """
+    here, rates = turned_back(lv, math.cos(rolled), math.sin(rolled))
+    e, e_rate = vector_of(here, race), vector_of(rates, race)
+    m, m_rate = vector_of(here, 2 + race), vector_of(rates, 2 + race)
+    t, t_rate = cross(m, e), added(cross(m_rate, e), cross(m, e_rate))
+    d = p[head + DE.DIRECTION], p[head + DE.DIRECTION + 1], p[head + DE.DIRECTION + 2]
+    de, dt = dot(d, e), dot(d, t)
+    if not (de > 0.0):
+        return
+    radius = p[head + DE.RADIUS + race]
+    x = radius * math.atan2(-dt, de)
+    edges = head + DE.ACROSS + 2 * race
+    share, _ = acts_across(radius * dot(d, m), p[edges], p[edges + 1])
+    if not within(p, table, x) or scale * share < LEAST_SCALE:
+        return
+    turned = (dt * dot(d, e_rate) - de * dot(d, t_rate)) / (de * de + dt * dt)
+    w[T.MEET_SCALE + meet] = scale * share
+    w[T.MEET_AHEAD + meet] = radius * turned * ahead
+    balls = int(p[P.BALLS])
+    for j in range(int(p[P.LANES])):
+        if (j if j < balls else 0) == int(p[head + DE.OF_BALL]):
+            w[T.OVER + meet * STRIDE + j] = x
+            w[T.MEETS + race * STRIDE + j] = 1.0
+
+
+@kernel
+def place_defects(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
+    """Put where the balls are over the defects to ``T.MEETS`` on; arguments: see `balls.set_angles`."""
+    tau = p[P.CONTACT_DAMPING]
+    orbit = lv[L.RATIO] * speed
+    for i in range(2 * STRIDE):
+        w[T.MEETS + i] = 0.0
+    for i in range(2 * MAX_DEFECTS * STRIDE):
+        w[T.OVER + i] = _FAR
+    for k in range(int(p[P.DEFECTS])):
+        head = head_of(p, k)
+        scale = c[C.OVERSIZE_SCALE] * c[C.DEFECT_SCALE + k]
+        for race in range(2):
+            meet = race * MAX_DEFECTS + k
+            table = table_of(p, head, race)
+            w[T.MEET_SCALE + meet] = scale
+            if table == 0 or not (scale > LEAST_SCALE):
+                continue
+            if p[head + DE.ON] == DE.BALL:
+                turning = tau * lv[L.ROLL] * speed
+                place_ball_over(p, lv, head, table, scale, rolled, turning, race, meet, w)
+            else:
+                passing = tau * (orbit - speed if race == 0 else orbit)
+                angle = theta - (inner_angle if race == 0 else outer_angle) - p[head + DE.ANGLE]
+                place_balls_over(p, head, table, angle, passing, race, meet, w)
+
+
+@kernel
+def meet_defects(p, c, race, heights, row, w):
+    """Put defects into the contacts of the balls with a race, in its rows from ``row`` on.
+
+    ``heights``: row of the race's heights. Changes load and slopes of the balls that `place_defects` has found
+    within reach.
+    """
+    stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
+    free = c[C.RACES + race * C.RACE_SIZE + C.FREE]
+    for j in range(int(p[P.LANES])):
+        if w[T.MEETS + race * STRIDE + j] == 0.0:
+            continue
+        at = row + j
+        left, gain, bend, ahead = w[at + T.APPROACH], 1.0, 0.0, 0.0
+        for k in range(int(p[P.DEFECTS])):
+            meet = race * MAX_DEFECTS + k
+            x = w[T.OVER + meet * STRIDE + j]
+            if x < _FAR:
+                left, own, slope, by_two, _, _, _ = scaled_left_over(
+                    p, table_of(p, head_of(p, k), race), w[T.MEET_SCALE + meet], left, x
+                )
+                own = max(own, LEAST_GAIN)
+                bend = own * bend + by_two * gain * gain
+                ahead = own * ahead + slope * w[T.MEET_AHEAD + meet]
+                gain *= own
+        pressed, stiff, _ = hertz(stiffness, left + ahead)
+        w[at + T.LOAD] = gain * pressed
+        w[at + T.STIFF] = max(gain * gain * stiff + bend * pressed, 0.0)
+        w[at + T.ACROSS] = gain * pressed / (free + w[at + T.APPROACH] - w[heights + j])
+
+
+@kernel
+def show_directions(p, lv, w):
+    """Put the directions of defects on balls, as they are turned now, to ``W.DEFECT_AXES``."""
+    cosine, sine = math.cos(lv[L.ROLLED]), math.sin(lv[L.ROLLED])
+    axis = lv[L.ROLL_AXIS], lv[L.ROLL_AXIS + 1], lv[L.ROLL_AXIS + 2]
+    for k in range(int(p[P.DEFECTS])):
+        head = head_of(p, k)
+        if p[head + DE.ON] == DE.BALL:
+            d = p[head + DE.DIRECTION], p[head + DE.DIRECTION + 1], p[head + DE.DIRECTION + 2]
+            still = scaled(dot(axis, d), axis)
+            moving = added(d, scaled(-1.0, still))
+            x, r, t = added(still, added(scaled(cosine, moving), scaled(sine, cross(axis, d))))
+            w[W.DEFECT_AXES + 3 * k] = x
+            w[W.DEFECT_AXES + 3 * k + 1] = r
+            w[W.DEFECT_AXES + 3 * k + 2] = t
+
+
+@kernel
+def most_taken(p, table, scale, approach):
+    """Most (m) that a defect takes of an ``approach`` (m), at the places of its table."""
+    most = 0.0
+    for i in range(int(p[table + DE.PLACES])):
+        left, _, _, _, _, _, _ = scaled_left_over(p, table, scale, approach, p[table + DE.TABLE_HEAD + i])
+        most = max(most, approach - left)
+    return most
+
+
+@kernel
+def taken_by_defects(p, c, w):
+    """Largest share that a defect takes of the mean approach of loaded balls; their contacts are in ``w``.
+
+    Infinite where no ball is loaded by both races.
+    """
+    share = 0.0
+    for race in range(2 if p[P.DEFECTS] != 0.0 else 0):
+        row = T.CONTACT + race * T.CONTACT_SIZE + T.APPROACH
+        total, loaded = 0.0, 0.0
+        for j in range(int(p[P.BALLS])):
+            if w[T.LOADED + j] > _LOADED:
+                total += w[row + j]
+                loaded += 1.0
+        for k in range(int(p[P.DEFECTS])):
+            table = table_of(p, head_of(p, k), race)
+            scale = c[C.OVERSIZE_SCALE] * c[C.DEFECT_SCALE + k]
+            if table == 0 or not (scale > LEAST_SCALE):
+                continue
+            if loaded == 0.0:
+                return math.inf
+            share = max(share, most_taken(p, table, scale, total / loaded) * loaded / total)
+    return share

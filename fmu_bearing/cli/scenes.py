@@ -123,6 +123,10 @@ def new(
             help="Tolerance class of the imperfections; default: what the designation says, else P4."
         ),
     ] = None,
+    spall: Annotated[
+        float | None,
+        typer.Option(help="Length of a spall of the outer race at 6 o'clock, mm; default: none."),
+    ] = None,
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
     catalogue: Catalogues = None,
@@ -179,7 +183,8 @@ def new(
             preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
             distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
             stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
-            clearance=clearance, **({} if radial_load is None else {"radial_load_N": radial_load}),
+            clearance=clearance, spall_mm=spall,
+            **({} if radial_load is None else {"radial_load_N": radial_load}),
         )  # fmt: skip
         write_whole(path, text.encode("utf-8"))
         found = [origin for origin in origins(path) if origin.assumed]

@@ -60,7 +60,7 @@ def new_scene(
         As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
         ``preload_class``, ``preload_offset_um``, ``folder``, ``radial_load_N``, ``clearance``;
         ``stiffness_N_um``, ``stiffness_preload_N``, ``stiffness_of``; for a set ``arrangement``,
-        ``distance_mm``, ``spring_N``.
+        ``distance_mm``, ``spring_N``; ``spall_mm``.
 
     Raises
     ------

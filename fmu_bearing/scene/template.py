@@ -71,6 +71,7 @@ def new_scene(
     speed_rule: str = "",
     preload_rule: str = "",
     radial_rule: str = "",
+    spall_mm: float | None = None,
 ) -> str:
     """Return the text of a scene file with these values, which reads back without a refusal.
 
@@ -123,6 +124,8 @@ def new_scene(
         current folder.
     speed_rule, preload_rule, radial_rule : str, optional
         Why speed, preload and radial load are what they are: marked as assumed.
+    spall_mm : float, optional
+        Length of a spall of the outer race, of a set that of its first bearing; default: no defect.
 
     Raises
     ------
@@ -197,12 +200,22 @@ def new_scene(
         *mounted,
         f'[imperfections] # assumed, by tolerance class\ngrade = "{tolerance}"\nseed = 1\n'
         "highest_frequency_kHz = 20.0 # assumed: the audible range",
+        *([] if spall_mm is None else [_spall(spall_mm, arrangement is not None)]),
         _OPERATION.format(speed=f"{float(speed_rpm)}{_remark(speed_rule)}{_lowest(speed_rpm)}"),
         *([_sound(size.outside, places)] if sound else []),
     ]
     text = "\n\n".join(parts) + "\n"
     read_scene_text(text, name, folder)
     return text
+
+
+def _spall(length: float, in_set: bool) -> str:
+    """Return the table of a spall that the load presses the balls into."""
+    whose = "bearing = 1 # assumed\n" if in_set else ""
+    return (
+        f'[[imperfections.defect]]\n{whose}on = "outer"\nshape = "spall"\nlength_mm = {float(length)}\n'
+        "depth_um = 100.0 # assumed\nangle_deg = 180.0 # assumed: 6 o'clock"
+    )
 
 
 def _lowest(speed: float) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 from fmu_bearing.scene import SceneError, read_scene, read_scene_text
 from fmu_bearing.scene.defect_conflicts import race_radius
+from fmu_bearing.scene.template import new_scene
 from tests.conftest import GATES, ROOT
 from tests.messages import says
 
@@ -142,3 +143,16 @@ def test_a_defect_is_a_source_and_no_seed_moves_it():
 def test_its_size_can_be_an_axis_of_a_sweep():
     scene = with_defects(SPALL).replace({"imperfections.defect[1].length_mm": 0.6})
     assert scene.imperfections.defect[0].length_mm == 0.6
+
+
+@pytest.mark.parametrize("arrangement", [None, "DB"])
+def test_a_new_scene_may_have_a_spall(arrangement):
+    text = new_scene("a", "7003C", arrangement=arrangement, sound=False, spall_mm=1.2)
+    scene = read_scene_text(text)
+    (spall,) = scene.imperfections.defect
+    assert (spall.on, spall.shape, spall.length_mm, spall.angle_deg) == ("outer", "spall", 1.2, 180.0)
+    assert spall.bearing == (None if arrangement is None else 1)
+    assert "depth_um = 100.0 # assumed" in text
+    assert not read_scene_text(new_scene("a", "7003C", sound=False)).imperfections.defect
+    with pytest.raises(SceneError, match="length_mm takes 9 mm along rolling; allowed: up to"):
+        new_scene("a", "7003C", sound=False, spall_mm=9.0)

@@ -17,7 +17,7 @@ import math
 from fmu_bearing.engine.constants import PI
 from fmu_bearing.engine.fidelities.condensed.ball_form import turned_back, vector_of
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import DE, MAX_DEFECTS, STRIDE, C, L, P, T, W
+from fmu_bearing.engine.layout import DE, MAX_DEFECTS, STRIDE, C, L, P, T
 from fmu_bearing.engine.mechanics.contact import hertz
 from fmu_bearing.engine.mechanics.defects import (
     LEAST_GAIN,
@@ -114,8 +114,8 @@ def place_defects(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
 def meet_defects(p, c, race, heights, row, w):
     """Put defects into the contacts of the balls with a race, in its rows from ``row`` on.
 
-    ``heights``: row of the race's heights. Changes load and slopes of the balls that `place_defects` has found
-    within reach.
+    ``heights``: row of the race's heights. Changes load and slopes of the balls that `place_defects` has
+    found within reach.
     """
     stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     free = c[C.RACES + race * C.RACE_SIZE + C.FREE]
@@ -142,8 +142,8 @@ def meet_defects(p, c, race, heights, row, w):
 
 
 @kernel
-def show_directions(p, lv, w):
-    """Put the directions of defects on balls, as they are turned now, to ``W.DEFECT_AXES``."""
+def show_directions(p, lv, out, at):
+    """Put the directions of defects on balls, as they are turned now, to ``out[at:]``."""
     cosine, sine = math.cos(lv[L.ROLLED]), math.sin(lv[L.ROLLED])
     axis = lv[L.ROLL_AXIS], lv[L.ROLL_AXIS + 1], lv[L.ROLL_AXIS + 2]
     for k in range(int(p[P.DEFECTS])):
@@ -153,9 +153,10 @@ def show_directions(p, lv, w):
             still = scaled(dot(axis, d), axis)
             moving = added(d, scaled(-1.0, still))
             x, r, t = added(still, added(scaled(cosine, moving), scaled(sine, cross(axis, d))))
-            w[W.DEFECT_AXES + 3 * k] = x
-            w[W.DEFECT_AXES + 3 * k + 1] = r
-            w[W.DEFECT_AXES + 3 * k + 2] = t
+            to = at + DE.VECTOR * k
+            out[to] = x
+            out[to + 1] = r
+            out[to + 2] = t
 
 
 @kernel

@@ -111,7 +111,7 @@ def find_contacts(p, s, w):
         s[own + j] = w[T.INNER + j]
         s[own + STRIDE + j] = w[T.OUTER + j]
     if has_defects(p, c):
-        show_directions(p, lv, w)
+        show_directions(p, lv, w, W.DEFECT_AXES)
     ball_angles(y, Y.TH, lanes, w)
     inner_pose(p, c, y, s[S.SPEED], w)
     outer_pose(p, c, y, w)

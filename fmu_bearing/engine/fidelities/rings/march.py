@@ -16,6 +16,7 @@ the third difference of the accelerations shows that it is too long. Arguments: 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import move_balls, move_places
 from fmu_bearing.engine.fidelities.condensed.balls import count_settled
+from fmu_bearing.engine.fidelities.condensed.defects import show_directions
 from fmu_bearing.engine.fidelities.condensed.patterns import keep_patterns, prepare_step
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance, build_operator, keep_end, show_end
@@ -168,9 +169,12 @@ def accept(p, s, w, h):
     if p[P.SOUND_SIZE] != 0.0 or watches(p):
         emit_rings(p, s, w, h)
     for b in range(members.bearing_count(p)):
-        advance(members.parameters(p, b), members.state(p, s, b), h)
-        if members.parameters(p, b)[P.DEFECTS] != 0.0:
-            watch_defects(members.parameters(p, b), members.state(p, s, b), h)
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        advance(pb, sb, h)
+        if pb[P.DEFECTS] != 0.0:
+            show_directions(pb, members.condensed(sb), sb, S.DEFECT_AXES)
+            watch_defects(pb, sb, h)
 
 
 @kernel

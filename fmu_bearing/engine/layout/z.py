@@ -76,6 +76,11 @@ BANDS = (
     1000.0, 1250.0, 1600.0, 2000.0, 2500.0, 3150.0, 4000.0, 5000.0, 6300.0, 8000.0, 10000.0, 12500.0, 16000.0,
 )  # fmt: skip
 DEFECT_OUTPUTS = ("passages", "load", "time", "entry", "impact")
+DEFECT_PASSAGES = DEFECT_OUTPUTS.index("passages")
+DEFECT_LOAD = DEFECT_OUTPUTS.index("load")  # N
+DEFECT_TIME = DEFECT_OUTPUTS.index("time")  # s
+DEFECT_ENTRY = DEFECT_OUTPUTS.index("entry")  # s
+DEFECT_IMPACT = DEFECT_OUTPUTS.index("impact")  # s
 PER_DEFECT = len(DEFECT_OUTPUTS)
 
 

@@ -127,11 +127,11 @@ def observe_defects(p, s, z, to):
             race = near
             ball = int(p[head + DE.OF_BALL])
         here = to + Z.PER_DEFECT * k
-        z[here] = s[at + DE.PASSAGES]
-        z[here + 1] = 0.0
+        z[here + Z.DEFECT_PASSAGES] = s[at + DE.PASSAGES]
+        z[here + Z.DEFECT_LOAD] = 0.0
         table = table_of(p, head, race)
         if table != 0 and within(p, table, place):
-            z[here + 1] = s[S.CONTACTS + race * R.KEPT + R.KEPT_LOAD + ball]
-        z[here + 2] = s[S.TIME] - s[at + DE.ENTRY] if s[at + DE.ENTRY] != 0.0 else 0.0
-        z[here + 3] = s[at + DE.ENTRY]
-        z[here + 4] = s[at + DE.IMPACT]
+            z[here + Z.DEFECT_LOAD] = s[S.CONTACTS + race * R.KEPT + R.KEPT_LOAD + ball]
+        z[here + Z.DEFECT_TIME] = s[S.TIME] - s[at + DE.ENTRY] if s[at + DE.ENTRY] != 0.0 else 0.0
+        z[here + Z.DEFECT_ENTRY] = s[at + DE.ENTRY]
+        z[here + Z.DEFECT_IMPACT] = s[at + DE.IMPACT]

@@ -2,6 +2,7 @@
 
 ==============  =====================================================================================
 ``hertz``       contact of two bodies
+``half_space``  contact of two bodies with any gap between them
 ``axial``       axial load and displacement of a bearing at rest
 ``iso281``      dynamic load rating, equivalent load, basic and modified life, viscosity ratio
 ``iso76``       static load rating and safety

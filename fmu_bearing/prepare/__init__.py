@@ -7,6 +7,7 @@
 ``surfaces``        power law, contact filter and highest orders of races and balls
 ``imperfections``   waviness of races and balls, ball sizes, from a seed
 ``defect_shapes``   spalls, pits, dents and scratches as depths below the surface
+``defect_contact``  a ball at one place over a defect: load, energy and slope
 ``defects``         tables of the contact over a defect
 ``defect_blocks``   defects and their tables as the engine's numbers
 ``flexure``         bending modes of the rings as the engine's coordinates

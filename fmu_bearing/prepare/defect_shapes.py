@@ -88,12 +88,18 @@ class Shape(NamedTuple):
         return self._below((1.0 - radius) / np.maximum(slope, 1.0 / max(half, side)))
 
     def _below(self, inside: Real) -> Real:
-        """Depth (m) at distances inside an outline (m): a quarter of a circle, then a wall, then the bottom."""
+        """Depth (m) at distances inside an outline (m): a quarter circle, a wall, the bottom."""
         if self.edge == 0.0:
             return np.where(inside > 0.0, self.depth, 0.0)
         part = np.clip(inside, 0.0, self.edge)
         arc = self.edge - np.sqrt(self.edge**2 - part**2)
         return np.where(inside >= self.edge, self.depth, np.minimum(self.depth, arc))
+
+    def sizes(self) -> tuple[float, float]:
+        """Distances (m) along and across of edges that lie along the axes; infinite where there are none."""
+        if self.kind == "dent" or self.turn != 0.0:
+            return math.inf, math.inf
+        return self.length, self.width
 
     def extent(self, track: float) -> tuple[float, float]:
         """Half lengths along and across (m) of a box that holds it; a track has half a width (m).

@@ -123,6 +123,19 @@ def test_outputs_are_those_of_the_kept_angles(fidelity, on):
     assert max(np.abs(found - one).min() for one in last) < STEP
 
 
+def test_on_a_slow_shaft_impact_follows_entry_by_half_a_length():
+    """As sizes are estimated from signals: a ball that follows the path of the edges turns round midway."""
+    scene = scene_with(PIT | {"on": "outer", "angle_deg": 160.5}, **{"operation.speed_rpm": 30.0})
+    run = simulate(scene, 0.03, step=1e-4, outputs=["defect[1].*", "ball[5].velocity.*"])
+    assert run["defect[1].passages"][-1] == 1.0
+    # the ball that begins at 160 deg; its centre goes round on the pitch circle, the contact further out
+    centre = float(np.hypot(run["ball[5].velocity.y"], run["ball[5].velocity.z"])[-50:].mean())
+    bearing = scene.bearing
+    speed = centre * (1.0 + bearing.ball_diameter_mm / bearing.pitch_diameter_mm)
+    between = run["defect[1].impact"][-1] - run["defect[1].entry"][-1]
+    assert between == pytest.approx(0.5 * 0.3e-3 / speed, rel=0.03)
+
+
 def test_a_ball_s_defect_meets_both_races_at_twice_its_spin():
     scene = scene_with(PIT | {"on": "ball", "ball": 2})
     run = simulate(scene, 0.06, step=1e-4, outputs=["defect[1].*"])

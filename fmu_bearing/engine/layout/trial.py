@@ -57,6 +57,7 @@ PHASES = _at(STRIDE)  # rad: of one row of lines
 # local defects: see condensed/defects
 MEETS = _at(2 * STRIDE)  # 1 for a ball within reach of one, at the inner and at the outer race
 OVER = _at(2 * MAX_DEFECTS * STRIDE)  # m: from each defect along the track, at the inner race first
+PUSH = _at(2 * STRIDE)  # N: what they push along the track, on the race, at the inner race first
 MEET_SCALE = _at(2 * MAX_DEFECTS)  # factor on its depth; 0: that race does not meet it
 MEET_AHEAD = _at(2 * MAX_DEFECTS)  # m: by which the place along the track changes in the damping time
 ROWS = _at.next

@@ -19,7 +19,7 @@ import math
 
 from fmu_bearing.engine.constants import GRAVITY
 from fmu_bearing.engine.fidelities.condensed.ball_form import add_ball_form
-from fmu_bearing.engine.fidelities.condensed.defects import meet_defects, place_defects
+from fmu_bearing.engine.fidelities.condensed.defects import meet_defects, place_defects, push_ring
 from fmu_bearing.engine.fidelities.condensed.rows import coordinate
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import load, select, store, sum_four, sum_lanes
@@ -253,6 +253,9 @@ def sweep(p, c, lv, speed, part, q, w):
     forces_on_ring(
         lv, lanes, lv[L.PAIR_OUTER] * speed * speed, T.FORM_SLOPE_OUTER, T.CONTACT_OUTER, T.FORCE_OUTER, w
     )
+    if p[P.DEFECTS] != 0.0:
+        push_ring(p, 0, T.CONTACT, T.FORCE, w)
+        push_ring(p, 1, T.CONTACT_OUTER, T.FORCE_OUTER, w)
 
 
 @kernel

@@ -7,9 +7,8 @@ ball misses what rings move aside: micrometres, of a table that is tenths of a m
 Contact damping acts on the rate of what is left of the approach. To first order that is what is left at the
 approach advanced by it, plus tau times its slope along the track times the speed there: see `balls`.
 
-What a defect pushes along its track is left out, as of waves: the load times the slope of the table, 1 % of
-it, on balls whose orbit is frozen, and on the rings across the load. So is what a defect on a ball that lies
-aside does across the track.
+What a defect pushes along its track, the load times the slope of the table, acts on its ring. On the ball it
+does not: orbits are frozen. Nor does what a defect on a ball pushes, which turns the ball above all.
 """
 
 import math
@@ -32,7 +31,6 @@ from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled
 
 _FAR = 1.0  # m: a place beyond any table
-_LOADED = 0.5  # share of a load by both races from which on a ball counts as loaded, see `balls.loaded_share`
 
 
 @kernel
@@ -115,7 +113,7 @@ def meet_defects(p, c, race, heights, row, w):
     """Put defects into the contacts of the balls with a race, in its rows from ``row`` on.
 
     ``heights``: row of the race's heights. Changes load and slopes of the balls that `place_defects` has
-    found within reach.
+    found within reach, and writes what they push along the track to ``T.PUSH``.
     """
     stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     free = c[C.RACES + race * C.RACE_SIZE + C.FREE]
@@ -123,22 +121,44 @@ def meet_defects(p, c, race, heights, row, w):
         if w[T.MEETS + race * STRIDE + j] == 0.0:
             continue
         at = row + j
-        left, gain, bend, ahead = w[at + T.APPROACH], 1.0, 0.0, 0.0
+        left, gain, bend, ahead, along = w[at + T.APPROACH], 1.0, 0.0, 0.0, 0.0
         for k in range(int(p[P.DEFECTS])):
             meet = race * MAX_DEFECTS + k
             x = w[T.OVER + meet * STRIDE + j]
             if x < _FAR:
+                head = head_of(p, k)
                 left, own, slope, by_two, _, _, _ = scaled_left_over(
-                    p, table_of(p, head_of(p, k), race), w[T.MEET_SCALE + meet], left, x
+                    p, table_of(p, head, race), w[T.MEET_SCALE + meet], left, x
                 )
                 own = max(own, LEAST_GAIN)
                 bend = own * bend + by_two * gain * gain
                 ahead = own * ahead + slope * w[T.MEET_AHEAD + meet]
+                along *= own
+                if p[head + DE.ON] != DE.BALL:
+                    along += slope * p[head + DE.RADIUS + race]
                 gain *= own
         pressed, stiff, _ = hertz(stiffness, left + ahead)
         w[at + T.LOAD] = gain * pressed
         w[at + T.STIFF] = max(gain * gain * stiff + bend * pressed, 0.0)
         w[at + T.ACROSS] = gain * pressed / (free + w[at + T.APPROACH] - w[heights + j])
+        w[T.PUSH + race * STRIDE + j] = pressed * along / (p[P.PITCH_RADIUS] + w[T.R + j])
+
+
+@kernel
+def push_ring(p, race, row, force, w):
+    """Add what defects push along the track to forces and moments on a ring, in its rows from ``force`` on.
+
+    ``row``: rows of the contacts. The force acts at the balls' middles, as the normal one.
+    """
+    for j in range(int(p[P.BALLS])):
+        if w[T.MEETS + race * STRIDE + j] != 0.0:
+            ft = w[T.PUSH + race * STRIDE + j]
+            co, si = w[T.COS + j], w[T.SIN + j]
+            gr = -w[row + T.QX + j] * ft
+            w[force + T.FY + j] -= co * ft
+            w[force + T.FZ + j] -= si * ft
+            w[force + T.MY + j] -= si * gr
+            w[force + T.MZ + j] += co * gr
 
 
 @kernel
@@ -171,24 +191,24 @@ def most_taken(p, table, scale, approach):
 
 @kernel
 def taken_by_defects(p, c, w):
-    """Largest share that a defect takes of the mean approach of loaded balls; their contacts are in ``w``.
+    """Largest share that a defect takes of both approaches of the most loaded ball; contacts are in ``w``.
 
-    Infinite where no ball is loaded by both races.
+    Infinite where no ball is pressed into both races.
     """
     share = 0.0
-    for race in range(2 if p[P.DEFECTS] != 0.0 else 0):
-        row = T.CONTACT + race * T.CONTACT_SIZE + T.APPROACH
-        total, loaded = 0.0, 0.0
-        for j in range(int(p[P.BALLS])):
-            if w[T.LOADED + j] > _LOADED:
-                total += w[row + j]
-                loaded += 1.0
-        for k in range(int(p[P.DEFECTS])):
+    most, at = 0.0, 0
+    for j in range(int(p[P.BALLS]) if p[P.DEFECTS] != 0.0 else 0):
+        inner, outer = w[T.CONTACT + T.APPROACH + j], w[T.CONTACT_OUTER + T.APPROACH + j]
+        if inner > 0.0 and outer > 0.0 and inner + outer > most:
+            most, at = inner + outer, j
+    for k in range(int(p[P.DEFECTS])):
+        scale = c[C.OVERSIZE_SCALE] * c[C.DEFECT_SCALE + k]
+        for race in range(2):
             table = table_of(p, head_of(p, k), race)
-            scale = c[C.OVERSIZE_SCALE] * c[C.DEFECT_SCALE + k]
             if table == 0 or not (scale > LEAST_SCALE):
                 continue
-            if loaded == 0.0:
+            if most == 0.0:
                 return math.inf
-            share = max(share, most_taken(p, table, scale, total / loaded) * loaded / total)
+            approach = w[T.CONTACT + race * T.CONTACT_SIZE + T.APPROACH + at]
+            share = max(share, most_taken(p, table, scale, approach) / most)
     return share

@@ -62,11 +62,13 @@ def on_ball(p, tables, ball=0, direction=(0.0, 0.0, 1.0), across=(2e-4, 6e-4), n
     )
 
 
-def with_defects(p, *placed):
-    """Parameters with local defects behind all others."""
+def with_defects(p, *placed, **parameters):
+    """Parameters with local defects behind all others, and other values of some."""
     longer = np.concatenate([p, block(placed)])
     longer[P.DEFECTS], longer[P.AT_DEFECTS] = len(placed), p.size
     longer[P.BALL_DEFECTS] = sum(one.on == DE.BALL for one in placed)
+    for name, value in parameters.items():
+        longer[getattr(P, name)] = value
     longer.setflags(write=False)
     return longer
 

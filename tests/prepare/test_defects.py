@@ -107,7 +107,7 @@ def test_a_rim_raises_the_load():
     loads = [
         BallOverDefect(DENT._replace(rim=rim), *OUTER).carried(APPROACH, 0.25e-3).load for rim in (0.0, 1e-6)
     ]
-    assert loads[1] > 1.03 * loads[0]  # the rim is a quarter of the approach high, and a fifth of an ellipse long
+    assert loads[1] > 1.03 * loads[0]  # a rim of a quarter of the approach
     assert BallOverDefect(DENT, *OUTER).touch(0.25e-3) < -0.8e-6  # on the rim
 
 

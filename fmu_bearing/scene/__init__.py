@@ -31,6 +31,7 @@
 ``surface_file``  its file, and the median law for scenes that name it
 ``operation``     speed and temperatures at the start
 ``sound``         radiator, radiation model, metering, microphones
+``accelerometer`` sensors on outer rings and housings
 ``fidelity``      physics, integrator, accuracy, terms left out
 ``fmu``           names, inputs and outputs of the FMU
 ``scene``         all tables together, with the checks that span several tables

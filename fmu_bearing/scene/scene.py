@@ -10,7 +10,8 @@ from typing import Any, NamedTuple, Self
 import tomlkit
 from pydantic import Field
 
-from fmu_bearing.scene import housing
+from fmu_bearing.scene import accelerometer, housing
+from fmu_bearing.scene.accelerometer import Accelerometer
 from fmu_bearing.scene.base import Conflict, Part, SceneError
 from fmu_bearing.scene.bearing import Bearing
 from fmu_bearing.scene.defect import Defect
@@ -70,6 +71,10 @@ class Tables(Part):
     fidelity: Fidelity = Field(default_factory=Fidelity, description="Physics, error bounds and terms.")
     imperfections: Imperfections | None = Field(default=None, description="Absent: a perfect bearing.")
     sound: Sound | None = Field(default=None, description="Absent: no sound and no microphones.")
+    # A file's array arrives as a list: the one conversion that strictness may let pass.
+    accelerometer: tuple[Accelerometer, ...] | None = Field(
+        default=None, max_length=64, strict=False, description="Sensors on what does not turn; absent: none."
+    )
     fmu: Fmu | None = Field(default=None, description="Absent: names and causalities as documented.")
 
     def conflicts(self) -> Iterator[Conflict]:
@@ -96,6 +101,7 @@ class Tables(Part):
                 "mounting.housing.diameter_mm", f"must exceed bearing.outside_diameter_mm = {limit:g}"
             )
         yield from self._orders()
+        yield from accelerometer.conflicts(self.accelerometers, self.geometries, self.mounting, self.spindle)
         if self.sound is not None:
             if self.sound.radiator == "housing" and getattr(self.mount, "housing", None) is None:
                 yield Conflict("sound.radiator", "needs a table [mounting.housing]")
@@ -340,6 +346,11 @@ class Tables(Part):
     def microphones(self) -> list[Place]:
         """Names and places (m) of all microphones; empty without sound."""
         return [] if self.sound is None else self.sound.points()
+
+    @property
+    def accelerometers(self) -> tuple[Accelerometer, ...]:
+        """All accelerometers."""
+        return self.accelerometer or ()
 
     def to_toml(self) -> str:
         """Write the scene, catalogue entries resolved, as TOML that reads back to an equal scene."""

@@ -40,11 +40,13 @@ CASES = [
     ("level_dB", 1.0, "level", 1.0),
     ("highest_frequency_kHz", 10.0, "highest_frequency", 1e4),
     ("required_life_h", 2.0, "required_life", 7200.0),
+    ("frequency_Hz", 3100.0, "frequency", 3100.0),
+    ("noise_m_s2", 0.05, "noise", 0.05),
 ]
 
 # the only numbers of a scene without a unit
 DIMENSIONLESS = set(
-    """ball_count inner_conformity outer_conformity pocket_friction poisson_ratio traction_max
+    """ball_count bearing inner_conformity outer_conformity pocket_friction poisson_ratio traction_max
     traction_slide_to_roll replenishment_constant drag_coefficient pedestal_stiffness_ratio
     pedestal_axial_ratio pedestal_damping_ratio weibull_modulus hysteresis_loss
     damping_ratio seed order_scatter_seed lowest_order highest_order order ball_waviness_order tolerance
@@ -57,10 +59,16 @@ def tables(model=Scene):
     """Every model of a scene, once."""
     found = {model: None}
     for field in model.model_fields.values():
-        for kind in (field.annotation, *getattr(field.annotation, "__args__", ())):
+        for kind in kinds(field.annotation):
             if isinstance(kind, type) and issubclass(kind, Part):
                 found |= dict.fromkeys(tables(kind))
     return list(found)
+
+
+def kinds(annotation):
+    """What an annotation is made of: an optional array of tables holds one two levels down."""
+    inside = getattr(annotation, "__args__", ())
+    return [annotation, *(kind for one in inside for kind in kinds(one))]
 
 
 @pytest.mark.parametrize(("key", "value", "name", "expected"), CASES)

@@ -10,7 +10,7 @@ from fmu_bearing.acoustics.radiation.bem.paths import bem_paths
 from fmu_bearing.acoustics.radiation.circle import MicrophoneCircle
 from fmu_bearing.acoustics.radiation.compact import compact_paths
 from fmu_bearing.acoustics.radiation.paper_contacts import contact_paths
-from fmu_bearing.acoustics.radiation.paper_scalars import paper_paths
+from fmu_bearing.acoustics.radiation.paper_scalars import paper_paths, paper_scalars
 from fmu_bearing.acoustics.radiation.paper_vector import paper_vector_paths
 from fmu_bearing.acoustics.radiation.radiators import Air, Path, Radiators
 from fmu_bearing.acoustics.radiation.table import Table, table_paths
@@ -76,6 +76,17 @@ class Radiation:
         if self.form == "contacts":
             return SD.contact_channels(self.harmonics)
         return SD.vector_channels(self.harmonics, 2 * len(self.modes))
+
+    @property
+    def balls(self) -> int:
+        """Number of balls."""
+        return self.radiators.ball_count
+
+    @property
+    def scalars(self) -> list[float]:
+        """Numbers that the papers' models form their channels with: `SD.SCALAR_BALL` and so on."""
+        angle, orbit = self.radiators.contact_angle, 0.5 * self.radiators.pitch_diameter
+        return [*paper_scalars(self.radiators), float(np.sin(angle)), float(np.cos(angle)), orbit]
 
     def circles(self, microphones: Sequence[Position]) -> list[list[int]]:
         """Return indices of microphones that share their transfer functions."""

@@ -51,6 +51,7 @@ _ALL = (
     Unit("m", {"m": 1}, (DisplayUnit("mm", 1e3), DisplayUnit("um", 1e6), DisplayUnit("nm", 1e9))),
     Unit("s", {"s": 1}, (DisplayUnit("ms", 1e3), DisplayUnit("us", 1e6))),
     Unit("m/s", {"m": 1, "s": -1}, (DisplayUnit("mm/s", 1e3),)),
+    Unit("m/s2", {"m": 1, "s": -2}),
     Unit("rad", {"rad": 1}, (DisplayUnit("deg", 180.0 / pi),)),
     Unit("rad/s", {"rad": 1, "s": -1}, (DisplayUnit("r/min", 30.0 / pi),)),
     Unit("1/s", {"s": -1}),

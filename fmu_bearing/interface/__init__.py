@@ -9,6 +9,7 @@ all made from it. Names are a contract, because users' harnesses depend on them.
 ``outputs``          outputs and local variables, computed in each step
 ``bearing_outputs``  those of one bearing
 ``microphones``      those of microphones
+``accelerometers``   those of accelerometers
 ``parameters``       parameters, set before initialisation, and constants
 ``table``            all variables, in the order of the value references
 ``names``            patterns of names, and suggestions for misspelt ones

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from fmu_bearing.engine.layout import Z
+from fmu_bearing.interface.accelerometers import accelerometers
 from fmu_bearing.interface.microphones import microphones
 from fmu_bearing.interface.variable import Variable, read
 from fmu_bearing.scene import Scene
@@ -27,6 +28,8 @@ def outputs(scene: Scene) -> list[Variable]:
         table += _vector(f"ball[{j + 1}]", "velocity", "output", words, "m/s", place, nominal=10.0)
     table += microphones(scene, "output", Z.mics(scene.bearing.ball_count))
     table += [*_flexure(scene), *_defects(scene)]
+    sizes = (scene.bearing.ball_count, len(scene.microphones), _bands(scene), scene.flexural_modes)
+    table += accelerometers(scene, Z.accelerometers(*sizes, len(scene.defects_of(0))))
     torque = (
         "Torque taken from the shaft: positive brakes positive rotation, so it acts on a drive with a minus "
         "sign; without inertia, which the drive owns"
@@ -199,6 +202,11 @@ def _torque_shares(scene: Scene) -> list[Variable]:
     ]
 
 
+def _bands(scene: Scene) -> int:
+    """Return the number of third octaves of each microphone."""
+    return len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+
+
 def _flexure(scene: Scene) -> list[Variable]:
     """Return the velocities of the rings' bending, in the order of the engine's coordinates.
 
@@ -208,8 +216,7 @@ def _flexure(scene: Scene) -> list[Variable]:
     flexure = scene.mounted.flexure
     if flexure is None:
         return []
-    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
-    first = Z.flexures(scene.bearing.ball_count, len(scene.microphones), bands)
+    first = Z.flexures(scene.bearing.ball_count, len(scene.microphones), _bands(scene))
     table: list[Variable] = []
     for ring, orders in (("inner", flexure.inner_ring), ("outer", flexure.outer_ring)):
         for order in orders:
@@ -224,8 +231,7 @@ def _flexure(scene: Scene) -> list[Variable]:
 
 def _defects(scene: Scene) -> list[Variable]:
     """Return what is told of local defects, in the order of the engine's :data:`Z.DEFECT_OUTPUTS`."""
-    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
-    at = Z.defects(scene.bearing.ball_count, len(scene.microphones), bands, scene.flexural_modes)
+    at = Z.defects(scene.bearing.ball_count, len(scene.microphones), _bands(scene), scene.flexural_modes)
     time: dict[str, Any] = {"display_unit": "ms", "min": -1e9, "max": 1e9}
     table: list[Variable] = []
     for k, defect in enumerate(scene.defects_of(0).values()):

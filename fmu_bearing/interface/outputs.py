@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from fmu_bearing.engine.layout import SP, Z
+from fmu_bearing.interface.accelerometers import accelerometers
 from fmu_bearing.interface.bearing_outputs import AXES, internals, outputs
 from fmu_bearing.interface.microphones import FLOOR, microphones
 from fmu_bearing.interface.variable import Variable, read
@@ -32,7 +33,10 @@ def outputs_of(scene: Scene) -> list[Variable]:
     ]
     for b, single in enumerate(each):
         table += [*_forces(scene, b), *_of_bearing(scene, b, single)]
-    return table + _microphone_variables(scene, "output")
+    table += _microphone_variables(scene, "output")
+    bands = len(Z.BANDS) if scene.sound is not None and scene.sound.third_octaves else 0
+    place = SP.z_accelerometers(_count(scene), len(scene.microphones), bands)
+    return table + accelerometers(scene, _own(scene, place))
 
 
 def internals_of(scene: Scene) -> list[Variable]:

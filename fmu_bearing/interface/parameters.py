@@ -13,7 +13,7 @@ from fmu_bearing.scene import Scene, si
 from fmu_bearing.scene.fit import interferences
 from fmu_bearing.scene.preload import classes
 from fmu_bearing.scene.seats import SMALLEST_RATIO
-from fmu_bearing.scene.sound import Radiator
+from fmu_bearing.scene.sound import Radiator, Sound
 from fmu_bearing.scene.spindle import SetBearing
 
 #: Numbers of the radiators.
@@ -53,6 +53,8 @@ def parameters(scene: Scene) -> list[Variable]:
         table += _defect_scales(scene)
     if scene.sound is not None:
         table += _metering(scene.sound.time_weighting, si(scene.sound).metering_start)
+    elif scene.accelerometers:
+        table.append(_metering_start(Sound.model_fields["metering_start_s"].default))
     return table
 
 
@@ -206,16 +208,13 @@ def _metering(weighting: str, start: float) -> list[Variable]:
     constant = 0.125 if weighting == "fast" else 1.0
     return [
         _tunable("sound.time_weighting", P.TIME_WEIGHTING, words, constant, 0.02, 10.0, "s"),
-        _tunable(
-            "sound.metering_start",
-            P.METERING_START,
-            "Time after initialisation at which metering begins",
-            start,
-            0.0,
-            1000.0,
-            "s",
-        ),
+        _metering_start(start),
     ]
+
+
+def _metering_start(start: float) -> Variable:
+    words = "Time after initialisation at which metering begins"
+    return _tunable("sound.metering_start", P.METERING_START, words, start, 0.0, 1000.0, "s")
 
 
 def _constant(name: str, description: str, value: float, unit: str, **more: Any) -> Variable:

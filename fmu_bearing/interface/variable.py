@@ -35,6 +35,7 @@ class Variable:
 # read lie beyond anything a bearing does; they show a tool where a value has lost its meaning.
 USUAL = {
     "m": ("Length", -1e3, 1e3, 1e-6),
+    "m/s2": ("Acceleration", -1e7, 1e7, 1.0),
     "m/s": ("Velocity", -1e4, 1e4, 1e-2),
     "N": ("Force", 0.0, 1e7, 100.0),
     "N.m": ("Torque", -1e5, 1e5, 1e-2),

@@ -13,6 +13,7 @@
 ``flexure``         bending modes of the rings as the engine's coordinates
 ``step_limits``     bearings in which nothing asks for short steps
 ``sound_block``     the sound block, kept on disk
+``accelerometers``  the blocks of accelerometers of each bearing
 ``spindle``         parameters of a set of bearings on one shaft
 ``unread_outputs``  switches of what need not be computed, because no variable shows it
 ``lengths``         lengths of the engine's arrays that go with the parameters

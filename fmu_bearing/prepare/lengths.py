@@ -36,5 +36,6 @@ def lengths(p: NDArray[np.float64]) -> Lengths:
     if SP.has_shaft(p):
         outputs = int(p[int(p[P.SET]) + SP.SIZE_Z])
     else:
-        outputs = Z.size(*(int(p[place]) for place in (P.BALLS, P.MICS, P.BANDS, P.MODES, P.DEFECTS)))
+        counts = P.BALLS, P.MICS, P.BANDS, P.MODES, P.DEFECTS, P.ACCELEROMETERS
+        outputs = Z.size(*(int(p[place]) for place in counts))
     return Lengths(SP.inputs(p), S.size(p), outputs, W.size(p))

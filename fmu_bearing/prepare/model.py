@@ -1,6 +1,7 @@
 """The model: one scene as the flat parameter array of the engine, with the names of its variables."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare import bodies, contacts, fits
+from fmu_bearing.prepare.accelerometers import felt_blocks
 from fmu_bearing.prepare.defect_blocks import block, of_scene, pass_rate
 from fmu_bearing.prepare.flexure import inner_modes, longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
@@ -36,6 +38,7 @@ from fmu_bearing.scene.bearing import Cage
 from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.member import SceneBearing
 from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.sound import Sound
 
 # Assumed for the cage (see docs/theory): Hunt-Crossley factor, slip scales, dry stop of the lands.
 _POCKET_DAMPING = 5.0  # s/m
@@ -137,9 +140,10 @@ def prepare(
     _require_computable(scene)
     try:
         sounds = sound_blocks(scene, lines=False if samples else None)
+        felt = felt_blocks(scene)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
-    parameters = pack(scene, *sounds)
+    parameters = pack(scene, *sounds, felt=felt)
     parameters.setflags(write=False)
     table = variables(scene, bodies.rotor_inertia(scene), bodies.rings_at_port(scene))
     return Model(scene, parameters, table, note)
@@ -154,10 +158,13 @@ def _require_computable(scene: Scene) -> None:
         )
 
 
-def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
+def pack(
+    scene: Scene, *sounds: NDArray[np.float64], felt: Sequence[NDArray[np.float64]] | None = None
+) -> NDArray[np.float64]:
     """Parameter array ``p`` for a scene, of a set too, and its sound block (empty: no sound).
 
-    A set has one sound block for each bearing, or a single empty one.
+    A set has one sound block for each bearing, or a single empty one. ``felt``: the block of accelerometers
+    of each bearing; default: no accelerometers, whatever the scene has.
 
     Raises
     ------
@@ -167,13 +174,26 @@ def pack(scene: Scene, *sounds: NDArray[np.float64]) -> NDArray[np.float64]:
     _require_computable(scene)
     bearings = scene.bearings()
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
-    packed = [_pack(bearing, sound, scene) for bearing, sound in zip(bearings, blocks, strict=True)]
+    sensing = felt or [np.zeros(0)] * len(bearings)
+    packed = [
+        _pack(bearing, heard, sensed, scene, len(scene.accelerometers) if felt else 0)
+        for bearing, heard, sensed in zip(bearings, blocks, sensing, strict=True)
+    ]
     fits.share(packed)
     return pack_set(scene, packed) if scene.assembly.joined else as_set_of_one(packed[0])
 
 
-def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene) -> NDArray[np.float64]:
-    """Return the parameters of one bearing of the ``whole`` scene, which has microphones and defects."""
+def _pack(
+    bearing: SceneBearing[Scene],
+    sound: NDArray[np.float64],
+    felt: NDArray[np.float64],
+    whole: Scene,
+    accelerometers: int,
+) -> NDArray[np.float64]:
+    """Return the parameters of one bearing of the ``whole`` scene, which has microphones and defects.
+
+    ``felt``: the block of its own accelerometers, of which the scene has so many.
+    """
     scene = fits.loose(bearing.scene)
     defects = of_scene(scene, list(whole.defects_of(bearing.number - 1)))
     nodes, weights = roots_jacobi(scene.fidelity.traction_strips, 1.0, 1.0)
@@ -190,6 +210,7 @@ def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene
         P.AT_FORM: form_rows(form) if form.size else form,
         P.AT_AXES: _joined([_lanes(row) for row in axes] if form.size else []),
         P.AT_SOUND: sound,
+        P.AT_FELT: felt,
         P.AT_MODES: _modes(scene),
         P.AT_DEFECTS: block(defects),
     }
@@ -210,13 +231,15 @@ def _pack(bearing: SceneBearing[Scene], sound: NDArray[np.float64], whole: Scene
     p[P.DEFECTS] = len(defects)
     p[P.BALL_DEFECTS] = sum(one.on == DE.BALL for one in defects)
     p[P.PASS_RATE] = pass_rate(scene, defects)
-    p[P.TURN_RATE] = turn_rate(scene, silent=sound.size == 0)
+    p[P.TURN_RATE] = turn_rate(scene, silent=sound.size == 0 and accelerometers == 0)
     if tables[P.AT_MODES].size:
         p[P.MODES] = tables[P.AT_MODES].size // P.MODE_SIZE
         p[P.INNER_MODES] = inner_modes(tables[P.AT_MODES])
         p[P.MODE_STEP] = longest_step(tables[P.AT_MODES], scene.fidelity.method)
     _fidelity(scene, p)
     _sound(whole, sound, p)
+    if accelerometers:
+        _felt(whole, felt, p, accelerometers)
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
@@ -263,7 +286,7 @@ def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.REDUCTION] = terms.rolling_reduction
     p[P.LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
     p[P.GYROSCOPIC] = terms.gyroscopic
-    p[P.READ_BALLS] = p[P.READ_SOUND] = 1.0
+    p[P.READ_BALLS] = p[P.READ_SOUND] = p[P.READ_FELT] = 1.0
 
 
 def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> None:
@@ -276,6 +299,18 @@ def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> 
         p[P.SOUND_WORK] = SD.work_size(sound)
         p[P.MICS] = len(scene.microphones)
         p[P.BANDS] = sound[SD.H_BANDS]
+
+
+def _felt(scene: Scene, felt: NDArray[np.float64], p: NDArray[np.float64], count: int) -> None:
+    """Write places of the accelerometers behind those of the sound; without sound its default begins."""
+    if scene.sound is None:
+        p[P.METERING_START] = Sound.model_fields["metering_start_s"].default
+    p[P.ACCELEROMETERS] = count
+    if felt.size:
+        p[P.FELT_SIZE] = felt.size
+        p[P.FELT_STATE], p[P.FELT_WORK] = p[P.SOUND_STATE], p[P.SOUND_WORK]
+        p[P.SOUND_STATE] += SD.state_size(felt)
+        p[P.SOUND_WORK] += SD.work_size(felt)
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:

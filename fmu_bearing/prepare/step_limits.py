@@ -12,6 +12,8 @@ _ROUNDING = 1e-9  # of the default step
 def turn_rate(scene: Scene, silent: bool) -> float:
     """Fastest whirl (rad per rad of the shaft) that a bearing in which nothing else asks for short steps must follow.
 
+    ``silent``: neither microphones nor accelerometers follow it.
+
     It is twice the balls' turning about their axes and about the shaft. Rings that whirl by themselves are
     driven by the friction of turning balls, and of 170 bearings none was found that whirls faster (1.98
     of this sum at most). 0: something else asks for short steps, or the method is not the default.
@@ -30,7 +32,8 @@ def longest_internal_step(scene: Scene) -> float:
     """Longest internal step (s) at the scene's own speed, where waves and bending rings do not bound it."""
     given = si(scene.fidelity).max_internal_step
     changed = abs(given - USUAL_STEP) > _ROUNDING * USUAL_STEP
-    rates = [turn_rate(bearing.scene, scene.sound is None) for bearing in scene.bearings()]
+    silent = scene.sound is None and not scene.accelerometers
+    rates = [turn_rate(bearing.scene, silent) for bearing in scene.bearings()]
     if changed or scene.fidelity.model != "full" or scene.on_other_shaft or min(rates) == 0.0:
         return given
     rate = max(rates)

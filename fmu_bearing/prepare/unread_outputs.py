@@ -1,4 +1,4 @@
-"""What need not be computed, because no variable shows it: balls and contacts, sound, third octaves, details.
+"""What need not be computed, because no variable shows it: balls, contacts, sound and its details, sensors.
 
 An FMU has no way to such numbers, so none is read that is not computed.
 """
@@ -32,7 +32,10 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
     first = own + SP.z_mics(len(parts)) if together else Z.mics(int(p[P.BALLS]))
     octaves = first + Z.PER_MIC * mics
     alone = octaves + bands * mics
-    microphone_places = range(first, alone + (len(parts) * mics if together else 0))
+    behind = alone + (len(parts) * mics if together else 0)
+    microphone_places = range(first, behind)
+    felt = behind + (0 if together else 2 * int(p[P.MODES]) + Z.PER_DEFECT * int(p[P.DEFECTS]))
+    sensor_places = range(felt, felt + Z.PER_ACCELEROMETER * int(p[P.ACCELEROMETERS]))
     for b, (part, _) in enumerate(parts):
         of, at = parameters[part], sum(sizes[:b]) if together else 0
         balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(of[P.BALLS]))))}
@@ -41,6 +44,7 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
             balls |= set(range(forces, forces + SP.Z_FORCE))
         of[P.READ_BALLS] = not read.isdisjoint(balls)
         of[P.READ_SOUND] = not read.isdisjoint(microphone_places)
+        of[P.READ_FELT] = not read.isdisjoint(sensor_places)
         block = int(of[P.AT_SOUND])
         if block == 0:
             continue

@@ -57,8 +57,9 @@ def any_sets(scene: Scene) -> tuple[Scene, Scene]:
     }
     tables = scene.model_dump() | {"mounting": None, "sound": sound, "imperfections": None}
     at_port = {"shaft": {"external": True}, "bearing": pair[:1]}
+    sensor = {"name": "sensor", "bearing": 1}
     return (
-        Scene.from_dict(tables | {"spindle": spindle}),
+        Scene.from_dict(tables | {"spindle": spindle, "accelerometer": [sensor]}),
         Scene.from_dict(tables | {"spindle": at_port, "sound": None, "fidelity": {"model": "full"}}),
     )
 

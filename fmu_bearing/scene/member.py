@@ -99,14 +99,14 @@ def one_of(scene: Given, number: int = 0) -> Given:
     if flaws is not None:
         flaws = flaws.reseeded(number).of_bearing(number + 1)
     changes = {"spindle": None, "mounting": mounting, "imperfections": flaws, "sound": None}
-    return scene.model_copy(update=tables | changes)
+    return scene.model_copy(update=tables | changes | {"accelerometer": None})
 
 
 def still_of(scene: Given) -> Given:
     """Return a set without what runs alone read: sound, imperfections and their lowest speed, the FMU."""
     operation = scene.operation.model_copy(update={"lowest_speed_rpm": None})
-    changes = {"sound": None, "imperfections": None, "fmu": None, "operation": operation}
-    return scene.model_copy(update=changes)
+    changes = {"sound": None, "accelerometer": None, "imperfections": None, "fmu": None}
+    return scene.model_copy(update=changes | {"operation": operation})
 
 
 def radiating(scene: Given, number: int) -> Given:

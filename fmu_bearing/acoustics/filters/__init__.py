@@ -9,5 +9,6 @@
 ``pack``       lays everything flat for the engine
 ``design``     from a scene to the engine's block; how well filters follow
 ``bearings``   what the bearings of a set radiate
+``sensing``    accelerometers: what one reads of the motion, and the block of those of a bearing
 =============  ==============================================================================
 """

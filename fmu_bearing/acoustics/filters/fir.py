@@ -12,7 +12,7 @@ from fmu_bearing.acoustics.radiation.frequencies import BAND, STOP, fit_frequenc
 from fmu_bearing.engine.layout import SD
 
 # Where a path lies this far below its component's strongest one, its error counts against that one (-30 dB).
-_WEAK = 10 ** (-30 / 20)
+WEAK = 10 ** (-30 / 20)
 # Weights of a frequency against one in the band: where the limit falls, an error of -40 dB changes no level.
 _EDGE_WEIGHT, _STOP_WEIGHT = 0.1, 0.3
 _STOPPED = 64  # frequencies in the stop band
@@ -163,7 +163,7 @@ def _fit_length(
     # what the filter must do so that the whole chain is `response`, band-limited and LATENCY late
     late = np.exp(2j * np.pi * grid * (delay_of(flight) - SD.LATENCY) / SD.RATE)
     wanted = np.append(response * late * _undone(length), np.zeros(_STOPPED))
-    weight = 1.0 / np.maximum(np.abs(response), _WEAK * strongest)
+    weight = 1.0 / np.maximum(np.abs(response), WEAK * strongest)
     audible = grid <= BAND[1]
     weight[~audible] *= _EDGE_WEIGHT
     weight = np.append(weight, np.full(_STOPPED, _STOP_WEIGHT * weight[audible][-1]))

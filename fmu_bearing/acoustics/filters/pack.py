@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,14 +26,46 @@ from fmu_bearing.acoustics.filters.blocks import (
 )
 from fmu_bearing.acoustics.filters.fir import decimator_stages, outer_taps
 from fmu_bearing.acoustics.filters.weighting import a_weighting_sections, band_sections, high_pass_gains
-from fmu_bearing.acoustics.radiation.paper_scalars import paper_scalars
-from fmu_bearing.acoustics.registry import Radiation
-from fmu_bearing.engine.choices import CHANNEL_FORMS
+from fmu_bearing.engine.choices import CHANNEL_FORMS, ChannelForm
 from fmu_bearing.engine.layout import SD, SL, Z
 from fmu_bearing.engine.sound.convolve import in_fours
 
 MICROPHONE_LOW_LIMIT = 5.0  # Hz, second order: of a half-inch measurement microphone (assumed)
 _KEEP = [0, 1, 2, 4, 5]  # of a section: the leading denominator coefficient is 1
+
+
+class Source(Protocol):
+    """What the engine forms channels of."""
+
+    @property
+    def form(self) -> ChannelForm:
+        """How channels are formed."""
+        ...
+
+    @property
+    def channels(self) -> int:
+        """Number of channels."""
+        ...
+
+    @property
+    def balls(self) -> int:
+        """Number of balls."""
+        ...
+
+    @property
+    def harmonics(self) -> int:
+        """Highest circumferential order of the balls."""
+        ...
+
+    @property
+    def modes(self) -> Sequence[Any]:
+        """Flexural modes, two coordinates each."""
+        ...
+
+    @property
+    def scalars(self) -> Sequence[float] | NDArray[np.float64]:
+        """Numbers that the channels are formed with."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -92,7 +124,7 @@ class _Block:
 
 
 def pack(
-    radiation: Radiation,
+    radiation: Source,
     wires: Sequence[Wire],
     groups: Sequence[Group],
     sources: Sequence[tuple[int, int]],
@@ -130,8 +162,8 @@ def pack(
     block = _Block()
     head = block.head
     head[SD.H_FORM] = CHANNEL_FORMS[radiation.form]
-    head[SD.H_BALLS] = radiation.radiators.ball_count
-    lanes = in_fours(radiation.radiators.ball_count)
+    head[SD.H_BALLS] = radiation.balls
+    lanes = in_fours(radiation.balls)
     head[SD.H_BALL_LANES] = lanes
     head[SD.H_HARMONICS] = radiation.harmonics
     head[SD.H_FLEXURES] = 2 * len(radiation.modes)
@@ -151,11 +183,7 @@ def pack(
     head[SD.H_AT_HIGH_PASS] = block.put(high_pass_gains(SD.RATE, MICROPHONE_LOW_LIMIT))
     head[SD.H_AT_A_WEIGHTING] = block.put(a_weighting_sections(SD.RATE)[:, _KEEP])
     head[SD.H_AT_BANDS] = block.put(_band_table() if thirds else [])
-    angle = radiation.radiators.contact_angle
-    orbit = 0.5 * radiation.radiators.pitch_diameter
-    head[SD.H_AT_SCALARS] = block.put(
-        [*paper_scalars(radiation.radiators), np.sin(angle), np.cos(angle), orbit]
-    )
+    head[SD.H_AT_SCALARS] = block.put(radiation.scalars)
     _put_sources(block, sources)
     _put_groups(block, groups, lines)
     head[SD.H_AT_LANES] = block.put(order)
@@ -174,12 +202,14 @@ def pack(
     return block.flat()
 
 
-def _raw(radiation: Radiation, lanes: int) -> int:
+def _raw(radiation: Source, lanes: int) -> int:
     """Count of the numbers of a motion sample that are decimated; ``lanes``: of the balls."""
     if radiation.form == "scalars":
         return radiation.channels
     if radiation.form == "contacts":
         return SD.contact_row(lanes)
+    if radiation.form == "sensors":
+        return SD.R_FLEXURES + 2 * len(radiation.modes)
     return SD.vector_row(lanes, 2 * len(radiation.modes))
 
 

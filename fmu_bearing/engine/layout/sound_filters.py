@@ -6,7 +6,8 @@
   one being zero and the middle one 1/2; then the high-pass, ``HIGH_PASS`` numbers; then sections of second
   order, ``SECTION`` numbers each: ``A_SECTIONS`` of A-weighting, ``BAND_SECTIONS`` of the third octaves,
   these with ``BAND_LANES`` bands side by side;
-* scalars that the papers' radiation models need to form their channels;
+* scalars that the papers' radiation models need to form their channels; of accelerometers the weights of a
+  raw row in each channel;
 * lane of each channel in the history: channels with paths to the same microphones lie side by side, channels
   without a path last; once in the order of the channels, once in that in which they are formed (`formed`);
 * banks, ``BANK_SIZE`` numbers each: runs of neighbouring lanes, filtered side by side;
@@ -92,6 +93,7 @@ H_AT_SOURCES = _head()
 H_AT_OUTPUTS = _head()
 H_AT_GROUPS = _head()
 H_AT_ORDER = _head()
+H_AT_RESONATORS = _head()  # of accelerometers: RESONATOR numbers per output, then per sensor
 H_AT_BOUNDS = _head()  # of lines: largest pressure per channel, by BOUND_NODES nodes: see `transfer.bound`
 # places in ss
 H_S_SECOND = _head()  # history of the decimator's second stage
@@ -100,6 +102,7 @@ H_S_HIGH_PASS = _head()
 H_S_CHANNELS = _head()  # channel history
 H_S_A_WEIGHTING = _head()
 H_S_METERS = _head()
+H_S_RESONATORS = _head()  # of accelerometers
 H_S_BANDS = _head()
 H_S_LINES = _head()  # lines, `line_size` numbers each,
 H_S_ALONE = _head()  # Pa2: mean squares of each bearing of a set alone,
@@ -288,6 +291,11 @@ C_PAPER_BALLS = _at.next  # m/s2: two per ball
 PAPER_BALL = 2  # sphere, point
 SPEED_FLOOR = 1e-9  # m/s or rad/s in the root of |v|, so that its derivative exists at rest
 
+# Form sensors: a raw row of what an outer ring does, of which each sensor's channels are weighted sums.
+R_ACCELERATION = 0  # m/s2, along x y z
+R_SPIN_RATE = AXES  # rad/s2, about x y z
+R_FLEXURES = 2 * AXES  # m/s2: of the flexural coordinates of both rings
+
 # Form contacts: per family the rates (m/s2) of normal velocity summed over the contacts: m = 0, then cos, sin
 # per order m.
 FAMILY_INNER = 0  # contacts of the inner ring
@@ -399,6 +407,18 @@ M_ENERGY = _Z.MIC_OUTPUTS.index("spl_energy_sum")  # Pa2: energy sum over the co
 M_KIND = _Z.MIC_OUTPUTS.index("spl_radial")  # Pa2: source types but the kind "balls", which is a component
 METERS = _Z.PER_MIC
 PLAIN = M_FAST  # meters that every scene has
+
+
+# Accelerometers: all-pole sections 1 / (1 + A1/z + A2/z2), and meters, rows of one lane per sensor.
+RESONATOR = 2  # numbers of a section, and of its state
+_at = Places()
+A_LAST = _at()  # m/s2
+A_SUM = _at()  # sums of the first to fourth power
+A_SQUARE = _at()
+A_CUBE = _at()
+A_FOURTH = _at()
+A_PEAK = _at()  # m/s2
+A_METERS = _at.next
 
 
 def sums_place(output: int, block: int) -> int:

@@ -129,7 +129,7 @@ Z_PORT = OUTPUTS.index("port.force.x")  # N, N m: of the bearings on the rotor,
 Z_PORT_MEAN = OUTPUTS.index("port.force_mean.x")  # and their mean over the last communication step
 Z_FORCES = len(OUTPUTS)  # N, N m: per bearing BEARING_OUTPUTS
 Z_FORCE = len(BEARING_OUTPUTS)
-# behind the forces: microphones (z_mics), then levels of each bearing alone (z_alone)
+# behind the forces: microphones (z_mics), levels of each bearing alone (z_alone), then accelerometers
 
 POWERS = 3
 # --- state: conditions of a communication step, sums; then vectors, numbers per bearing, matrices ----
@@ -309,6 +309,11 @@ def z_alone(bearings, mics, bands):
     return z_mics(bearings) + (_Z.PER_MIC + bands) * mics
 
 
-def output_size(bearings, mics=0, bands=0):
-    """Length of the set's own in ``z``."""
+def z_accelerometers(bearings, mics, bands):
+    """Place of the first accelerometer's first output, behind the levels of each bearing alone."""
     return z_alone(bearings, mics, bands) + bearings * mics
+
+
+def output_size(bearings, mics=0, bands=0, accelerometers=0):
+    """Length of the set's own in ``z``."""
+    return z_accelerometers(bearings, mics, bands) + _Z.PER_ACCELEROMETER * accelerometers

@@ -84,6 +84,11 @@ DEFECT_IMPACT = DEFECT_OUTPUTS.index("impact")  # s
 PER_DEFECT = len(DEFECT_OUTPUTS)
 
 
+ACCELEROMETER_OUTPUTS = ("acceleration", "rms", "peak", "kurtosis")  # m/s2 but the last
+PER_ACCELEROMETER = len(ACCELEROMETER_OUTPUTS)
+ACCELERATION, ACCELERATION_RMS, ACCELERATION_PEAK, KURTOSIS = range(PER_ACCELEROMETER)
+
+
 def mics(n_balls):
     """Place of the first microphone's first output for ``n_balls`` balls."""
     return BALLS + PER_BALL * n_balls
@@ -104,6 +109,12 @@ def defects(n_balls, n_mics, n_bands=0, n_modes=0):
     return flexures(n_balls, n_mics, n_bands) + 2 * n_modes
 
 
-def size(n_balls, n_mics, n_bands=0, n_modes=0, n_defects=0):
-    """Length of ``z`` for microphones of ``n_bands`` third octaves each, flexural modes and local defects."""
+def accelerometers(n_balls, n_mics, n_bands=0, n_modes=0, n_defects=0):
+    """Place of the first accelerometer's first output, behind those of local defects."""
     return defects(n_balls, n_mics, n_bands, n_modes) + PER_DEFECT * n_defects
+
+
+def size(n_balls, n_mics, n_bands=0, n_modes=0, n_defects=0, n_accelerometers=0):
+    """Length of ``z`` by the numbers of balls, microphones, their third octaves, flexural modes and so on."""
+    at = accelerometers(n_balls, n_mics, n_bands, n_modes, n_defects)
+    return at + PER_ACCELEROMETER * n_accelerometers

@@ -175,12 +175,26 @@ def sample_due(s, h):
 
 
 @kernel
+def share_of_step(s, h):
+    """Share of the step ``h`` (s) at which the next sample is."""
+    return min(max((s[S.SAMPLE] / SD.RAW_RATE - (s[S.TIME] - s[S.START])) / h, 0.0), 1.0)
+
+
+@kernel
+def sample_bodies(p, s, w, h):
+    """As `sample_motion`, of what accelerometers feel alone."""
+    t = share_of_step(s, h)
+    bodies_motion(s, w, False, h, t)
+    flexure_motion(p, s, w, h, t)
+
+
+@kernel
 def sample_motion(p, s, w, whole, h):
     """Fill ``W.MOTION`` with the motion at the next sample: old state in ``s``, new one in ``w``.
 
     ``whole``: velocities and angles too, which form vectors does not ask for at every sample.
     """
-    t = min(max((s[S.SAMPLE] / SD.RAW_RATE - (s[S.TIME] - s[S.START])) / h, 0.0), 1.0)
+    t = share_of_step(s, h)
     bodies_motion(s, w, whole, h, t)
     ball_accelerations(p, s, w, h, t)
     if whole:

@@ -12,6 +12,7 @@ from fmu_bearing.engine.readout.contacts import contacts, knows_balls
 from fmu_bearing.engine.readout.defects import observe_defects
 from fmu_bearing.engine.readout.losses import seal_loss
 from fmu_bearing.engine.readout.motion import sound_block
+from fmu_bearing.engine.sound import accelerometer
 from fmu_bearing.engine.sound.meter import levels
 
 LITTLE_LOST = 1e-6  # of the stored energy: dissipation below it says nothing about a balance
@@ -115,10 +116,16 @@ def clearance(s, z):
 
 
 @kernel
+def flexures(p, mics):
+    """Place of the velocities of the flexural coordinates, after the balls and so many microphones."""
+    return Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+
+
+@kernel
 def flexure(p, s, z, mics):
     """Velocities (m/s) of the flexural coordinates, after the balls and so many microphones."""
     count = 2 * int(p[P.MODES])
-    to = Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+    to = flexures(p, mics)
     at = flexure_state(p) + count
     for i in range(count):
         z[to + i] = s[at + i]
@@ -131,6 +138,8 @@ def observe(p, s, z):
     if p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0:
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
         levels(sound_block(p), s[S.SOUND :], z, mics)
+    if p[P.READ_FELT] != 0.0:
+        accelerometer.observe(p, s, z, flexures(p, int(p[P.MICS])) + 2 * int(p[P.MODES]))
 
 
 @kernel

@@ -9,6 +9,7 @@
 ``transform``  Fourier transforms of many signals at once
 ``meter``      `meter.levels`: what each microphone reads now
 ``thirds``     third octaves
+``accelerometer``  accelerometers: resonances, meters, outputs
 ``transfer``   lines: from channels to the pressure at every microphone
 ``beats``      lines: mean squares, and meters that follow them
 =============  ===========================================================================

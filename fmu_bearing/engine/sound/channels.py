@@ -12,7 +12,7 @@ leaves 2 kHz of shift, and what folds below is down by 84 dB.
 
 import math
 
-from fmu_bearing.engine.choices import CONTACTS, SCALARS
+from fmu_bearing.engine.choices import CONTACTS, SCALARS, SENSORS
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.lanes import lane, load, splat, sum_lanes
 from fmu_bearing.engine.layout import FOUR, MO, SD, STRIDE
@@ -32,6 +32,8 @@ def keep(ps, motion, row):
         _keep_scalars(ps, motion, row)
     elif chosen == CONTACTS:
         _keep_contacts(ps, motion, row)
+    elif chosen == SENSORS:
+        _keep_outer_ring(ps, motion, row)
     else:
         _keep_accelerations(ps, motion, row)
 
@@ -48,6 +50,8 @@ def form(ps, ws, x, turns, out):
             out[c] = x[c]
     elif chosen == CONTACTS:
         _form_contacts(ps, x, turns, ws[int(ps[SD.H_W_SCRATCH]) :], out)
+    elif chosen == SENSORS:
+        _weigh_outer_ring(ps, x, out)
     else:
         _form_accelerations(ps, x, turns, ws[int(ps[SD.H_W_SCRATCH]) :], out)
 
@@ -139,6 +143,29 @@ def _form_accelerations(ps, x, turns, table, out):
     first = SD.C_BALLS + SD.AXES * lanes
     for i in range(int(ps[SD.H_FLEXURES])):
         out[SD.C_HARMONICS + harmonics + i] = x[first + i]
+
+
+@kernel
+def _keep_outer_ring(ps, motion, row):
+    """Form sensors: accelerations of the outer ring as a body, and of all flexural coordinates."""
+    for k in range(SD.AXES):
+        row[SD.R_ACCELERATION + k] = motion[MO.OUTER + MO.ACCELERATION + k]
+        row[SD.R_SPIN_RATE + k] = motion[MO.OUTER + MO.SPIN_RATE + k]
+    for i in range(int(ps[SD.H_FLEXURES])):
+        row[SD.R_FLEXURES + i] = motion[MO.FLEXURES + i]
+
+
+@kernel
+def _weigh_outer_ring(ps, x, out):
+    """Form sensors: each channel is the sum of a row's numbers times weights, a row of these per channel."""
+    wide = SD.R_FLEXURES + int(ps[SD.H_FLEXURES])
+    at = int(ps[SD.H_AT_SCALARS])
+    for c in range(len(out)):
+        total = 0.0
+        for i in range(wide):
+            total += ps[at + i] * x[i]
+        out[c] = total
+        at += wide
 
 
 @kernel

@@ -7,7 +7,7 @@ from fmu_bearing.engine.readout.outputs import LITTLE_LOST, observe_motion
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.port import observe_port
 from fmu_bearing.engine.spindle.shaft import has_housing
-from fmu_bearing.engine.spindle.sound_sum import levels_of_set
+from fmu_bearing.engine.spindle.sound_sum import levels_of_set, observe_accelerometers
 
 
 @kernel
@@ -90,6 +90,9 @@ def observe_set(p, s, z):
     observe_bearings(p, s, z)
     observe_shaft(p, s, z)
     levels_of_set(p, s, z)
+    mics = int(p[P.MICS])
+    alone = members.z_mics(p) + (Z.PER_MIC + int(p[P.BANDS])) * mics
+    observe_accelerometers(p, s, z, alone + members.bearing_count(p) * mics)
     own = members.set_state(p, s)
     at = int(p[int(p[P.SET]) + SP.AT_Z])
     observe_port(p, own, z, at)

@@ -2,38 +2,67 @@
 
 Each bearing has a sound block of its own, with the microphones' places in its own axes. The outputs of its
 filters are added to the first bearing's rows, and the first bearing's meters read the sum:
-pressures add, with form scalars energies as between the sources of one bearing.
+pressures add, with form scalars energies as between the sources of one bearing. Accelerometers are a
+bearing's own.
 """
 
 from fmu_bearing.engine.choices import VECTORS
 from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SD, P, S, W, Z
-from fmu_bearing.engine.readout.motion import sample_due, sample_motion, sound_block
-from fmu_bearing.engine.sound import meter
+from fmu_bearing.engine.readout.motion import sample_bodies, sample_due, sample_motion, sound_block
+from fmu_bearing.engine.sound import accelerometer, meter
 from fmu_bearing.engine.sound.radiate import filtered, push, waiting
 from fmu_bearing.engine.spindle import members
 
 
 @kernel
+def felt(p):
+    """Whether there are accelerometers that are read."""
+    return p[P.ACCELEROMETERS] != 0.0 and p[P.READ_FELT] != 0.0
+
+
+@kernel
+def sampled(p):
+    """Whether motion may be sampled."""
+    return p[P.SOUND_SIZE] != 0.0 or p[P.ACCELEROMETERS] != 0.0
+
+
+@kernel
 def emit(p, s, w, h):
-    """Take every sample that falls into the step just made; where enough of them wait, `finish` them."""
-    if p[P.SOUND_SIZE] == 0.0 or p[P.READ_SOUND] == 0.0:
+    """Take every sample that falls into the step just made; where enough of them wait, filter them."""
+    heard = p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0 and sound_block(p)[SD.H_LINES] == 0.0
+    if not (heard or felt(p)):
         return
-    whole = int(sound_block(p)[SD.H_FORM]) != VECTORS
+    whole = heard and int(sound_block(p)[SD.H_FORM]) != VECTORS
     while sample_due(s, h):
         for b in range(members.bearing_count(p)):
             pb = members.parameters(p, b)
             sb = members.state(p, s, b)
             wb = members.work(p, w, b)
-            sample_motion(pb, sb, wb, whole, h)
-            push(sound_block(pb), sb[S.SOUND :], wb[W.MOTION : W.SOUND])
+            if heard:
+                sample_motion(pb, sb, wb, whole, h)
+                push(sound_block(pb), sb[S.SOUND :], wb[W.MOTION : W.SOUND])
+            else:
+                sample_bodies(pb, sb, wb, h)
+            if felt(p):
+                accelerometer.feel(pb, sb, wb, p[P.METERING_START])
             sb[S.SAMPLE] += 1.0
-        if waiting(s[S.SOUND :]) >= SD.BATCH:
-            finish(p, s, w)
+        if heard and waiting(s[S.SOUND :]) >= SD.BATCH:
+            finish_sound(p, s, w)
 
 
 @kernel
 def finish(p, s, w):
+    """Let all samples that wait pass every bearing's filters and the meters behind them."""
+    finish_sound(p, s, w)
+    if felt(p):
+        for b in range(members.bearing_count(p)):
+            pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
+            accelerometer.settle(pb, sb, wb, p[P.METERING_START])
+
+
+@kernel
+def finish_sound(p, s, w):
     """Let all samples that wait pass every bearing's filters, then the meters of each and of their sum."""
     if p[P.SOUND_SIZE] == 0.0 or sound_block(p)[SD.H_LINES] != 0.0:
         return
@@ -69,6 +98,14 @@ def meter_alone(p, s, w, k):
         at = members.alone(p, b)
         for mic in range(int(p[P.MICS])):
             own[at + mic] += fraction * (meter.square(ps, ws, k, mic) - own[at + mic])
+
+
+@kernel
+def observe_accelerometers(p, s, z, first):
+    """Write what all accelerometers read, to ``z[first:]``."""
+    if felt(p):
+        for b in range(members.bearing_count(p)):
+            accelerometer.observe(members.parameters(p, b), members.state(p, s, b), z, first)
 
 
 @kernel

@@ -28,6 +28,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T, U
 from fmu_bearing.engine.readout.contacts import knows_balls
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.sound_sum import felt
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 
 
@@ -212,6 +213,20 @@ def sound_on_the_way(p, s, w, h, speed, near):
 
 
 @kernel
+def motion_on_the_way(p, s, w, h, speed):
+    """As `sound_on_the_way`, for accelerometers alone: no ball is placed, and the end is not shown."""
+    longest = bearing.sample_spacing(p, s, speed)
+    for b in range(1, members.bearing_count(p)):
+        longest = min(longest, bearing.sample_spacing(members.parameters(p, b), s, speed))
+    count = math.ceil(h / longest - 1e-9)
+    for _ in range(int(count)):
+        place_rings(p, s, w, h / count)
+        turn_all(p, s, h / count)
+        emit_shown(p, s, w, h / count)
+        advance_all(p, s, h / count)
+
+
+@kernel
 def march_response(p, u, s, w, h):
     """Advance the state by the communication step ``h`` (s); status code."""
     own = members.set_state(p, s)
@@ -240,6 +255,8 @@ def march_response(p, u, s, w, h):
     sampled = p[P.SOUND_SIZE] != 0.0 and not from_lines(p)
     if sampled:
         sound_on_the_way(p, s, w, h, speed, near)
+    elif felt(p):
+        motion_on_the_way(p, s, w, h, speed)
     else:
         turn_all(p, s, h)
         advance_all(p, s, h)

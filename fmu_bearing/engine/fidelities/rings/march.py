@@ -29,7 +29,7 @@ from fmu_bearing.engine.mechanics.race import passing_time, wave_time
 from fmu_bearing.engine.readout.defects import watch_defects
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.inputs import grow
-from fmu_bearing.engine.spindle.sound_sum import emit
+from fmu_bearing.engine.spindle.sound_sum import emit, sampled
 from fmu_bearing.engine.status import NOT_CONVERGED, OK
 
 _LONGEST = 2e-5  # s
@@ -166,7 +166,7 @@ def accept(p, s, w, h):
         bearing_at = members.per_bearing(p, b)
         own[bearing_at + SP.OFFSET] += h * own[bearing_at + SP.OFFSET_RATE]
     equations.share_march(p, s)
-    if p[P.SOUND_SIZE] != 0.0 or watches(p):
+    if sampled(p) or watches(p):
         emit_rings(p, s, w, h)
     for b in range(members.bearing_count(p)):
         pb = members.parameters(p, b)

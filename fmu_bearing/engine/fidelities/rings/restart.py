@@ -17,8 +17,9 @@ from fmu_bearing.engine.fidelities.rings import equations, frozen_points, predic
 from fmu_bearing.engine.fidelities.rings.march import emit_rings, go_on, take_inputs
 from fmu_bearing.engine.fidelities.rings.start import begin_at_rest
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L, P, S, U
+from fmu_bearing.engine.layout import L, S, U
 from fmu_bearing.engine.spindle import members
+from fmu_bearing.engine.spindle.sound_sum import sampled
 from fmu_bearing.engine.status import OK, TOO_SOFT
 
 _TRIES = 3  # times to begin again within a communication step, before the rings wait for its end
@@ -47,7 +48,7 @@ def wait(p, s, w, h):
     """Let the time ``h`` (s) pass with shaft, housing and rings at rest."""
     for b in range(members.bearing_count(p)):
         turn_balls(members.state(p, s, b), h)
-    if p[P.SOUND_SIZE] != 0.0:
+    if sampled(p):
         emit_rings(p, s, w, h)
     for b in range(members.bearing_count(p)):
         advance(members.parameters(p, b), members.state(p, s, b), h)

@@ -10,7 +10,7 @@ _ROUNDING = 1e-9  # of the default step
 
 
 def turn_rate(scene: Scene, silent: bool) -> float:
-    """Fastest whirl (rad per rad of the shaft) that a bearing in which nothing else asks for short steps must follow.
+    """Fastest whirl (rad per rad of the shaft) to follow where nothing else asks for short steps.
 
     ``silent``: neither microphones nor accelerometers follow it.
 

@@ -172,7 +172,7 @@ def record(
         {name: np.array(values) for name, values in kept.outputs.items()} | kept.rates.outputs(scene),
         kept.rows[: first + done + TAIL],
         microphones=tuple((place.name, place.position_m) for place in scene.microphones),
-        harmonics=kept.histories[0].harmonics,
+        harmonics=kept.histories[0].harmonics, sensed=kept.sensed[: first + done + TAIL],
     )  # fmt: skip
     if done < size:
         raise Stopped(recording, f"{(size - done) / SD.RATE:.3g} s of the {duration:g} s of the run")
@@ -227,16 +227,17 @@ def with_far_microphone(scene: Scene, radiation_model: str) -> Scene:
 
 
 class _History:
-    """The channel history of one bearing in the state.
+    """The channel history of one bearing in the state: of its sound, or of its accelerometers.
 
     ``p``: its parameters; ``part``: its place in the state.
     """
 
-    def __init__(self, p: NDArray[np.float64], part: slice) -> None:
-        block = int(p[P.AT_SOUND])
+    def __init__(self, p: NDArray[np.float64], part: slice, felt: bool = False) -> None:
+        block, size = int(p[P.AT_FELT if felt else P.AT_SOUND]), int(p[P.FELT_SIZE if felt else P.SOUND_SIZE])
         if block == 0:
             raise ValueError("the model has no sound: give the scene, or leave microphones=False")
-        sound: NDArray[np.float64] = p[block : block + int(p[P.SOUND_SIZE])]
+        sound: NDArray[np.float64] = p[block : block + size]
+        self._begin = S.SOUND + (int(p[P.FELT_STATE]) if felt else 0)
         self.depth, self.harmonics = int(sound[SD.H_ROWS]), int(sound[SD.H_HARMONICS])
         lanes, channels = int(sound[SD.H_AT_LANES]), int(sound[SD.H_CHANNELS])
         self.lanes = sound[lanes : lanes + channels].astype(int)
@@ -244,11 +245,11 @@ class _History:
 
     def count(self, state: NDArray[np.float64]) -> int:
         """Return how many rows the engine has written since initialisation."""
-        return int(state[self._part][S.SOUND + SD.SS_COUNT])
+        return int(state[self._part][self._begin + SD.SS_COUNT])
 
     def rows(self, state: NDArray[np.float64], which: NDArray[np.int_]) -> NDArray[np.float64]:
         """Return rows by their numbers from initialisation on, shape (rows, channels)."""
-        first, channels = S.SOUND + self._first, len(self.lanes)
+        first, channels = self._begin + self._first, len(self.lanes)
         ring = state[self._part][first : first + channels * self.depth].reshape(self.depth, channels)
         return ring[which % self.depth][:, self.lanes]
 
@@ -263,8 +264,14 @@ class _Readings:
         self.watch = watch
         self.rates = RatesWatch()
         self.histories = [_History(bearing.p[at_p], at_s) for at_p, at_s in parts_of(bearing.p)]
-        self.depth = min(history.depth for history in self.histories)
+        self.felt = [
+            _History(bearing.p[at_p], at_s, felt=True)
+            for at_p, at_s in parts_of(bearing.p)
+            if bearing.p[at_p][P.FELT_SIZE] != 0.0
+        ]
+        self.depth = min(history.depth for history in (*self.histories, *self.felt))
         self.rows = np.zeros((rows, sum(len(history.lanes) for history in self.histories)))
+        self.sensed = np.zeros((rows, sum(len(history.lanes) for history in self.felt)))
         self.count = 0
         self.time: list[float] = []
         self.speed: list[float] = []
@@ -284,5 +291,7 @@ class _Readings:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
         self.rows[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.histories])
+        if self.felt:
+            self.sensed[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.felt])
         self.count = count
         return min(count, len(self.rows)) / SD.RATE

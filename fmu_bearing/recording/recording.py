@@ -218,8 +218,9 @@ class Recording(ChannelHistory):
     def to_xarray(self, positions: Places = None, radiation_model: str | None = None) -> "xarray.Dataset":
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.
 
-        Names and places (m) of microphones are coordinates; units are attributes, the scene is TOML text in
-        ``scene``, the table of its local defects JSON text in ``defects``.
+        Accelerations (m/s2) over accelerometers and time, too, where the scene has any. Names and places (m)
+        of microphones are coordinates; units are attributes, the scene is TOML text in ``scene``, the table of
+        its local defects JSON text in ``defects``.
 
         Raises
         ------
@@ -237,9 +238,13 @@ class Recording(ChannelHistory):
             pressure = self.pressure(positions, radiation_model)
             data["pressure"] = (("microphone", "time"), pressure, {"units": "Pa"})
             coords["microphone"] = [name for name, _ in named]
-            coords["time"] = ("time", self.time, {"units": "s", "long_name": "time after initialisation"})
             for axis, values in zip("xyz", np.array([place for _, place in named]).T, strict=True):
                 coords[axis] = ("microphone", values, {"units": "m"})
+        if self.accelerometers:
+            data["acceleration"] = (("accelerometer", "time"), self.acceleration(), {"units": "m/s2"})
+            coords["accelerometer"] = list(self.accelerometers)
+        if named or self.accelerometers:
+            coords["time"] = ("time", self.time, {"units": "s", "long_name": "time after initialisation"})
         head = {
             "scene": "" if self.scene is None else self.scene.to_toml(),
             "radiation_model": radiation_model or self.radiation_model,
@@ -282,7 +287,8 @@ class Recording(ChannelHistory):
         with whole(pathlib.Path(path)) as file:
             np.savez(
                 file, head=np.array(json.dumps(head)), output_time=self.output_time,
-                speed_points=self.speed_points, history=self.history, recorded=self.recorded, **arrays,
+                speed_points=self.speed_points, history=self.history, recorded=self.recorded,
+                sensed=self.sensed, **arrays,
             )  # fmt: skip
 
     @classmethod
@@ -307,6 +313,7 @@ class Recording(ChannelHistory):
                 {name[7:]: values for name, values in data.items() if name.startswith("output:")},
                 data["history"], data["recorded"],
                 tuple((name, tuple(place)) for name, place in head["microphones"]), head["harmonics"],
+                data.get("sensed", np.zeros((0, 0))),
             )  # fmt: skip
         except SceneError:
             raise

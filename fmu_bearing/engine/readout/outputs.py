@@ -139,7 +139,8 @@ def observe(p, s, z):
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
         levels(sound_block(p), s[S.SOUND :], z, mics)
     if p[P.READ_FELT] != 0.0:
-        accelerometer.observe(p, s, z, flexures(p, int(p[P.MICS])) + 2 * int(p[P.MODES]))
+        at = flexures(p, int(p[P.MICS])) + 2 * int(p[P.MODES]) + Z.PER_DEFECT * int(p[P.DEFECTS])
+        accelerometer.observe(p, s, z, at)
 
 
 @kernel
@@ -159,8 +160,7 @@ def observe_motion(p, s, z, mics):
     clearance(s, z)
     flexure(p, s, z, mics)
     if p[P.DEFECTS] != 0.0:
-        at = Z.BALLS + Z.PER_BALL * int(p[P.BALLS]) + (Z.PER_MIC + int(p[P.BANDS])) * mics
-        observe_defects(p, s, z, at + 2 * int(p[P.MODES]))
+        observe_defects(p, s, z, flexures(p, mics) + 2 * int(p[P.MODES]))
     z[Z.STEPS] = s[S.STEPS]
     z[Z.REJECTED] = s[S.REJECTED]
     z[Z.RESTARTS] = s[S.RESTARTS]

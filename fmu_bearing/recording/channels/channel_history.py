@@ -6,7 +6,7 @@ The motion does not depend on the microphones, so the channels give the pressure
 
 import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,6 +19,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_
 from fmu_bearing.acoustics.radiation.radiators import Path
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare.imperfections import excitation_end
+from fmu_bearing.recording.channels.felt import noise_of, read_all
 from fmu_bearing.recording.channels.microphone_places import Places, named_places
 from fmu_bearing.recording.channels.sources import air_of, sources_of
 from fmu_bearing.recording.channels.turning import Turning
@@ -65,6 +66,8 @@ class ChannelHistory(Turning):
         The scene's microphones, places in m.
     harmonics : int
         Highest circumferential order of the balls' sound among the channels.
+    sensed : ndarray, shape (rows, channels)
+        Channels of the scene's accelerometers, in the rows of `history`; no columns without any.
     """
 
     scene: Scene | None
@@ -79,6 +82,7 @@ class ChannelHistory(Turning):
     recorded: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 0)))
     microphones: tuple[tuple[str, Position], ...] = ()
     harmonics: int = 0
+    sensed: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 0)))
     _spectra: Channels | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
@@ -165,6 +169,51 @@ class ChannelHistory(Turning):
             for part in parts.values():
                 total[list(circle.members)] += part
         return total
+
+    @property
+    def accelerometers(self) -> tuple[str, ...]:
+        """Names of the accelerometers that were recorded."""
+        if self.scene is None or self.sensed.size == 0:
+            return ()
+        return tuple(sensor.name for sensor in self.scene.accelerometers)
+
+    def acceleration(
+        self, names: str | Sequence[str] | None = None, *, noise: bool = True
+    ) -> NDArray[np.float64]:
+        """Acceleration (m/s2) that accelerometers of the scene read, the delay of the filters taken out.
+
+        Parameters
+        ----------
+        names : str or sequence of str, optional
+            Of one, shape (size,), or of several, shape (sensors, size); default: all of the scene.
+        noise : bool
+            With the noise that the scene gives them: white, drawn from the seed of its imperfections.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, or a recording without accelerometers.
+
+        Examples
+        --------
+        >>> from fmu_bearing import record, with_fidelity
+        >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+        >>> sensed = scene.replace({"accelerometer": [{"name": "DE"}]})
+        >>> record(sensed, 0.02).acceleration("DE").shape
+        (1024,)
+        """
+        known = self.accelerometers
+        if self.scene is None or not known:
+            raise ValueError("no accelerometer was recorded: add [[accelerometer]] to the scene")
+        wanted = [names] if isinstance(names, str) else list(known if names is None else names)
+        for name in wanted:
+            if name not in known:
+                raise ValueError(f"there is no accelerometer '{name}'; there are {', '.join(known)}")
+        found = read_all(self.scene, self.sensed)
+        values = np.array([found[name][self.first : self.first + self.size] for name in wanted])
+        if noise:
+            values += [noise_of(self.scene, name, self.size) for name in wanted]
+        return values[0] if isinstance(names, str) else values
 
     def partial(
         self, positions: Places = None, radiation_model: str | None = None, by: str = "component"

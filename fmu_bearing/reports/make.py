@@ -23,6 +23,7 @@ from fmu_bearing.reports.modes.modes_section import section as what_vibrates
 from fmu_bearing.reports.page.blocks import CUT, Absent, Section
 from fmu_bearing.reports.page.render import render
 from fmu_bearing.reports.sections import (
+    accelerometers,
     arrangement,
     ball_contacts,
     conditions,
@@ -378,6 +379,7 @@ def _sections(
         ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, microphones)),
         ("velocities", "Velocities", lambda: ring_motion.velocities(subject)),
         ("orbits", "Orbits", lambda: ring_motion.orbits(subject)),
+        ("accelerometers", "Accelerometers", lambda: accelerometers.accelerometers(subject)),
         ("error-motion", "Error motion", lambda: error_motion.error_motion(subject)),
         ("contacts", "Contacts", lambda: ball_contacts.contacts(subject)),
         ("friction", "Friction and heat", lambda: friction.friction(subject)),
@@ -385,6 +387,7 @@ def _sections(
     ]
     scene = subject.recording.scene
     asked = dict.fromkeys(("arrangement", "axial", "warmth"), subject.several)
+    asked |= {"accelerometers": scene is not None and bool(scene.accelerometers)}
     asked |= {"fits": scene is not None and scene.fit is not None, "changes": changes is not False}
     sections: list[Section] = []
     stopped = False

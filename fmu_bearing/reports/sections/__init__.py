@@ -9,6 +9,7 @@
 ``what_to_change``    choices ranked by level, life and torque
 ``ring_motion``       velocities, orbits
 ``error_motion``      error motion of the axis of rotation: values, lines, sources
+``accelerometers``     what accelerometers read, and its spectra
 ``ball_contacts``     loads and angles around the circle
 ``seats``             what the fits of the rings do
 ``friction``          torque, shares, heats

@@ -14,6 +14,7 @@
 ``balls``           place, load and angle of every ball, read from the state
 ``rates``           how fast the balls orbit and spin, read from the state
 ``defect_lines``    lines that local defects make, by their names
+``uff``             universal files, for programs of modal analysis: signals, responses, mode shapes
 ``result``          `Run`: the results of a run, as CSV, netCDF, xarray, pandas; its pictures and spectra
 ==================  ===========================================================================
 """

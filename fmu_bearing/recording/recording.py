@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import warnings
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,12 +17,20 @@ from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, instead, trouble
 from fmu_bearing.files import read_arrays, whole
+from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
+from fmu_bearing.recording.channels.recorded_signals import (
+    RecordedSignal,
+    even_step,
+    recorded_signal,
+    signal_names,
+)
 from fmu_bearing.recording.measurements import measure
 from fmu_bearing.recording.measurements.signals import Signals
+from fmu_bearing.recording.measurements.uff_files import write_signals
 from fmu_bearing.results.defect_lines import defect_labels
-from fmu_bearing.results.result import read_table
+from fmu_bearing.results.result import Run, read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.results.table import html_table, number
 from fmu_bearing.results.variable_names import unit_of
@@ -125,6 +134,41 @@ class Recording(ChannelHistory):
             microphones=tuple((str(name), place) for name, place in places),
         )  # fmt: skip
 
+    @classmethod
+    def from_run(
+        cls, result: Run | str | os.PathLike[str], scene: SceneSource | None = None, settle: float = 0.0
+    ) -> "Recording":
+        """Take the variables of a run, or of its file, as signals; see `signal`.
+
+        Parameters
+        ----------
+        result : Run or path
+        scene : Scene or path, optional
+            Default: the one that the result knows.
+        settle : float
+            Time (s) left out at the beginning.
+
+        Raises
+        ------
+        ResultError
+            For a file that is no result.
+        ValueError
+            For uneven times, and where nothing is left after ``settle``.
+        """
+        run = result if isinstance(result, Run) else Run.load(result)
+        known = run.scene if scene is None else scene_of(scene)
+        time, start = run.time, float(run.time[0]) + settle
+        after = time[time >= start - 1e-9]
+        step = even_step(after)
+        if not step:
+            raise ValueError(
+                f"{run.name}: the {len(after)} points after settle = {settle:g} s are uneven or too few: run "
+                "with a step that divides the time, and longer"
+            )
+        speed = run["shaft_speed"] if "shaft_speed" in run.names else _speed_of(known, len(time))
+        columns = {name: run[name] for name in run.names}
+        return cls(known, "recorded", 1.0 / step, float(after[0]), len(after), time, speed, columns)
+
     def _repr_html_(self) -> str:
         """Return microphones and means of the variables; levels are left out, as they take time."""
         places = [
@@ -148,6 +192,49 @@ class Recording(ChannelHistory):
         """Speed and variables at the communication points of the recording, its start left out."""
         speed, outputs = self._kept()
         return {"shaft_speed": speed} | outputs
+
+    @property
+    def signal_names(self) -> list[str]:
+        """Names of all signals: microphones, accelerations of rings and cage, variables at even points."""
+        return signal_names(self)
+
+    def signal(self, name: str, radiation_model: str | None = None) -> RecordedSignal:
+        """Return one signal at even spacing, without latency.
+
+        Parameters
+        ----------
+        name : str
+            A microphone (Pa); an acceleration of the centre of a body in m/s2, up to 20 kHz, as
+            ``outer_ring.acceleration.z`` or ``bearing[2].inner_ring.acceleration.x``; or a variable that was
+            kept, at the rate of its points, above half of which it is folded.
+        radiation_model : str, optional
+            In place of the recording's own.
+
+        Raises
+        ------
+        UnknownName
+            For another name. A recording of pressures, and one with a radiation model of a paper, has no
+            accelerations.
+
+        Examples
+        --------
+        >>> from fmu_bearing import record, with_fidelity
+        >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+        >>> signal = record(scene, 0.02, radiation_model="compact").signal("outer_ring.acceleration.z")
+        >>> signal.values.shape, signal.unit, signal.rate, signal.direction
+        ((1024,), 'm/s2', 51200.0, 'z')
+        """
+        return recorded_signal(self, name, radiation_model)
+
+    def signals_like(self, patterns: Sequence[str]) -> list[str]:
+        """Return the names of the signals that match any of some names, with ``*`` for any text.
+
+        Raises
+        ------
+        UnknownName
+            For one that matches nothing.
+        """
+        return chosen_names(patterns, signal_names(self), ())
 
     def spectrum(
         self, positions: Places = None, radiation_model: str | None = None, resolution: float | None = None
@@ -272,7 +359,13 @@ class Recording(ChannelHistory):
         return frame
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one ``.npz`` file."""
+        """Write everything to one ``.npz`` file; to ``.uff`` microphones and accelerations over time.
+
+        A universal file is read by programs of modal analysis, and not by `load`.
+        """
+        if pathlib.Path(path).suffix == ".uff":
+            write_signals(self, path)
+            return
         head = {
             "version": _VERSION,
             "scene": None if self.scene is None else self.scene.to_toml(),

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.extras import need
 from fmu_bearing.files import check_file, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.collections import LineCollection
     from matplotlib.figure import Figure
 
 #: Colours for all kinds of colour vision (Okabe and Ito, 2008); the total is black.
@@ -37,6 +39,8 @@ _APART = len(OTHERS) * len(DASHES)  # curves that colours and dashes tell apart;
 _ENDS = ("#0072B2", "#E69F00")
 _NAMED = 14  # names in a column of a legend
 _BESIDE, _SAMPLE = 75, 6  # letters beside axes of ten inches, and in place of the sample of a curve
+_NAMES_TO = 0.2  # of the height: the rows of those names, from the top
+_GAP = 2.0  # pixels between texts
 _HEIGHTS = 12  # that are tried for a label, each one line of text above the last
 
 _OWN_LETTERS = 0x2E7F  # DejaVu Sans has the scripts below in part; those of East Asia begin here
@@ -251,3 +255,56 @@ def label(ax: "Axes", x: str, y: str, title: str, grid: bool = True) -> None:
     ax.set_axisbelow(True)
     if grid:
         ax.grid(True, color="0.92")
+
+
+def name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
+    """Write at peaks what explains them, the strongest first, as far as no text covers another."""
+    named = [line for line in lines if line.explanation]
+    if not named:
+        return
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()  # type: ignore[attr-defined]  # places the axes
+    peaks = ax.transData.transform([(line.frequency, line.level) for line in named])
+    texts = [
+        ax.text(line.frequency, line.level, line.explanation, fontsize=7, ha="center", va="bottom",
+                gid="line-name", bbox=BEHIND)
+        for line in named
+    ]  # fmt: skip
+    boxes = [text.get_window_extent() for text in texts]
+    high = max(box.height for box in boxes) + _GAP
+    inside = ax.get_window_extent()
+    # the frequencies' names have their own rows on top
+    top = inside.y1 - (_NAMES_TO * inside.height if any(t.get_gid() == "mark" for t in ax.texts) else 0.0)
+    middles = [
+        min(max(x, inside.x0 + 0.5 * box.width), inside.x1 - 0.5 * box.width)
+        for (x, _), box in zip(peaks, boxes, strict=True)
+    ]
+    curves = np.vstack(
+        [ax.transData.transform(line.get_xydata()) for line in ax.lines if line.get_label()[:1] != "_"]  # type: ignore[index]
+    )
+    # above all curves that a name reaches over
+    base = [
+        _GAP + max(y, np.nanmax(curves[np.abs(curves[:, 0] - x) <= 0.5 * box.width, 1], initial=y))
+        for (_, y), x, box in zip(peaks, middles, boxes, strict=True)
+    ]
+    heights = free_heights([[x] for x in middles], base, [box.width + _GAP for box in boxes], high, top)
+    back = ax.transData.inverted()
+    leaders = []
+    for text, line, x, height in zip(texts, named, middles, heights, strict=True):
+        if height is None:
+            text.remove()
+        else:
+            across, level = map(float, back.transform((x, height)))
+            text.set_position((across, level))
+            leaders.append([(line.frequency, line.level), (across, level)])
+    ax.add_collection(_leaders(leaders), autolim=False)
+
+
+def _leaders(ways: Sequence[Sequence[tuple[float, float]]]) -> "LineCollection":
+    """Thin lines from peaks to their names."""
+    collections = need("matplotlib.collections", "a picture")
+    found: LineCollection = collections.LineCollection(
+        ways, colors="0.5", linewidths=0.6, zorder=1.5, gid="line-leader"
+    )
+    return found

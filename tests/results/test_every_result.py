@@ -18,6 +18,7 @@ from fmu_bearing import (
     compare,
     error_motion,
     fits,
+    measure,
     modes,
     operating_point,
     record,
@@ -57,7 +58,7 @@ BASES = (Diagram, StiffnessTable, Study)
 #: Values whose units are in the words beside them: of variables by name, counts, a scene's keys.
 BESIDE = (
     "figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "std", "value", "moved",
-    "a", "b", "change",
+    "a", "b", "change", "rms",
 )  # fmt: skip
 
 
@@ -88,7 +89,8 @@ def roots():
         point, *verdicts(point), fits(EXAMPLES.parent / "fits" / "7003C-ceramic.toml"),
         temperatures(read_scene(bare)), modes(bare), campbell(bare, [18e3, 20e3, 22e3]),
         stiffness(pair, frequencies=[1e3]), error_motion(scene, revolutions=20), sound,
-        noise_at(made, sound, 3000.0), spread(made, ["P1"], seeds=1), compare(made, made),
+        noise_at(made, sound, 3000.0), measure.envelope_of(made, "outer_ring.acceleration.z"),
+        spread(made, ["P1"], seeds=1), compare(made, made),
         KeyPair("mounting.preload_N", None, 2.0), BandPair(500.0, 60.0, math.nan),
         FigurePair("friction_torque", "N mm", 15.0, 16.0), Finding("P1", 1.5, (1.2, 1.7)),
         Choice("a", 1.0, 0.1, (Probe("full", "", 0.01, 1e-5, (Errors(0, 0.1, 0.2, 0.3, 0.4),), 2.0),), 0),

@@ -133,6 +133,15 @@ class Channels:
                 parts[name][:, block] = weights @ products
         return {name: irfft(part, self.size, axis=1)[:, : self.rows] for name, part in parts.items()}
 
+    def signals(self, columns: Sequence[int]) -> NDArray[np.float64]:
+        """Return channels as microphones have their band, without latency, shape (columns, rows).
+
+        The last `TAIL` rows are not to be used.
+        """
+        spectra = np.zeros((len(columns), self.size // 2 + 1), complex)
+        spectra[:, : len(self.frequency)] = self.spectra[list(columns)]
+        return np.asarray(irfft(spectra, self.size, axis=1)[:, : self.rows])
+
 
 class Blocks:
     """Short-time spectra of recorded channels: mean squares at many places, quickly.

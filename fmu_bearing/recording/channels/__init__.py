@@ -6,5 +6,6 @@
 ``turning``              how cage and balls turned in the run, and how the cage whirled
 ``felt``               what accelerometers read, and their noise
 ``channel_history``    pressures and levels at any microphone, from recorded channels
+``recorded_signals``   signals by name: pressures, accelerations of the rings, variables
 =====================  ==========================================================================
 """

@@ -323,6 +323,15 @@ class ChannelHistory(Turning):
             raise ValueError(_NO_WEIGHTING.format(weighting))
         return np.asarray(np.mean(pressure[..., -self.size :] ** 2, axis=-1))
 
+    def channel_signals(self, columns: Sequence[int]) -> NDArray[np.float64]:
+        """Return columns of `history` over the recording, up to 20 kHz, shape (columns, size).
+
+        The decimator's part is taken out, so that there is no latency: a value is of its time.
+        """
+        if self._spectra is None:
+            self._spectra = Channels(self.history, _FLIGHT)
+        return self._spectra.signals(columns)[:, self.first : self.first + self.size]
+
     def _pressures_by_circle(
         self, places: list[Position], radiation_model: str | None, label, whole: bool = False
     ) -> Iterator[tuple[Circle, dict[Any, NDArray[np.float64]]]]:

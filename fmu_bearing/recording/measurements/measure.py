@@ -48,6 +48,8 @@ from fmu_bearing.acoustics.filters.design import radiators_of
 from fmu_bearing.acoustics.filters.weighting import REFERENCE_PRESSURE
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.sources import air_of, bodies_of, centre_of
+from fmu_bearing.recording.measurements.envelope import envelope, envelope_of
+from fmu_bearing.recording.measurements.kurtogram import kurtogram
 from fmu_bearing.recording.measurements.signals import signals_at
 from fmu_bearing.results.defect_lines import marked
 from fmu_bearing.scene import si
@@ -59,6 +61,9 @@ __all__ = [
     "circle",
     "component_spectra",
     "directivity",
+    "envelope",
+    "envelope_of",
+    "kurtogram",
     "motion_power",
     "order_spectrum",
     "planes",

@@ -18,21 +18,19 @@ from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
-from fmu_bearing.extras import need
 from fmu_bearing.recording.measurements.measure import MotionPower, Round, Sweep
 from fmu_bearing.results.defect_lines import DefectLine
 from fmu_bearing.results.levels import RANGE, mapped, radial_range, sounding
 from fmu_bearing.results.picture_parts import (
-    BEHIND,
     COLOURS,
     OTHERS,
     closed,
     coincident,
     empty,
-    free_heights,
     label,
     legend_beside,
     mark_excitation,
+    name_lines,
     save,
     series,
     single,
@@ -40,7 +38,6 @@ from fmu_bearing.results.picture_parts import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.collections import LineCollection
     from matplotlib.figure import Figure
 
 __all__ = [
@@ -58,8 +55,6 @@ __all__ = [
 
 _ROOM = 34.0  # dB above the highest level for names of lines
 _NAME_ROOM = 0.035  # of an axis: what the name of a frequency takes
-_NAMES_TO = 0.2  # of the height: the rows of those names, from the top
-_GAP = 2.0  # pixels between texts
 _ABOVE = 10  # curves whose names have room above the axes
 _LETTER = 0.015  # of the height of third octaves: a letter of the words at the end of the excitation
 _HATCHES = ("", "///", "...", "xxx")  # of bars, where all colours are taken
@@ -116,7 +111,7 @@ def spectrum_picture(
         ax.legend(frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, beyond))
     if kinematics is not None:
         _mark(ax, kinematics, float(f[-1]))
-    _name_lines(ax, [line for line in lines if line.frequency <= f[-1]])
+    name_lines(ax, [line for line in lines if line.frequency <= f[-1]])
     return figure
 
 
@@ -299,59 +294,6 @@ def _styles(names: Mapping[str, object]) -> dict[str, dict[str, Any]]:
         else coincident(k, len(names))
         for k, name in enumerate(names)
     }
-
-
-def _name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
-    """Write at peaks what explains them, the strongest first, as far as no text covers another."""
-    named = [line for line in lines if line.explanation]
-    if not named:
-        return
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    figure.draw_without_rendering()  # type: ignore[attr-defined]  # places the axes
-    peaks = ax.transData.transform([(line.frequency, line.level) for line in named])
-    texts = [
-        ax.text(line.frequency, line.level, line.explanation, fontsize=7, ha="center", va="bottom",
-                gid="line-name", bbox=BEHIND)
-        for line in named
-    ]  # fmt: skip
-    boxes = [text.get_window_extent() for text in texts]
-    high = max(box.height for box in boxes) + _GAP
-    inside = ax.get_window_extent()
-    # the frequencies' names have their own rows on top
-    top = inside.y1 - (_NAMES_TO * inside.height if any(t.get_gid() == "mark" for t in ax.texts) else 0.0)
-    middles = [
-        min(max(x, inside.x0 + 0.5 * box.width), inside.x1 - 0.5 * box.width)
-        for (x, _), box in zip(peaks, boxes, strict=True)
-    ]
-    curves = np.vstack(
-        [ax.transData.transform(line.get_xydata()) for line in ax.lines if line.get_label()[:1] != "_"]  # type: ignore[index]
-    )
-    # above all curves that a name reaches over
-    base = [
-        _GAP + max(y, np.nanmax(curves[np.abs(curves[:, 0] - x) <= 0.5 * box.width, 1], initial=y))
-        for (_, y), x, box in zip(peaks, middles, boxes, strict=True)
-    ]
-    heights = free_heights([[x] for x in middles], base, [box.width + _GAP for box in boxes], high, top)
-    back = ax.transData.inverted()
-    leaders = []
-    for text, line, x, height in zip(texts, named, middles, heights, strict=True):
-        if height is None:
-            text.remove()
-        else:
-            across, level = map(float, back.transform((x, height)))
-            text.set_position((across, level))
-            leaders.append([(line.frequency, line.level), (across, level)])
-    ax.add_collection(_leaders(leaders), autolim=False)
-
-
-def _leaders(ways: Sequence[Sequence[tuple[float, float]]]) -> "LineCollection":
-    """Thin lines from peaks to their names."""
-    collections = need("matplotlib.collections", "a picture")
-    found: LineCollection = collections.LineCollection(
-        ways, colors="0.5", linewidths=0.6, zorder=1.5, gid="line-leader"
-    )
-    return found
 
 
 def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:

@@ -289,7 +289,7 @@ def _sounds(made: _Made, wav_format: str) -> None:
     pressures = recording.pressure(asked, made.radiation_model)
     peak = float(np.max(np.abs(pressures)))
     scale = 10.0 ** math.ceil(math.log10(max(peak, 1e-6)))
-    for stem, pressure in zip(_stems(analysis.names), pressures, strict=True):
+    for stem, pressure in zip(stems(analysis.names), pressures, strict=True):
         write_wav(made.file(f"{stem}.wav"), pressure, recording.rate, scale, wav_format)
 
 
@@ -310,14 +310,14 @@ def _orders(made: _Made) -> None:
     made.picture("orders.png", partial(pictures.order_picture, orders, kinematics, name, end))
 
 
-def _stems(names: Sequence[str]) -> list[str]:
-    """Names of microphones as names of files, each its own, also where large and small letters are one."""
+def stems(names: Sequence[str]) -> list[str]:
+    """Names of signals as names of files, each its own, also where large and small letters are one."""
     taken: set[str] = set()
     files = []
     for name in names:
         plain = re.sub(r"[^\w.]|^\.", "-", name)
-        stems = itertools.chain([plain], (f"{plain}-{number}" for number in itertools.count(2)))
-        files.append(next(stem for stem in stems if stem.casefold() not in taken))
+        candidates = itertools.chain([plain], (f"{plain}-{number}" for number in itertools.count(2)))
+        files.append(next(stem for stem in candidates if stem.casefold() not in taken))
         taken.add(files[-1].casefold())
     return files
 

@@ -1,0 +1,379 @@
+"""Envelope analysis: how strongly a band of a signal swells, and at which of the bearing's frequencies.
+
+A defect strikes once for each ball that passes it, and each stroke lets the structure ring. The ringing is in
+a band of some kHz; how often it comes shows in the spectrum of its squared envelope, where the strokes of a
+bearing and what modulates them are lines.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike, NDArray
+
+from fmu_bearing.acoustics.analysis.lines import Line, combination
+from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.recording.channels.recorded_signals import RecordedSignal, recorded_signal
+from fmu_bearing.recording.measurements.kurtogram import Kurtogram, checked, kurtogram
+from fmu_bearing.results.base import Quantity, Result
+from fmu_bearing.results.levels import decibels
+from fmu_bearing.results.picture_parts import BEHIND, OTHERS, label, name_lines, single
+from fmu_bearing.results.table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FAR = 10.0  # dB over the median, from which a line is named
+SIMPLE = ("f_r", "f_c", "f_o", "f_i", "2 f_b")
+_ROOM = 1.4  # of the highest point of a picture: above it are names
+_ORDER = 4  # of the band-pass, which is run forwards and backwards
+_FEWEST = 256  # samples
+_FINER = 4  # bins in place of one: a line between two of them then reads low by less than 1 %
+_AROUND = 25.0  # resolutions to either side, whose median is what a line is held against
+_HARMONICS, _SIDES = 3, 2  # of each line, and side bands to either side
+_SLIDING = 0.015  # of a frequency that is not known from the run: rolling at one contact angle
+_SLIP = 3e-4  # of one that is: balls of a bearing spin as fast within that
+_LOWEST = 200.0  # Hz: below it is the shaft's own motion
+_BANDS = 3.0  # times the fastest passing of balls: the width of a band that shows it three times
+#: What modulates the strokes: with the shaft a defect passes the load, on a ball with the cage.
+_FAMILIES = (("outer race", 1, "f_o", "f_r"), ("inner race", 1, "f_i", "f_r"), ("ball", 2, "f_b", "f_c"))
+
+
+@dataclass(frozen=True)
+class EnvelopeLine(Result):
+    """A line that the bearing's frequencies lead to expect."""
+
+    quantities = (
+        Quantity("name", "line"), Quantity("of", "of"), Quantity("frequency_Hz", "Hz", ".1f"),
+        Quantity("found_Hz", "found at, Hz", ".1f"), Quantity("depth [1]", "of the mean, %", ".3g", 100.0),
+        Quantity("over_median_dB", "over the median, dB", decibels),
+    )  # fmt: skip
+
+    name: str
+    """As ``2 f_o + f_r``."""
+    of: str
+    """What strikes: ``outer race``, ``inner race``, ``ball``, ``shaft``, ``cage``; of a set whose."""
+    frequency: float
+    """Hz, as cage and balls turned."""
+    found: float
+    """Hz: the highest point within a resolution, or within how far the frequency is known."""
+    depth: float
+    """Amplitude of the line over the mean of the squared envelope."""
+    over_median: float
+    """dB: twenty times the logarithm of the amplitude over the median about it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope(Result):
+    """Spectrum of the squared envelope of a band of a signal."""
+
+    quantities = (
+        "signal = name", "unit", "low_Hz", "high_Hz", "kurtosis [1]", "rms", "resolution_Hz",
+        Quantity("lines", of=lambda found: found.lines),
+    )  # fmt: skip
+
+    name: str
+    unit: str
+    """Of the signal; the squared envelope has its square."""
+    low: float
+    high: float
+    """The band, Hz."""
+    kurtosis: float
+    """Of the band's signal: 3 for noise, 1.5 for a tone, more for strokes."""
+    rms: float
+    """Of the band, in the signal's unit; the mean of the squared envelope is twice its square."""
+    resolution: float
+    """1 over the signal's length, Hz."""
+    frequency: NDArray[np.float64] = field(repr=False)
+    """Hz, a quarter of the resolution apart, up to the width of the band. Shape (bins,)."""
+    amplitude: NDArray[np.float64] = field(repr=False)
+    """Of the lines of the squared envelope, in the square of the unit; 0 Hz is taken out. Shape (bins,)."""
+    lines: tuple[EnvelopeLine, ...] = field(default=(), repr=False)
+    kurtogram: Kurtogram | None = field(default=None, repr=False)
+    """By which the band was chosen; None where it was given."""
+
+    @property
+    def mean(self) -> float:
+        """Mean of the squared envelope."""
+        return 2.0 * self.rms**2
+
+    def records(self) -> Sequence[Result]:
+        """Return the lines; itself where the bearing is not known."""
+        return self.lines or (self,)
+
+    def at(self, frequency: float, within: float | None = None) -> tuple[float, float, float]:
+        """Return the highest point about a frequency: Hz, amplitude, and amplitude over the median about it.
+
+        ``within``: distance (Hz); default: a resolution.
+        """
+        reach = max(within or 0.0, self.resolution)
+        near = np.flatnonzero(np.abs(self.frequency - frequency) <= reach + 1e-9)
+        if not near.size:
+            return frequency, math.nan, math.nan
+        values = self.amplitude
+        inner = near[(near > 0) & (near < values.size - 1)]
+        peaks = inner[(values[inner] >= values[inner - 1]) & (values[inner] > values[inner + 1])]
+        # without a summit of its own it is the slope of a neighbour, or the ground
+        best = (
+            peaks[np.argmax(values[peaks])]
+            if peaks.size
+            else near[np.argmin(abs(self.frequency[near] - frequency))]
+        )
+        place, amplitude = _summit(values, int(best))
+        found = float(self.frequency[0] + place * (self.frequency[1] - self.frequency[0]))
+        around = np.abs(self.frequency - frequency) <= max(_AROUND * self.resolution, 4.0 * reach)
+        return found, amplitude, amplitude / float(np.median(values[around]))
+
+    def strongest(self, of: str = "") -> EnvelopeLine | None:
+        """Return the line that is farthest over the median, ``of`` one kind where it is named; None: none."""
+        chosen = [
+            line for line in self.lines if line.of.startswith(of) and line.over_median == line.over_median
+        ]
+        return max(chosen, key=lambda line: line.over_median, default=None)
+
+    def spectrum_table(self) -> Table:
+        """Return frequency, and amplitude over the mean of the squared envelope."""
+        rows = zip(self.frequency, self.amplitude, strict=True)
+        columns = ["frequency, Hz", f"squared envelope, {self.unit or '1'} squared", "of its mean"]
+        return columns, [[f"{f:.6g}", f"{a:.6g}", f"{a / self.mean:.6g}"] for f, a in rows]
+
+    @property
+    def heading(self) -> str:
+        """Signal and band in words."""
+        return f"{self.name}, {1e-3 * self.low:.3g} to {1e-3 * self.high:.3g} kHz"
+
+    @property
+    def shown_to(self) -> float:
+        """Up to where a picture shows the spectrum (Hz): its lines, or all where it has none."""
+        first = [line.frequency for line in self.lines if line.name in SIMPLE]
+        whole = float(self.frequency[-1])
+        return min(1.1 * max(first + [line.frequency for line in self.far()]), whole) if self.lines else whole
+
+    def far(self) -> list[EnvelopeLine]:
+        """Return the lines 10 dB over the median, farthest first: of those at one peak the simplest."""
+        taken: dict[int, EnvelopeLine] = {}
+        for line in sorted(self.lines, key=lambda line: (len(line.name), line.name)):
+            if line.over_median >= FAR:
+                taken.setdefault(round(line.found / self.resolution), line)
+        return sorted(taken.values(), key=lambda line: -line.over_median)
+
+    def picture(self, title: str = "", highest: float | None = None) -> "Figure":
+        """Draw the spectrum in per cent of the mean, lines far over the median named.
+
+        ``highest``: Hz; default: what the lines take.
+        """
+        end = self.shown_to if highest is None else highest
+        shown = self.frequency <= end
+        figure, ax = single((10.0, 4.5))
+        depth = 100.0 * self.amplitude[shown] / self.mean
+        ax.plot(self.frequency[shown], depth, color=OTHERS[0], linewidth=0.8, label=self.name)
+        ax.set_xlim(0.0, end)
+        ax.set_ylim(0.0, _ROOM * float(depth.max(initial=1e-9)))
+        label(ax, "frequency, Hz", "squared envelope, % of its mean", title or self.heading)
+        for line in self.lines:
+            if line.name in SIMPLE and line.frequency <= end:
+                ax.axvline(line.frequency, color="0.4", linewidth=0.6, linestyle=":", zorder=0)
+                ax.text(
+                    line.frequency, 0.99, line.name, rotation=90, fontsize=7, color="0.4", ha="right",
+                    va="top", transform=ax.get_xaxis_transform(), bbox=BEHIND, gid="mark",
+                )  # fmt: skip
+        named = [Line(one.found, 100.0 * one.depth, one.name) for one in self.far() if one.found <= end]
+        name_lines(ax, named)
+        return figure
+
+
+def squared_envelope(
+    signal: ArrayLike, rate: float, band: tuple[float, float] | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a band of a signal, and the square of the modulus of its analytic signal, shape (samples,) each.
+
+    The band-pass has order 4 and no phase, as it is run forwards and backwards; default: the whole signal,
+    without its mean.
+
+    Raises
+    ------
+    ValueError
+        For a band beyond half of ``rate`` (samples per second), and for a signal as `kurtogram` refuses it.
+    """
+    values = checked(signal, _FEWEST)
+    nyquist = 0.5 * rate
+    low, high = band or (0.0, nyquist)
+    if not 0.0 <= low < high <= nyquist * (1.0 + 1e-9):
+        raise ValueError(
+            f"a band from {low:g} to {high:g} Hz is refused: it rises between 0 and half of the "
+            f"{rate:g} samples per second"
+        )
+    kinds = {
+        (False, True): ("highpass", low),
+        (True, False): ("lowpass", high),
+        (False, False): ("bandpass", band),
+    }
+    whole = (low <= 0.0, high >= nyquist * (1.0 - 1e-9))
+    if whole != (True, True):
+        kind, ends = kinds[whole]
+        sections = scipy.signal.butter(_ORDER, ends, kind, fs=rate, output="sos")
+        pad = min(values.size - 1, max(64, round(8.0 * rate / (high - low))))
+        values = scipy.signal.sosfiltfilt(sections, values, padlen=pad)
+    return values, np.abs(scipy.signal.hilbert(values)) ** 2
+
+
+def envelope(
+    signal: ArrayLike, rate: float, band: tuple[float, float] | None = None, *, name: str = "signal",
+    unit: str = "", lowest: float = _LOWEST, highest: float | None = None, narrowest: float = 0.0,
+) -> Envelope:  # fmt: skip
+    """Return the spectrum of the squared envelope of a band of a signal.
+
+    Parameters
+    ----------
+    signal : array_like, shape (samples,)
+    rate : float
+        Samples per second.
+    band : (float, float), optional
+        Hz; default: the best one of the `kurtogram` between ``lowest`` and ``highest`` (Hz), ``narrowest``
+        (Hz) wide or wider.
+    name, unit : str
+        Of the signal.
+
+    Notes
+    -----
+    Hann window, in four times as many bins as the signal has: amplitudes of single lines are right within
+    1 %. Impulses every T through one mode (f_n, zeta) give lines at k/T that fall as
+    1 / sqrt(1 + (k pi / (2 pi f_n zeta T))^2).
+
+    Raises
+    ------
+    ValueError
+        As `squared_envelope`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from fmu_bearing import measure
+    >>> time = np.arange(51200) / 51200.0
+    >>> tone = (1.0 + 0.1 * np.cos(2.0 * np.pi * 80.0 * time)) * np.sin(2.0 * np.pi * 5000.0 * time)
+    >>> found = measure.envelope(tone, 51200.0, (4000.0, 6000.0))
+    >>> [round(value, 2) for value in found.at(80.0)[:2]]  # 2 x 0.1 of the amplitude's square
+    [80.0, 0.2]
+    """
+    chosen = None
+    if band is None:
+        chosen = kurtogram(signal, rate, lowest=lowest, highest=highest, narrowest=narrowest)
+        band = chosen.chosen
+    values, squares = squared_envelope(signal, rate, band)
+    window = scipy.signal.get_window("hann", values.size)
+    size = scipy.fft.next_fast_len(_FINER * values.size, real=True)
+    spectrum = scipy.fft.rfft((squares - squares.mean()) * window, size)
+    frequency = np.arange(spectrum.size) * (rate / size)
+    keep = (frequency <= min(band[1] - band[0], 0.5 * rate)) & (frequency >= 2.0 * rate / values.size)
+    amplitude = 2.0 * np.abs(spectrum[keep]) / window.sum()
+    rms = float(np.sqrt(np.mean(squares) / 2.0))
+    kurtosis = float(np.mean(values**4) / np.mean(values**2) ** 2)
+    return Envelope(
+        name, unit, float(band[0]), float(band[1]), kurtosis, rms, rate / values.size, frequency[keep],
+        amplitude, kurtogram=chosen,
+    )  # fmt: skip
+
+
+def envelope_of(
+    recording: ChannelHistory, name: str, band: tuple[float, float] | None = None,
+    radiation_model: str | None = None,
+) -> Envelope:  # fmt: skip
+    """Return the envelope of a recording's signal, with the lines of its bearing.
+
+    Parameters
+    ----------
+    recording : ChannelHistory
+    name : str
+        Of a signal, see `Recording.signal`.
+    band : (float, float), optional
+        Hz; default: the best one of the kurtogram above 200 Hz that is three times as wide as the fastest
+        passing of the balls, so that three lines of it show.
+    radiation_model : str, optional
+        For a microphone, in place of the recording's own.
+
+    Raises
+    ------
+    UnknownName
+        For another name.
+    ValueError
+        For a signal that is constant, as the acceleration of a ring in a rigid housing, and for a speed that
+        changes, over which lines spread.
+
+    Examples
+    --------
+    >>> from fmu_bearing import measure, record, with_fidelity
+    >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
+    >>> recording = record(scene, 0.2, radiation_model="compact")
+    >>> found = measure.envelope_of(recording, "outer_ring.acceleration.z", (5000.0, 15000.0))
+    >>> [line.name for line in found.lines[:3]], round(found.resolution, 3)
+    (['f_r', '2 f_r', '3 f_r'], 5.0)
+    """
+    signal = recorded_signal(recording, name, radiation_model)
+    if recording.changes_speed:
+        raise ValueError(
+            f"the speed changes between {signal.start:g} and {signal.time[-1]:g} s, and the lines of an "
+            "envelope spread with it: record at one speed"
+        )
+    turning = [] if recording.scene is None else _turning(recording, signal)
+    fastest = max((max(one.f_i, one.f_o, 2.0 * one.f_b) for _, one in turning), default=0.0)
+    reach = 0.5 * (signal.highest - _LOWEST)
+    try:
+        found = envelope(
+            signal.values, signal.rate, band, name=name, unit=signal.unit, highest=signal.highest,
+            narrowest=min(_BANDS * fastest, reach), lowest=min(_LOWEST, 0.1 * signal.highest),
+        )  # fmt: skip
+    except ValueError as problem:
+        raise ValueError(f"{name}: {problem}") from None
+    slip = _SLIP if recording.turning_known else _SLIDING
+    read = [_read(found, *line, slip) for whose, one in turning for line in _expected(one, whose)]
+    once = {(line.name, line.of): line for line in read}  # the shaft's own are those of every bearing
+    return replace(found, lines=tuple(once.values()))
+
+
+def _turning(recording: ChannelHistory, signal: RecordedSignal) -> list[tuple[str, KinematicFrequencies]]:
+    """Return whose frequencies may show in a signal: those of its bearing, else of all."""
+    every = recording.bearing_kinematics()
+    if len(every) == 1:
+        return [("", every[0])]
+    numbers = range(1, len(every) + 1) if signal.bearing is None else [signal.bearing]
+    return [(f"bearing {number}", every[number - 1]) for number in numbers]
+
+
+def _expected(one: KinematicFrequencies, whose: str) -> Iterator[tuple[str, str, float]]:
+    """Yield names, of what, and frequencies (Hz) of the lines of a bearing."""
+    for kind, name in (("shaft", "f_r"), ("cage", "f_c")):
+        of = f"{kind} of {whose}" if whose and kind != "shaft" else kind
+        for n in range(1, _HARMONICS + 1):
+            yield combination(n, name), of, n * getattr(one, name)
+    for kind, per, name, side in _FAMILIES:
+        of = f"{kind} of {whose}" if whose else kind
+        for n in range(1, _HARMONICS + 1):
+            carrier, step = n * per * getattr(one, name), getattr(one, side)
+            yield combination(n * per, name), of, carrier
+            for m in range(1, _SIDES + 1):
+                for sign in (-1, 1):
+                    if carrier + sign * m * step > 0.0:
+                        yield combination(n * per, name, sign * m, side), of, carrier + sign * m * step
+
+
+def _read(found: Envelope, name: str, of: str, frequency: float, slip: float) -> EnvelopeLine:
+    """Return a line as the spectrum has it; NaN where the spectrum does not reach so far."""
+    at, amplitude, ratio = found.at(frequency, slip * frequency)
+    over = 20.0 * math.log10(ratio) if ratio > 0.0 else math.nan
+    return EnvelopeLine(name, of, frequency, at, amplitude / found.mean, over)
+
+
+def _summit(values: NDArray[np.float64], k: int) -> tuple[float, float]:
+    """Return place and height of the parabola through the logarithms of a summit and its neighbours."""
+    if not 0 < k < values.size - 1 or values[k - 1 : k + 2].min() <= 0.0:
+        return float(k), float(values[k])
+    left, middle, right = np.log(values[k - 1 : k + 2]).tolist()
+    bend = left - 2.0 * middle + right
+    if bend >= 0.0 or max(left, right) > middle:
+        return float(k), float(values[k])
+    off = 0.5 * (left - right) / bend
+    return k + off, math.exp(middle - 0.25 * (left - right) * off)

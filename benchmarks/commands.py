@@ -32,6 +32,7 @@ COMMANDS = (
     f"sound S.toml {_BRIEF} --no-spread --output sound",
     "sound sound/recording.npz --at 1700 --no-directivity --no-wav --no-spread --output at",
     f"sound S.toml {_BRIEF} --fidelity rings --output rings",
+    "envelope sound/recording.npz --output envelope",
     "compare S.toml new.toml --fidelity rings --radiation-model compact --duration 0.1",
     "report S.toml --output S.html", "changes S.toml --no-levels", "choose S.toml",
     "sweep S.toml --axis speed=10000:14000:3 --output sweep", "sensitivity S.toml --quick --output study",

@@ -10,6 +10,7 @@
 ``runs``          simulate, plot
 ``compare``       two scenes, recordings or runs side by side
 ``sound``         levels, spectra, directivity, WAV
+``envelope``      envelope spectra, with the lines of defects
 ``studies``       choose, tradeoff, sensitivity, changes
 ``several``       sensitivity to several values at once
 ``stiffness``     K and C over speed, preload and frequency, and of a set's shaft
@@ -31,6 +32,7 @@
 from fmu_bearing.cli import (  # noqa: F401
     build,
     compare,
+    envelope,
     error_motion,
     fits,
     identify,

@@ -9,7 +9,10 @@ import typer.main
 from fmu_bearing.cli import app
 from tests.pages import DOCS
 
-RUN = {"simulate", "sound", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity", "identify"}
+RUN = {
+    "simulate", "sound", "envelope", "compare", "report", "sweep", "changes", "tradeoff", "sensitivity",
+    "identify",
+}  # fmt: skip
 SCENES = {
     *RUN,
     "build",
@@ -24,8 +27,8 @@ SCENES = {
 }
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
-    "scene new", "build", "simulate", "plot", "sound", "compare", "report", "stiffness", "modes", "tradeoff",
-    "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
+    "scene new", "build", "simulate", "plot", "sound", "envelope", "compare", "report", "stiffness",
+    "modes", "tradeoff", "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
     "error-motion",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
@@ -34,11 +37,12 @@ HAVE = {
     "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new", "vibration"}
     - {"sweep", "identify"},
     "--fidelity": {*RUN, "build", "realtime", "vibration", "error-motion"} - {"tradeoff", "sensitivity"},
-    "--radiation-model": {"sound", "compare", "report", "changes"},
+    "--radiation-model": {"sound", "envelope", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
     "--plot": {
         "simulate",
         "sound",
+        "envelope",
         "compare",
         "modes",
         "stiffness",
@@ -75,6 +79,7 @@ OTHERWISE = {
     ("sensitivity", "--window"): "0.1 with --method",
     ("plot", "--scene"): "a result in .nc knows it",
     ("sound", "--scene"): "With a result",
+    ("envelope", "--scene"): "for its lines",
     ("sound", "--microphone"): "Only these",
     ("compare", "--microphone"): "the loudest of A",
     ("modes", "--speeds"): "Campbell diagram",

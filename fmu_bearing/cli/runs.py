@@ -42,7 +42,7 @@ def simulate(
     settings: options.Settings = None,
     variables: options.Variables = None,
     plot: options.Plot = None,
-    output: Annotated[Path, options.output("Result to write: .csv as FMPy has it, or .nc.")] = Path(
+    output: Annotated[Path, options.output("Result to write: .csv as FMPy has it, .nc, or .uff.")] = Path(
         "result.csv"
     ),
     force: options.Force = False,
@@ -56,7 +56,7 @@ def simulate(
 
     with base.refusals():
         warnings.simplefilter("ignore", EndedEarly)  # printed below
-        results.check_target(output)  # refused before the run
+        results.check_target(output, endings=results.WRITTEN)  # refused before the run
         base.check_new(force, output, plot)
         if settle and not 0.0 < settle < stop_time:
             raise base.Refusal(f"--settle {settle:g} s is refused: allowed are 0 to less than --stop-time")

@@ -221,8 +221,8 @@ class Recording(ChannelHistory):
         >>> from fmu_bearing import record, with_fidelity
         >>> scene = with_fidelity("examples/scenes/7003C-bare.toml", model="rings")
         >>> signal = record(scene, 0.02, radiation_model="compact").signal("outer_ring.acceleration.z")
-        >>> signal.values.shape, signal.unit, signal.rate, signal.direction
-        ((1024,), 'm/s2', 51200.0, 'z')
+        >>> signal.values.shape, signal.unit, signal.rate
+        ((1024,), 'm/s2', 51200.0)
         """
         return recorded_signal(self, name, radiation_model)
 

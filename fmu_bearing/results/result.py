@@ -19,6 +19,7 @@ from fmu_bearing.extras import need
 from fmu_bearing.file_words import NETCDF, RESULT, trouble
 from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
+from fmu_bearing.results import uff
 from fmu_bearing.results.base import Result, write_netcdf, written
 from fmu_bearing.results.column_units import unit_of_suffix, written_unit
 from fmu_bearing.results.defect_lines import defect_labels
@@ -38,8 +39,9 @@ if TYPE_CHECKING:
 
 #: Why a run ended.
 COMPLETE, REFUSED, INTERRUPTED = "complete", "refused", "interrupted"
-#: Endings of files of results.
+#: Endings of files of results that can be read again, and of those that a run is written to.
 ENDINGS = (".csv", ".nc")
+WRITTEN = (*ENDINGS, ".uff")
 
 
 class ResultError(ValueError):
@@ -105,11 +107,16 @@ class Run(Series, Result):
         return html_table(f"{self.name} at {self._reached():g} s{ended}", head, rows)
 
     def save(self, path: str | os.PathLike[str]) -> pathlib.Path:
-        """Write to ``.csv`` (as FMPy writes it: SI units, full precision) or ``.nc`` (netCDF, with units).
+        """Write to ``.csv`` (as FMPy writes it: SI units, full precision), ``.nc`` (netCDF, with units).
 
-        Errors are those of `Result.save`.
+        Or to ``.uff``, a universal file for programs of modal analysis: a function over time per variable,
+        13 digits. Errors are those of `Result.save`; a universal file takes even steps alone.
         """
-        path = check_target(path)
+        path = check_target(path, endings=WRITTEN)
+        if path.suffix == ".uff":
+            places = {name: uff.place_of(name, unit) for name, unit in self._units().items()}
+            functions = [uff.signal(place, self.time, self[name]) for name, place in places.items()]
+            return uff.write_uff(path, functions, title=self.name)
         if path.suffix == ".csv":
             return write_whole(path, written(lambda file: write_csv(file, self.table), ".csv"))
         return write_netcdf(path, self.to_xarray())
@@ -293,21 +300,23 @@ def _listed(names: str | Sequence[str] | None) -> Sequence[str] | None:
     return [names] if isinstance(names, str) else names
 
 
-def check_target(path: str | os.PathLike[str], what: str = "a result") -> pathlib.Path:
+def check_target(
+    path: str | os.PathLike[str], what: str = "a result", endings: tuple[str, ...] = ENDINGS
+) -> pathlib.Path:
     """Return the path of a result, or raise if it cannot be written there; called before a long run.
 
-    ``what`` is written, for the message.
+    ``what`` is written, for the message, to files of these ``endings``.
 
     Raises
     ------
     ValueError
-        For an ending other than those of `ENDINGS`.
+        For another ending.
     OSError
         As `check_file`.
     MissingExtra
         For netCDF without xarray and h5netcdf.
     """
-    target = check_file(path, ENDINGS, what)
+    target = check_file(path, endings, what)
     if target.suffix == ".nc":
         need("xarray", "netCDF")
         need("h5netcdf", "netCDF")

@@ -32,6 +32,14 @@ class Place(NamedTuple):
     direction: str = ""
 
 
+def place_of(name: str, unit: str) -> Place:
+    """Return the place of a variable by its name: along an axis where it ends so, at its bearing's node."""
+    *_, part, last = ("", *name.split("."))
+    turned = part in ("tilt", "moment") or unit in ("rad", "rad/s", "N.m")
+    number = name[8 : name.find("]")] if name.startswith("bearing[") else "0"
+    return Place(name, unit, int(number), ("t" if turned else "") + last if last in ("x", "y", "z") else "")
+
+
 @dataclass(frozen=True, eq=False)
 class Function:
     """Values at even spacing: over time (s), or over frequency (Hz), complex, ``over`` what drives them."""

@@ -107,7 +107,7 @@ def test_an_interrupted_run_writes_what_it_has(run, rings_file, tmp_path):
         (("-s", "preload=much"), "write a number"),
         (("-s", "preloads=1"), "did you mean preload (N)?"),
         (("-s", "preload=-1"), "preload = -1.0 is refused: allowed are 0 to 10000 N"),
-        (("-o", "run.mat"), "written as .csv or .nc"),
+        (("-o", "run.mat"), "written as .csv, .nc or .uff"),
         (("-t", "-1"), "stop_time = -1.0 s"),
         (("-i", "none.csv"), "none.csv: there is no such file"),
         (("-v", "frictiontorque"), "did you mean 'friction_torque'"),

@@ -4,11 +4,14 @@ import json
 import os
 import shlex
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fmu_bearing.results.uff import Place, Shape, responses, signal, write_uff
+from fmu_bearing import simulate
+from fmu_bearing.results.uff import Place, Shape, place_of, responses, signal, write_uff
+from fmu_bearing.scene.read import with_fidelity
 
 PYUFF = os.environ.get("FMU_BEARING_PYUFF")
 RATE = 51_200.0
@@ -129,6 +132,32 @@ def test_other_endings_and_values_without_number_are_refused(tmp_path):
         write_uff(tmp_path / "a.unv.txt", [])
     with pytest.raises(ValueError, match=r"mic\[1\].leq is not a number at all times"):
         signal(Place("mic[1].leq", "dB"), [0.0, 1.0], [np.nan, 60.0])
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "place"),
+    [
+        ("bearing[2].force.x", "N", (2, "x")), ("bearing[12].moment.y", "N.m", (12, "ty")),
+        ("inner_ring.tilt.z", "rad", (0, "tz")), ("friction_torque", "N.m", (0, "")),
+        ("ball[3].velocity.y", "m/s", (0, "y")), ("mic[1].pressure", "Pa", (0, "")),
+    ],
+)  # fmt: skip
+def test_names_of_variables_say_where_and_which_way(name, unit, place):
+    assert place_of(name, unit) == (name, unit, *place)
+
+
+def test_a_run_is_written_with_its_units(scene, tmp_path):
+    kept = ["outer_ring.velocity.z", "friction_torque"]
+    run = simulate(with_fidelity(scene("7003C-bare"), model="rings"), 2e-3, step=1e-4, outputs=kept)
+    functions = [lines for kind, lines in sets_of(run.save(tmp_path / "run.uff")) if kind == 58]
+    assert [lines[0] for lines in functions] == kept
+    units = [columns(lines[8], 10, 5, 5, 5, 1, 20, 1, 20)[-1] for lines in functions]
+    assert units == ["m/s", "N.m"]
+    for name, lines in zip(kept, functions, strict=True):
+        values = [float(line[k : k + 20]) for line in lines[11:] for k in range(0, len(line), 20)]
+        assert values == pytest.approx(run[name], rel=1e-12)
+    with pytest.raises(ValueError, match="evenly spaced"):
+        replace(run, table=run.table[[0, 1, 4]]).save(tmp_path / "uneven.uff")
 
 
 @pytest.mark.skipif(PYUFF is None, reason="FMU_BEARING_PYUFF names no Python with pyuff 2.5")

@@ -216,7 +216,7 @@ def test_results_that_are_none_are_refused(tmp_path, rings):
     for name in ("none.csv", "none.nc", "text.nc"):
         with pytest.raises(ResultError, match=name):
             Run.load(tmp_path / name)
-    with pytest.raises(ValueError, match="written as .csv or .nc"):
+    with pytest.raises(ValueError, match="written as .csv, .nc or .uff"):
         simulate(rings, 1e-3).save(tmp_path / "run.mat")
     (tmp_path / "text.fmu").write_text("no FMU")
     for name in ("none.fmu", "text.fmu"):

@@ -49,12 +49,6 @@ class RecordedSignal:
     place: tuple[float, float, float] | None = None
 
     @property
-    def direction(self) -> str:
-        """``x``, ``y`` or ``z`` where the name ends so, else empty."""
-        last = self.name.rpartition(".")[2]
-        return last if last in ("x", "y", "z") else ""
-
-    @property
     def time(self) -> NDArray[np.float64]:
         """Time of each sample (s after initialisation)."""
         return self.start + np.arange(self.values.size) / self.rate

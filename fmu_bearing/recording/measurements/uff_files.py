@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.recorded_signals import RecordedSignal, recorded_signal, signal_names
-from fmu_bearing.results.uff import Function, Place, signal, write_uff
+from fmu_bearing.results.uff import Function, Place, place_of, signal, write_uff
 
 
 def write_signals(
@@ -48,9 +48,9 @@ def _functions(
 ) -> Iterator[Function]:
     """Yield signals as functions; microphones become nodes behind those that there are."""
     for one in signals:
-        node = one.bearing or 0
+        place = place_of(one.name, one.unit)._replace(node=one.bearing or 0)
         if one.place is not None:
-            node = max(nodes, default=0) + 1
+            place = Place(one.name, one.unit, max(nodes, default=0) + 1)
             if one.place[0] == one.place[0]:  # NaN: of an FMU's run without a scene
-                nodes[node] = one.place
-        yield signal(Place(one.name, one.unit, node, one.direction), one.time, one.values)
+                nodes[place.node] = one.place
+        yield signal(place, one.time, one.values)

@@ -25,7 +25,15 @@ Speeds = Annotated[
 #: Columns that a terminal has room for.
 _OF_MODES = ("Hz", "damping, %", "whirl", "what moves most", "kinetic energy, %")
 _OF_CROSSINGS = ("r/min", "Hz", "mode", "damping, %", "line", "made by, order")
-_FILES = ("modes.csv", "campbell.csv", "crossings.csv", "campbell.png", "shaft.png", "modes.html")
+_FILES = (
+    "modes.csv",
+    "modes.uff",
+    "campbell.csv",
+    "crossings.csv",
+    "campbell.png",
+    "shaft.png",
+    "modes.html",
+)
 
 
 @base.app.command()
@@ -44,8 +52,8 @@ def modes(
     """Show natural frequencies, damping, direction and what moves; with --speeds what excites them.
 
     With --plot, the picture of it, or --output the Campbell diagram is computed in any case. The folder gets
-    modes.csv, campbell.csv, crossings.csv, campbell.png and modes.html, with the shapes moving; of a set
-    shaft.png instead, the line of the shaft.
+    modes.csv, modes.uff with the shapes for programs of modal analysis, campbell.csv, crossings.csv,
+    campbell.png and modes.html, with the shapes moving; of a set shaft.png instead, the line of the shaft.
     """
     from fmu_bearing.modal.campbell.over_speed import campbell as over_speed
     from fmu_bearing.modal.modes.points import modes as at_speed
@@ -128,6 +136,7 @@ def _write(folder: Path, study: "Modes", diagram: "Campbell | None", files: base
     from fmu_bearing.results.base import write_rows
 
     files.append(write_rows(folder / "modes.csv", study.records()))
+    files.append(study.save(folder / "modes.uff"))
     if diagram is None:
         base.tell("no Campbell diagram: the scene's shaft does not turn; give --speeds")
         return

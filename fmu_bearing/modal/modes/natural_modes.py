@@ -1,9 +1,11 @@
 """Natural motions of a mounted bearing, or of a set on its shaft: modes, cautions, table."""
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +24,7 @@ from fmu_bearing.modal.modes.mode import (
     groups_of,
     weak_words,
 )
+from fmu_bearing.modal.modes.mode_files import write_modes
 from fmu_bearing.modal.modes.mode_shape import Shape, shape
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
@@ -119,6 +122,16 @@ class Modes(Result):
         """
         self._need_shaft("the picture of a line")
         return shaft_line.picture(self.scene, self.linearised, self.modes, self.rpm)
+
+    def save(self, path: str | os.PathLike[str]) -> Any:
+        """Write `summary` and `records` as `Result.save`, or shapes to ``.uff``; return the file.
+
+        A universal file has, for programs of modal analysis, eigenvalues, damping in them, and motions along
+        x, y and z at stations of a set's shaft, or of the two rings of a bearing.
+        """
+        if Path(path).suffix == ".uff":
+            return write_modes(path, self.scene, self.linearised, self.modes)
+        return super().save(path)
 
     def _need_shaft(self, what: str) -> None:
         if not self.on_shaft:

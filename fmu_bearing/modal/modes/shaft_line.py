@@ -18,18 +18,30 @@ if TYPE_CHECKING:
 
 _DRAWN = 6  # modes in the picture
 _POINTS = 81  # of a line in it
+_STATIONS = 41  # of a shaft in a universal file, besides its bearings
 
 
 def line(
     scene: Scene, system: Linearised, mode: Mode, places: Sequence[float] | None = None
 ) -> NDArray[np.complex128]:
     """Return y and z of the shaft at ``places`` (m from the nose), see `Modes.line`; shape (2, places)."""
-    shaft = shaft_model(scene, set_of(scene))
-    q = mode.vector[system.places : system.places + system.shaft.shaft_count]
     at = (0.0, *system.shaft.positions) if places is None else places
-    points = np.array([shaft.at(float(place))[1:3] @ q for place in at]).T
+    points = motion(scene, system, mode, at)[:, 1:].T
     largest = points.ravel()[int(np.argmax(abs(points)))]
     return np.asarray(points / largest if abs(largest) > 0.0 else points)
+
+
+def motion(scene: Scene, system: Linearised, mode: Mode, places: Sequence[float]) -> NDArray[np.complex128]:
+    """Return x, y and z of the shaft at ``places`` (m from the nose), as the eigenvector has them."""
+    shaft = shaft_model(scene, set_of(scene))
+    q = mode.vector[system.places : system.places + system.shaft.shaft_count]
+    return np.array([shaft.at(float(place))[:3] @ q for place in places])
+
+
+def stations(scene: Scene, system: Linearised) -> list[float]:
+    """Return even places along the shaft (m from the nose) with those of its bearings between."""
+    even = np.linspace(0.0, 1e-3 * set_of(scene).shaft.length_mm, _STATIONS)
+    return sorted({round(float(place), 9) for place in (*even, *system.shaft.positions)})
 
 
 def picture(scene: Scene, system: Linearised, modes: Sequence[Mode], rpm: float) -> "Figure":

@@ -41,6 +41,13 @@ def report(
             help="Whether it says what to change; default: yes, without levels where rings bend and of sets.",
         ),
     ] = None,
+    envelope: Annotated[
+        bool | None,
+        typer.Option(
+            "--envelope/--no-envelope",
+            help="Whether it has envelope spectra; default: where a bearing has a local defect.",
+        ),
+    ] = None,
     surface: options.SurfaceFile = None,
     keep: Annotated[
         Path | None, typer.Option(metavar="RUN.npz", help="Keep the run, for another report without running.")
@@ -61,7 +68,7 @@ def report(
         made, code = base.so_far(partial(
             make, chosen, output, duration=duration, settle=settle, radiation_model=radiation_model,
             radius=radius, title=title, speed=turning, run_up=speeds, run_up_time=run_up_time,
-            changes=changes, surface=surface, keep=keep, tell=base.tell,
+            changes=changes, envelope=envelope, surface=surface, keep=keep, tell=base.tell,
         ))  # fmt: skip
     missing = {key: reason for key, reason in made.sections.items() if reason}
     if as_json:

@@ -27,6 +27,7 @@ from fmu_bearing.reports.sections import (
     arrangement,
     ball_contacts,
     conditions,
+    envelopes,
     error_motion,
     friction,
     ring_motion,
@@ -111,6 +112,7 @@ def make(
     radius: float = RADIUS,
     title: str = "",
     changes: bool | None = None,
+    envelope: bool | None = None,
     surface: Surface | str | os.PathLike[str] | None = None,
     keep: str | os.PathLike[str] | None = None,
     tell: Tell = silent,
@@ -142,6 +144,8 @@ def make(
     changes : bool, optional
         Whether the page says what to change; default: yes, but without levels where rings bend, because
         their runs take 40 s, and of a set, 10 s for each bearing.
+    envelope : bool, optional
+        Whether the page has envelope spectra; default: where a bearing has a local defect.
     surface : Surface or path, optional
         A surface that was found from a vibration test, or its file: a scene takes its median law, and the
         range of the level its draws.
@@ -187,7 +191,7 @@ def make(
             rising = _run_up(subject, run_up, run_up_time, tell, progress)
     with python_warnings.catch_warnings(record=True) as caught:
         python_warnings.simplefilter("always", UserWarning)
-        sections, microphones = _sections(subject, rising, changes, tell, left)
+        sections, microphones = _sections(subject, rising, changes, envelope, tell, left)
     subject.warnings += [str(each.message) for each in caught if issubclass(each.category, UserWarning)]
     notes = summary.warnings_of(subject)
     if not left:
@@ -339,7 +343,12 @@ def _run_up(
 
 
 def _sections(
-    subject: Subject, rising: Subject | None, changes: bool | None, tell: Tell, left: list[str]
+    subject: Subject,
+    rising: Subject | None,
+    changes: bool | None,
+    envelope: bool | None,
+    tell: Tell,
+    left: list[str],
 ) -> tuple[list[Section], Microphones | None]:
     """All sections in the page's order; one that cannot be made gives the reason.
 
@@ -374,6 +383,7 @@ def _sections(
         ("changes", "What to change", lambda: what_to_change(subject, tell, changes)),
         ("modes", "Modes", lambda: what_vibrates(subject)),
         ("spectra", "Spectra", with_sound(lambda h: levels_and_spectra.spectra(subject, h))),
+        ("envelope", "Envelope", lambda: envelopes.envelopes(subject)),
         ("audio", "Listen", with_sound(playback.audio)),
         ("waterfall", "Waterfall", with_sound(lambda h: waterfall.fall(h, rising))),
         ("directivity", "Directivity", lambda: directivity_balloon.directivity(subject, microphones)),
@@ -388,6 +398,7 @@ def _sections(
     scene = subject.recording.scene
     asked = dict.fromkeys(("arrangement", "axial", "warmth"), subject.several)
     asked |= {"accelerometers": scene is not None and bool(scene.accelerometers)}
+    asked["envelope"] = envelopes.has_defects(scene) if envelope is None else envelope
     asked |= {"fits": scene is not None and scene.fit is not None, "changes": changes is not False}
     sections: list[Section] = []
     stopped = False

@@ -8,6 +8,7 @@
 ``arrangement``       of a set: the shaft, loads of its bearings, axial load, preload over temperatures
 ``what_to_change``    choices ranked by level, life and torque
 ``ring_motion``       velocities, orbits
+``envelopes``         envelope spectra of accelerations, where a bearing has a defect
 ``error_motion``      error motion of the axis of rotation: values, lines, sources
 ``accelerometers``     what accelerometers read, and its spectra
 ``ball_contacts``     loads and angles around the circle

@@ -27,6 +27,7 @@ __all__ = [
     "read_text",
     "real_path",
     "rescued",
+    "taking_place",
     "whole",
     "write_whole",
 ]
@@ -319,16 +320,23 @@ def whole(path: Path) -> Iterator[BinaryIO]:
     OSError
         Where it cannot be written, or is a pipe or a device, which the file would replace.
     """
+    with taking_place(path) as temporary:
+        # the user's mask may take rights away; more than these, none in the cache may have
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+        handle = os.open(temporary, flags, 0o644)
+        with naming(path), os.fdopen(handle, "wb") as file:
+            yield file
+
+
+@contextlib.contextmanager
+def taking_place(path: Path) -> Iterator[Path]:
+    """Give the path of a file that is to be written, as `whole` gives a file, for what opens it itself."""
     if path.exists() and not path.is_file():
         raise OSError(f"{path} is not a plain file: name another one to write")
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.parent / f".{path.name}.{os.urandom(6).hex()}"
-    # the user's mask may take rights away; more than these, none in the cache may have
-    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
-    handle = os.open(temporary, flags, 0o644)
     try:
-        with naming(path), os.fdopen(handle, "wb") as file:
-            yield file
+        yield temporary
         os.replace(temporary, path)
     except BaseException:
         temporary.unlink(missing_ok=True)

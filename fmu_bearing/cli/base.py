@@ -262,6 +262,31 @@ def check_new_in(force: bool, folder: Path | None, *patterns: str) -> None:
         check_new(force, *sorted({path for pattern in patterns for path in folder.glob(pattern)}))
 
 
+def keep_texts(texts: dict[str, str], folder: Path, force: bool, *patterns: str) -> None:
+    """Write files that repeat the work of a folder; refuse to replace the results of other work there."""
+    if not all((folder / name).is_file() and (folder / name).read_text("utf-8") == new
+               for name, new in texts.items()):  # fmt: skip
+        check_new_in(force, folder, *patterns)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, new in texts.items():
+        (folder / name).write_text(new, "utf-8")
+
+
+def show_estimate(found: dict[str, Any], what: str, as_json: bool) -> None:
+    """Print how long many runs are going to take (`sweeps.runs.estimate`)."""
+    from fmu_bearing.run.simulate import duration
+
+    if as_json:
+        print_json(found)
+        return
+    typer.echo(
+        f"{found['points']} {what}, {found['kept']} kept; one took {found['probe_s']:.3g} s "
+        f"(the first {found['first_s']:.3g} s, with loading and sound): about "
+        f"{duration(found['estimate_s'])} on {found['workers']} processes"
+        + (f"; the probe was refused: {found['reason']}" if found["reason"] else "")
+    )
+
+
 def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print one table within the width of the terminal; see `results.table.show`."""
     from fmu_bearing.results import table

@@ -127,3 +127,10 @@ Figures = Annotated[
 Workers = Annotated[
     int | None, typer.Option("--workers", "-w", min=1, help="Processes; default: one per core.")
 ]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Dask scheduler to use in their place, such as tcp://host:8786."),
+]
+DryRun = Annotated[
+    bool, typer.Option("--dry-run", help="Check all runs, time one of them, estimate; run no more.")
+]

@@ -28,13 +28,6 @@ AxisTexts = Annotated[
 ]
 Settle = Annotated[float | None, options.settle("; default 0.02, or the sweep file's: a map has many points")]
 Window = Annotated[float | None, typer.Option(help="Time over which it is read, s; default 0.1.")]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(metavar="ADDRESS", help="Dask scheduler to use in their place, such as tcp://host:8786."),
-]
-DryRun = Annotated[
-    bool, typer.Option("--dry-run", help="Check all points, time one of them, estimate; run no more.")
-]
 
 
 @base.app.command()
@@ -45,13 +38,13 @@ def sweep(
     settle: Settle = None,
     window: Window = None,
     workers: options.Workers = None,
-    scheduler: Scheduler = None,
+    scheduler: options.Scheduler = None,
     settings: options.Settings = None,
     fidelity: options.Fidelity = None,
     plot: options.Plot = None,
     output: options.Folder = Path("out/sweep"),
     force: options.Force = False,
-    dry_run: DryRun = False,
+    dry_run: options.DryRun = False,
     catalogue: options.Catalogues = None,
     as_json: options.Json = False,
 ) -> None:
@@ -114,12 +107,8 @@ def _plan(
 
 def _keep_plan(made: "Plan", text: str, folder: Path, force: bool) -> None:
     """Write the scene and a file that repeats the sweep; refuse to replace those of another sweep."""
-    texts = {folder / "scene.toml": made.scene.to_toml(), folder / "sweep.toml": text}
-    if not all(path.is_file() and path.read_text("utf-8") == new for path, new in texts.items()):
-        base.check_new_in(force, folder, "scene.toml", "sweep.*")
-    folder.mkdir(parents=True, exist_ok=True)
-    for path, new in texts.items():
-        path.write_text(new, "utf-8")
+    texts = {"scene.toml": made.scene.to_toml(), "sweep.toml": text}
+    base.keep_texts(texts, folder, force, "scene.toml", "sweep.*")
 
 
 def _run(
@@ -189,27 +178,8 @@ def _write(
 
 
 def _estimate(made: "Plan", output: Path, workers: int | None, as_json: bool) -> None:
-    """Time one point, twice: the first run also loads kernels and prepares the sound."""
-    from fmu_bearing.run.simulate import duration
-    from fmu_bearing.sweeps.point import run_point
-    from fmu_bearing.sweeps.runs import crew_size, finished
+    """Say how long the sweep is going to take."""
+    from fmu_bearing.sweeps.runs import estimate
     from fmu_bearing.sweeps.store import Store
 
-    kept = len(finished(made, Store(output))) if output.is_dir() else 0
-    task = made.tasks[len(made.tasks) // 2]
-    first, second = run_point(task), run_point(task)
-    left = len(made.tasks) - kept
-    crew = crew_size(left, workers)
-    seconds = left * second.wall / crew
-    result = {
-        "points": len(made.tasks), "kept": kept, "sounds": len(made.sounds), "probe_s": second.wall,
-        "first_s": first.wall, "workers": crew, "estimate_s": seconds, "reason": second.reason,
-    }  # fmt: skip
-    if as_json:
-        base.print_json(result)
-        return
-    typer.echo(
-        f"{len(made.tasks)} points, {kept} kept; one took {second.wall:.3g} s "
-        f"(the first {first.wall:.3g} s, with loading and sound): about {duration(seconds)} on {crew} "
-        "processes" + (f"; the probe was refused: {second.reason}" if second.reason else "")
-    )
+    base.show_estimate(estimate(made, Store(output) if output.is_dir() else None, workers), "points", as_json)

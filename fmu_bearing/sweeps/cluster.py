@@ -5,7 +5,7 @@ import logging
 import math
 import re
 import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from types import ModuleType
 from typing import Any
@@ -13,7 +13,7 @@ from typing import Any
 from fmu_bearing.extras import need
 from fmu_bearing.sweeps.axes import SweepError
 from fmu_bearing.sweeps.local import failed
-from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, code_digest, nothing, run_point
+from fmu_bearing.sweeps.point import Outcome, Run, Task, blocks_of, code_digest, nothing, run_point
 
 TIMEOUT = 10.0  # s in which a scheduler has to answer, and to have a worker
 _AHEAD = 4  # tasks per thread of the cluster that are handed out at once: none waits, none drowns it
@@ -28,7 +28,7 @@ _WAY_OUT = "install the same version of fmu-bearing, NumPy and Numba there"
 
 
 def cluster(
-    tasks: Sequence[Task], address: str, run: Callable[..., Outcome] = run_point, timeout: float = TIMEOUT
+    tasks: Sequence[Task], address: str, run: Run = run_point, timeout: float = TIMEOUT
 ) -> Iterator[tuple[Task, Outcome]]:
     """Run points on a cluster and yield each as it ends.
 

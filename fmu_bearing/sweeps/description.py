@@ -2,7 +2,8 @@
 
 import os
 import pathlib
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated, Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -63,37 +64,73 @@ def read_description(path: str | os.PathLike[str]) -> Description:
     SweepError
         With a line for each key that is refused.
     """
+    return read_file(path, Description, "a sweep", SWEEP, _EXAMPLES, {"axes.": _VALUES})
+
+
+File = TypeVar("File", bound=BaseModel)
+
+
+def read_file(
+    path: str | os.PathLike[str], model: type[File], what: str, due: str, examples: Mapping[str, str],
+    forms: Mapping[str, str], tables: Mapping[str, type[BaseModel]] | None = None,
+) -> File:  # fmt: skip
+    """Read a file that names a scene; the scene's path is then relative to the current folder.
+
+    Parameters
+    ----------
+    what, due : str
+        What it is, in messages, and as `file_words` names it.
+    examples : mapping
+        Of keys that may be missing.
+    forms : mapping
+        By the beginning of a key: what its value may be.
+    tables : mapping, optional
+        Models of arrays of tables by their key.
+
+    Raises
+    ------
+    SweepError
+        With a line for each key that is refused.
+    """
     path = pathlib.Path(path)
     try:
-        data = parse(text_of(path, SWEEP, LONGEST))
+        data = parse(text_of(path, due, LONGEST))
     except ValueError as problem:
         raise SweepError(f"{path}: {problem}") from None
     try:
-        description = Description.model_validate(data)
+        made = model.model_validate(data)
     except ValidationError as failure:
-        raise SweepError("\n".join(dict.fromkeys(f"{path}: {line}" for line in _lines(failure)))) from None
-    return description.model_copy(update={"scene": str(path.parent / description.scene)})
+        lines = [_line(error, model, what, examples, forms, tables or {}) for error in failure.errors()]
+        raise SweepError("\n".join(dict.fromkeys(f"{path}: {line}" for line in lines))) from None
+    return made.model_copy(update={"scene": str(path.parent / getattr(made, "scene"))})  # noqa: B009
 
 
-def _lines(failure: ValidationError) -> list[str]:
-    lines = []
-    for error in failure.errors(include_url=False):
-        key = ".".join(str(step) for step in error["loc"][:2])
-        if error["type"] == "extra_forbidden":
-            names = list(Description.model_fields)
-            near = nearest(key, names)
-            hint = f"did you mean '{near}'?" if near else f"known here: {', '.join(names)}"
-            lines.append(f"{key} is not a key of a sweep; {hint}")
-        elif error["type"] == "missing":
-            lines.append(f"{key} is missing, for example {_EXAMPLES[key]}")
-        elif key.startswith("axes."):
-            lines.append(f"{key} is refused: an array of values, or text such as '8000:40000:9'")
-        else:
-            lines.append(f"{key} = {_shown(error['input'])} is refused: {error['msg']}")
-    return lines
+def _line(
+    error: Any, model: type[BaseModel], what: str, examples: Mapping[str, str], forms: Mapping[str, str],
+    tables: Mapping[str, type[BaseModel]],
+) -> str:  # fmt: skip
+    """Say in one line what is wrong with a key."""
+    first, *rest = error["loc"]
+    inside = first in tables and len(rest) > 1
+    key = f"{first}[{rest[0] + 1}].{rest[1]}" if inside else ".".join(str(s) for s in error["loc"][:2])
+    last = str(rest[1]) if inside else str(first)
+    if error["type"] == "extra_forbidden":
+        names = [
+            field.alias or name for name, field in (tables[first] if inside else model).model_fields.items()
+        ]
+        near = nearest(last, names)
+        hint = f"did you mean '{near}'?" if near else f"known here: {', '.join(names)}"
+        return f"{key} is not a key of {what}; {hint}"
+    if error["type"] == "missing":
+        return f"{key} is missing, for example {examples[last]}"
+    form = next((words for start, words in forms.items() if key.startswith(start) or last == start), None)
+    if form is not None:
+        return f"{key} is refused: {form}"
+    return f"{key} = {_shown(error['input'])} is refused: {error['msg']}"
 
 
 _EXAMPLES = {"scene": 'scene = "my-scene.toml"', "axes": '[axes] with speed = "8000:40000:9"'}
+_VALUES = "an array of values, or text such as '8000:40000:9'"
 
 
 def _shown(value: Any) -> str:

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fmu_bearing.children import end_with_parent, surroundings
 from fmu_bearing.sweeps.axes import SweepError
-from fmu_bearing.sweeps.point import Outcome, Task, blocks_of, nothing, run_point
+from fmu_bearing.sweeps.point import Outcome, Run, Task, blocks_of, nothing, run_point
 
 TRIES = 3  # of a point whose worker dies
 _START = 10.0  # s that a process may take to come to life before it can be ended
@@ -26,8 +26,6 @@ _CANNOT_START = (
     "the worker processes cannot start: a script that calls sweep must do so under "
     "`if __name__ == '__main__':`, as each worker reads it; or give workers=1, which needs none"
 )
-
-Run = Callable[[Task], Outcome]
 
 
 def here(tasks: Iterable[Task], run: Run = run_point) -> Iterator[tuple[Task, Outcome]]:

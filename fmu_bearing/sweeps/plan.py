@@ -113,7 +113,7 @@ def plan_of(
     if "fidelity.model" not in {axis.key for axis in axes}:
         scene, choice = resolve(scene)
         note = "" if choice is None else choice.words()
-    scenes = _scenes(scene, axes, points)
+    scenes = varied(scene, [{a.key: v for a, v in zip(axes, point, strict=True)} for point in points])
     if any(one.bends for one in scenes):
         need("skfem", BENDING)  # reported once, and not as the reason of every point
     for model in dict.fromkeys(one.fidelity.model for one in scenes if is_loose(one)):
@@ -129,18 +129,23 @@ def plan_of(
     return Plan(scene, axes, settle, window, kept, tuple(tasks), note)
 
 
-def _scenes(scene: Scene, axes: tuple[Axis, ...], points: Sequence[Sequence[Any]]) -> list[Scene]:
-    """Return the scene of each point, or raise with all refusals."""
+def varied(scene: Scene, points: Sequence[Mapping[str, Any]]) -> list[Scene]:
+    """Return the scene of each point, whose values are given by dotted key.
+
+    Raises
+    ------
+    SweepError
+        With all refusals, each once.
+    """
     scenes: list[Scene] = []
     problems = [
-        f"{axis.key}: the scene has no table [{table}]; add it to vary what it holds"
-        for axis in axes
-        if (table := axis.key.rpartition(".")[0]) and value_at(scene, table) is None
+        f"{key}: the scene has no table [{table}]; add it to vary what it holds"
+        for key in dict.fromkeys(key for point in points for key in point)
+        if (table := key.rpartition(".")[0]) and value_at(scene, table) is None
     ]
     if problems:
         raise SweepError("\n".join(problems))
-    for values in points:
-        chosen = {axis.key: value for axis, value in zip(axes, values, strict=True)}
+    for chosen in points:
         if chosen.get("fidelity.model") == "auto":
             problems.append(
                 "fidelity.model = 'auto' is refused as a value of an axis: it is decided by timing; give "
@@ -165,4 +170,4 @@ def _check_times(settle: float, window: float) -> None:
         raise SweepError(f"window = {window} s is refused: allowed are 0.001 to 1000 s")
 
 
-__all__ = ["SETTLE", "WINDOW", "Plan", "SceneError", "plan", "plan_of"]
+__all__ = ["SETTLE", "WINDOW", "Plan", "SceneError", "plan", "plan_of", "varied"]

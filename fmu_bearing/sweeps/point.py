@@ -6,7 +6,9 @@ import itertools
 import json
 import math
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +76,10 @@ class Outcome:
     lasting: bool = True
 
 
+#: What runs a task; on a cluster it is given the sound blocks, too.
+Run = Callable[..., Outcome]
+
+
 def nothing(task: Task, reason: str, wall: float = math.nan, *, lasting: bool = False) -> Outcome:
     """Return an outcome without figures."""
     return Outcome((math.nan,) * len(task.figures), reason, wall, lasting)
@@ -83,11 +89,16 @@ def task_of(
     scene: Scene, settle: float, window: float, figures: tuple[str, ...], sound: Scene | None
 ) -> Task:  # fmt: skip
     """Return the task of a scene; its key names scene, settings and code."""
-    parts = [scene.model_dump(mode="json"), settle, window, figures, code_digest()]
+    key = key_of(scene, settle, window, figures)
+    return Task(key, scene, settle, window, figures, sound, code_digest())
+
+
+def key_of(scene: Scene, *settings: Any) -> str:
+    """Return the key of a run: of scene, settings and code."""
+    parts = [scene.model_dump(mode="json"), *settings, code_digest()]
     if scene.sound is not None and scene.sound.table_file is not None:
         parts.append(_content(scene.sound.table_file))
-    key = hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:24]
-    return Task(key, scene, settle, window, figures, sound, code_digest())
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:24]
 
 
 def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:

@@ -89,7 +89,7 @@ def save(data: "xarray.Dataset", folder: str | os.PathLike[str]) -> dict[str, pa
     need("h5netcdf", "netCDF")
     netcdf = write_netcdf(pathlib.Path(folder) / "sweep.nc", data)
     columns, rows = table_of(data)
-    cells = [[_text(value) for value in row] for row in rows]
+    cells = [[text_of(value) for value in row] for row in rows]
     return {"netcdf": netcdf, "csv": write_csv(netcdf.with_suffix(".csv"), columns, cells)}
 
 
@@ -103,7 +103,8 @@ def table_of(data: "xarray.Dataset") -> tuple[list[str], list[list[Any]]]:
     return heads, [list(row) for row in zip(*whole, strict=True)]
 
 
-def _text(value: Any) -> str:
+def text_of(value: Any) -> str:
+    """Return the text of a cell: numbers with all their digits, nothing for NaN."""
     if isinstance(value, float):  # NumPy's numbers are of this kind too
         return "" if math.isnan(value) else repr(float(value))
     return str(value)

@@ -1,24 +1,48 @@
 """Running the points that are not finished, with progress."""
 
 import time as clock
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
+from typing import Any, Protocol
 
 from fmu_bearing.progress import Stopped, work
+from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.local import here, processes
-from fmu_bearing.sweeps.plan import Plan
-from fmu_bearing.sweeps.point import Outcome, Task
-from fmu_bearing.sweeps.store import Store
+from fmu_bearing.sweeps.point import Outcome, Run, Task, run_point
 from fmu_bearing.threads import cores
 
 Outcomes = dict[str, Outcome]
 
 
+class Planned(Protocol):
+    """What is to be run: a `Plan` of a sweep, or of a data set."""
+
+    @property
+    def tasks(self) -> Sequence[Task]:
+        """One per point."""
+
+    @property
+    def sounds(self) -> Sequence[Scene]:
+        """Scenes whose sound is prepared, once each."""
+
+
+class Keeps(Protocol):
+    """Finished points on disk."""
+
+    def load(self, task: Task) -> Outcome | None:
+        """Return the kept outcome of a point, or None."""
+
+    def keep(self, task: Task, outcome: Outcome) -> Outcome:
+        """Write a point; return what of it stays in memory."""
+
+
 def run_plan(
-    plan: Plan, store: Store | None = None, workers: int | None = None, scheduler: str | None = None,
-    progress: bool | None = None,
+    plan: Planned, store: Keeps | None = None, workers: int | None = None, scheduler: str | None = None,
+    progress: bool | None = None, run: Run = run_point, what: str = "points",
 ) -> Outcomes:  # fmt: skip
     """Run the points that ``store`` does not hold and return all outcomes by key.
+
+    ``run``: what a worker does with a task; ``what``: the name of the points in the progress.
 
     Raises
     ------
@@ -39,20 +63,18 @@ def run_plan(
         return outcomes
     try:
         with (
-            _bar(len(tasks), len(outcomes), progress) as tell,
-            closing(_ends(todo, workers, scheduler)) as ends,
+            _bar(what, len(tasks), len(outcomes), progress) as tell,
+            closing(_ends(todo, workers, scheduler, run)) as ends,
         ):
             for task, outcome in ends:
-                outcomes[task.key] = outcome
-                if store is not None:
-                    store.keep(task, outcome)
+                outcomes[task.key] = outcome if store is None else store.keep(task, outcome)
                 tell(len(outcomes))
     except KeyboardInterrupt:
-        raise Stopped(outcomes, f"{len(tasks) - len(outcomes)} of {len(tasks)} points") from None
+        raise Stopped(outcomes, f"{len(tasks) - len(outcomes)} of {len(tasks)} {what}") from None
     return outcomes
 
 
-def finished(plan: Plan, store: Store | None) -> Outcomes:
+def finished(plan: Planned, store: Keeps | None) -> Outcomes:
     """Return the points of a plan that are in the store."""
     if store is None:
         return {}
@@ -65,29 +87,45 @@ def crew_size(tasks: int, workers: int | None) -> int:
     return max(1, min(tasks, cores() if workers is None else workers))
 
 
+def estimate(
+    plan: Planned, store: Keeps | None, workers: int | None, run: Run = run_point
+) -> dict[str, Any]:  # fmt: skip
+    """Time one point, twice: the first run also loads kernels and prepares the sound; return what is left."""
+    kept = len(finished(plan, store))
+    task = plan.tasks[len(plan.tasks) // 2]
+    first, second = run(task), run(task)
+    left = len({one.key for one in plan.tasks}) - kept
+    crew = crew_size(left, workers)
+    return {
+        "points": len(plan.tasks), "kept": kept, "sounds": len(plan.sounds), "probe_s": second.wall,
+        "first_s": first.wall, "workers": crew, "estimate_s": left * second.wall / crew,
+        "reason": second.reason,
+    }  # fmt: skip
+
+
 def _ends(
-    tasks: list[Task], workers: int | None, scheduler: str | None
+    tasks: list[Task], workers: int | None, scheduler: str | None, run: Run
 ) -> Generator[tuple[Task, Outcome]]:  # fmt: skip
     if scheduler is not None:
         from fmu_bearing.sweeps.cluster import cluster
 
-        yield from cluster(tasks, scheduler)
+        yield from cluster(tasks, scheduler, run)
     elif crew_size(len(tasks), workers) == 1:
-        yield from here(tasks)
+        yield from here(tasks, run)
     else:
-        yield from processes(tasks, crew_size(len(tasks), workers))
+        yield from processes(tasks, crew_size(len(tasks), workers), run)
 
 
 @contextmanager
-def _bar(total: int, kept: int, shown: bool | None) -> Iterator[Callable[[int], None]]:
+def _bar(what: str, total: int, kept: int, shown: bool | None) -> Iterator[Callable[[int], None]]:
     """Show points done and left, the pace, and the time left."""
-    name = "points" if not kept else f"points ({kept} kept)"
+    name = what if not kept else f"{what} ({kept} kept)"
     with work(name, total, shown=shown, keep=True) as bar:
         bar.at(kept)
         begin = clock.perf_counter()
 
         def tell(done: int) -> None:
             pace = 60.0 * (done - kept) / max(clock.perf_counter() - begin, 1e-9)
-            bar.at(done, f"{pace:.3g} points/min")
+            bar.at(done, f"{pace:.3g} {what}/min")
 
         yield tell

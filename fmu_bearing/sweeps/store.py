@@ -36,10 +36,10 @@ class Store:
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
 
-    def keep(self, task: Task, outcome: Outcome) -> None:
-        """Write a point, unless another try may give another result."""
+    def keep(self, task: Task, outcome: Outcome) -> Outcome:
+        """Write a point, unless another try may give another result; return it."""
         if not outcome.lasting:
-            return
+            return outcome
         figures = zip(task.figures, outcome.figures, strict=True)
         point = {
             "key": task.key,
@@ -50,6 +50,7 @@ class Store:
         }
         text = json.dumps({"check": _check(point), "point": point}, indent=1)
         write_whole(self._path(task), text.encode("utf-8"))
+        return outcome
 
     def _path(self, task: Task) -> pathlib.Path:
         return self.folder / f"{task.key}.json"

@@ -135,8 +135,8 @@ def test_refused_points_are_counted_with_their_reason(run, silent_file, tmp_path
 
 @pytest.mark.heavy
 def test_ctrl_c_ends_with_130_and_says_how_to_go_on(silent_file, tmp_path, monkeypatch):
-    def one_then_ctrl_c(tasks):
-        yield next(local.here(tasks))
+    def one_then_ctrl_c(tasks, run):
+        yield next(local.here(tasks, run))
         raise KeyboardInterrupt
 
     monkeypatch.setattr(runs, "here", one_then_ctrl_c)

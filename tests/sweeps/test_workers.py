@@ -63,11 +63,10 @@ def test_lost_workers_lose_no_point(silent, trace, monkeypatch):
     assert points.tries(trace) == {1e3: 1, 2e3: 2, 3e3: 1, 4e3: 2, 5e3: 1, 6e3: 1}
 
 
-def test_a_restart_runs_only_what_is_missing(silent, trace, tmp_path, monkeypatch):
+def test_a_restart_runs_only_what_is_missing(silent, trace, tmp_path):
     made = points.small(silent)
-    monkeypatch.setattr(runs, "here", lambda tasks: local.here(tasks, points.plain))
     store = Store(tmp_path / "out")
-    before = run_plan(made, store, workers=1)
+    before = run_plan(made, store, workers=1, run=points.plain)
     files = sorted((tmp_path / "out" / "points").iterdir())
     assert len(files) == 6 and len(list(trace.iterdir())) == 6
     files[0].write_text(files[0].read_text()[:-20])  # cut short
@@ -75,10 +74,10 @@ def test_a_restart_runs_only_what_is_missing(silent, trace, tmp_path, monkeypatc
         files[1].read_text().replace('"contact.inner.load_mean": ', '"contact.inner.load_mean": 1')
     )
     files[2].unlink()
-    again = run_plan(made, store, workers=1)
+    again = run_plan(made, store, workers=1, run=points.plain)
     assert again == before
     assert sorted(points.tries(trace).values()) == [1, 1, 1, 2, 2, 2]
-    assert run_plan(made, store, workers=1) == before and len(list(trace.iterdir())) == 9
+    assert run_plan(made, store, workers=1, run=points.plain) == before and len(list(trace.iterdir())) == 9
 
 
 def test_what_failed_with_its_worker_is_tried_again_by_a_restart(silent, tmp_path):
@@ -95,15 +94,15 @@ def test_ctrl_c_keeps_what_is_finished(silent, trace, tmp_path, monkeypatch):
     made = points.small(silent, speeds=range(1000, 9000, 1000))
     store = Store(tmp_path / "out")
 
-    def three_then_ctrl_c(tasks, workers):
-        for count, end in enumerate(local.processes(tasks, workers - 1, points.slow), start=1):
+    def three_then_ctrl_c(tasks, workers, run):
+        for count, end in enumerate(local.processes(tasks, workers - 1, run), start=1):
             if count == 4:
                 os.kill(os.getpid(), signal.SIGINT)
             yield end
 
     monkeypatch.setattr(runs, "processes", three_then_ctrl_c)
     with pytest.raises(Stopped) as caught:
-        run_plan(made, store, workers=2)
+        run_plan(made, store, workers=2, run=points.slow)
     assert caught.value.missing == "5 of 8 points"
     assert len(caught.value.found) == 3 == len(list((tmp_path / "out" / "points").glob("*.json")))
     workers = {int(path.read_text()) for path in trace.iterdir()}

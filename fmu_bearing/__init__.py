@@ -35,6 +35,7 @@ Data flow in one direction::
 ``accuracy``        error against cost, sensitivity to assumed values and to a designer's choices
 ``identification``  numbers of a scene from measured sound and vibration
 ``sweeps``          a scene over a grid or samples of its values
+``dataset``         labelled data sets: waveforms of many runs
 ``reports``         one HTML page about a run
 ``validation``      checks of an FMU against FMI 2.0
 ``testing``         fixtures for pytest: FMUs against recorded references

@@ -11,12 +11,14 @@ __all__ = ["absent", "instead", "one_line", "text_of", "trouble", "why"]
 
 EMPTY, SCENE, SWEEP, FMU, TABLE = "an empty file", "a scene", "a sweep", "an FMU", "a table of values (CSV)"
 RESULT, RECORDING, CATALOGUE = "a result of a run", "a recording", "a catalogue of bearings"
+DATASET = "a plan of a data set"
 SURFACE, NETCDF = "a surface found from a vibration test", "a netCDF or HDF5 file"
 
 #: What a file has to hold, and where one comes from.
 _DUE = {
     SCENE: "a scene is a TOML file, which `fmu-bearing scene new` writes",
     SWEEP: "a sweep is a TOML file with scene and [axes]",
+    DATASET: "a plan of a data set is a TOML file with scene, runs and [[class]]",
     FMU: "`fmu-bearing build` makes an FMU of a scene",
     TABLE: "write lines of values under a line of names",
     RESULT: "`fmu-bearing simulate` writes results, as .csv or .nc",
@@ -29,6 +31,7 @@ _DUE = {
 _READ = {
     SCENE: "`fmu-bearing info` and most other commands read scenes",
     SWEEP: "`fmu-bearing sweep` runs it",
+    DATASET: "`fmu-bearing dataset` runs it",
     FMU: "`fmu-bearing simulate` runs an FMU, `validate` checks one",
     TABLE: "`fmu-bearing plot` and `compare` read results of runs",
     RECORDING: "`fmu-bearing sound`, `report` and `compare` read recordings",
@@ -64,6 +67,7 @@ _BEGINNINGS = {
 _OF_MODELICA = b"Aclass\0"  # first matrix of a result file (Modelica tools write version 4 of .mat)
 _OF_SCENE = re.compile(r"^\s*\[+\s*(bearing|mounting|spindle|operation|lubricant)\b", re.MULTILINE)
 _OF_SWEEP = re.compile(r"^\s*\[\s*axes\s*\]", re.MULTILINE)
+_OF_DATASET = re.compile(r"^\s*\[\[\s*class\s*\]\]", re.MULTILINE)
 _OF_SURFACE = re.compile(r"^\s*\[\s*draws\s*\]", re.MULTILINE)
 _LONGEST = 300  # characters of a library's words that are repeated
 _HEAD = 65_536  # bytes that are looked at; the tables of a scene begin among the first
@@ -171,6 +175,8 @@ def _holds(path: str | os.PathLike[str]) -> str:
         return SCENE
     if _OF_SWEEP.search(text):
         return SWEEP
+    if _OF_DATASET.search(text):
+        return DATASET
     if _OF_SURFACE.search(text):
         return SURFACE
     if "=" not in first and any(mark in first for mark in ",;\t"):

@@ -43,8 +43,8 @@ _HEAD = """Made by `python -m benchmarks.commands`: seconds of the processor (us
 too) for each command in a process of its own. S.toml is the example 7003C-spindle, 20,000 r/min, or 7003C-DB,
 15,000 r/min, with four microphones; F.toml is the same with js5 on P4. `scene new` has `--arrangement DB` for
 the pair. Sound is of radiation model `compact`; kernels were compiled before. Other work ran beside: caches
-and clock are shared, so that a figure is good to some 20 %. `warm-up` compiles once, and `identify` needs a
-measurement: they are left out.
+and clock are shared, so that a figure is good to some 20 %. `warm-up` compiles once, `identify` needs a
+measurement, and `dataset` has a table of its own: they are left out.
 """
 
 

@@ -41,6 +41,7 @@ COMMANDS: dict[tuple[str, ...], tuple[str, ...]] = {
     ("commands",): ("-m", "benchmarks.commands", f"{_HERE}/commands.md"),
     ("sensitivity",): (*_FMU_BEARING, "sensitivity", _SPINDLE, "--output", _HERE, "--force"),
     ("first_sound",): ("-m", "benchmarks.first_sound", f"{_HERE}/first_sound.md"),
+    ("dataset",): ("-m", "benchmarks.dataset", f"{_HERE}/dataset.md"),
     ("settled",): ("-m", "benchmarks.settled", f"{_HERE}/settled.md"),
     ("vibration",): ("-m", "benchmarks.vibration", f"{_HERE}/vibration.md"),
     ("coupling",): (

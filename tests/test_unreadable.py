@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from fmu_bearing import Recording, audio, cli, identify, read_scene, record, report, simulate
 from fmu_bearing.acoustics.radiation.table import read_table
+from fmu_bearing.dataset import read_plan
 from fmu_bearing.results.result import Run
 from fmu_bearing.run.input_file import read_inputs
 from fmu_bearing.scene import SceneError
@@ -34,6 +35,7 @@ READERS = {
     "scene": (read_scene, ".toml"),
     "catalogue": (from_catalogue, ".toml"),
     "sweep": (read_description, ".toml"),
+    "data set": (read_plan, ".toml"),
     "table": (read_table, ".npz"),
     "recording": (Recording.load, ".npz"),
     "report": (lambda path: report(path, path.with_name("page.html")), ".npz"),

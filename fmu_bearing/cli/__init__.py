@@ -16,6 +16,7 @@
 ``stiffness``     K and C over speed, preload and frequency, and of a set's shaft
 ``fits``          what tolerances of shaft and housing do
 ``sweep``         a scene over a grid of its values
+``dataset``       labelled waveforms of many runs
 ``identify``      numbers of a scene from measured levels
 ``realtime``      what steps cost beside the clock, by fidelity
 ``modes``         natural frequencies, and over speed what excites them
@@ -32,6 +33,7 @@
 from fmu_bearing.cli import (  # noqa: F401
     build,
     compare,
+    dataset,
     envelope,
     error_motion,
     fits,

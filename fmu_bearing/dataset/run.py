@@ -95,7 +95,8 @@ def computed(
     kept = resampled(read, rate, size)
     if not np.isfinite(kept).all():
         raise ArithmeticError("the waveforms are not finite")
-    return measured(recording, counts) | shapes(units, kept), kept
+    labels = measured(recording) | passages(recording, counts, settle, length)
+    return labels | shapes(units, kept), kept
 
 
 def defects_of(scene: Scene) -> int:
@@ -103,15 +104,20 @@ def defects_of(scene: Scene) -> int:
     return 0 if scene.imperfections is None else len(getattr(scene.imperfections, "defect", ()))
 
 
-def measured(recording: Recording, counts: list[str]) -> dict[str, Label]:
-    """Return frequencies (Hz) as the bearings turned, passages of defects, restarts of the solver."""
+def measured(recording: Recording) -> dict[str, Label]:
+    """Return frequencies (Hz) as the bearings turned, and restarts of the solver."""
     scene = recording.scene
     assert scene is not None
-    kept, labels = recording.within(), dict[str, Label]()
+    labels = dict[str, Label]()
     for bearing, turned in zip(scene.bearings(), recording.bearing_kinematics(), strict=True):
         labels |= {f"{bearing.prefix}{name}_Hz": value for name, value in turned._asdict().items()}
-    labels |= {name: int(kept[name][-1] - kept[name][0]) for name in counts}
     return labels | {_RESTARTS: int(recording.outputs[_RESTARTS][-1])}
+
+
+def passages(recording: Recording, counts: list[str], settle: float, length: float) -> dict[str, Label]:
+    """Return how many balls passed each defect while the waveforms were taken."""
+    ends = np.searchsorted(recording.output_time, (settle, settle + length), side="right") - 1
+    return {name: int(np.subtract(*recording.outputs[name][ends[::-1]])) for name in counts}
 
 
 def shapes(units: dict[str, str], waveforms: NDArray[np.float32]) -> dict[str, Label]:

@@ -1,6 +1,7 @@
 """No command replaces a file that is there, unless --force is given; it refuses before it computes."""
 
 import hashlib
+import os
 
 import pytest
 
@@ -53,6 +54,7 @@ WRITING = {
         ("sweep", "{scene}", "-a", "speed=5000,9000", "-o", "{folder}", "--plot", "{folder}/s.png"),
         ["s.png"],
     ),
+    "dataset": (("dataset", "{plan}", "-o", "{folder}"), ["labels.csv", "waveforms.nc"]),
     "identify": (("identify", "{scene}", "{result}", "-f", "x", "-o", "{folder}/i.toml"), ["i.toml"]),
     "identify, folder": (
         ("identify", "{scene}", "{result}", "-f", "x", "-o", "{folder}/i.toml"), ["i/levels.csv"],
@@ -70,11 +72,16 @@ def test_a_file_that_is_there_is_kept(name, run, rings_file, tmp_path, monkeypat
     words, files = WRITING[name]
     folder, result = tmp_path / "out", tmp_path / "result.csv"
     result.write_text("time,friction_torque\n0,1\n1,1\n")
+    plan = tmp_path / "plan.toml"
+    plan.write_text(
+        f'scene = "{os.path.relpath(rings_file, tmp_path)}"\nruns = 1\n[[class]]\nname = "a"\nshare = 1\n'
+    )
     there = [tmp_path / file if name == "plot" else folder / file for file in files]
     for file in there:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("mine")
-    refused = run(*(word.format(scene=rings_file, folder=folder, result=result) for word in words))
+    given = {"scene": rings_file, "folder": folder, "result": result, "plan": plan}
+    refused = run(*(word.format(**given) for word in words))
     assert refused.exit_code == 2, refused.output
     for file in there:
         assert str(file) in refused.stderr and file.read_text() == "mine"

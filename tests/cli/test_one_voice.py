@@ -24,19 +24,21 @@ SCENES = {
     "choose",
     "vibration",
     "error-motion",
+    "dataset",
 }
 FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "envelope", "compare", "report", "stiffness",
     "modes", "tradeoff", "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
-    "error-motion",
+    "error-motion", "dataset",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
     "--set": SCENES,
     "--speed": {*RUN, "info", "modes", "fits", "realtime", "choose", "scene new", "vibration"}
     - {"sweep", "identify"},
-    "--fidelity": {*RUN, "build", "realtime", "vibration", "error-motion"} - {"tradeoff", "sensitivity"},
+    "--fidelity": {*RUN, "build", "realtime", "vibration", "error-motion", "dataset"}
+    - {"tradeoff", "sensitivity"},
     "--radiation-model": {"sound", "envelope", "compare", "report", "changes"},
     "--settle": RUN - {"changes"},
     "--plot": {

@@ -25,7 +25,7 @@ Data flow in one direction::
 ``instance``        one running bearing, for the library and for the FMU
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``results``         values of variables over time: tables, files, spectra, pictures
-``modal``           small motions: natural modes, Campbell diagram
+``modal``           small motions: natural modes, Campbell diagram, receptance of the nose
 ``run``             a scene or an FMU run over inputs; fidelity ``auto``
 ``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
     from fmu_bearing.modal.modes.natural_modes import Modes
     from fmu_bearing.modal.modes.points import modes
+    from fmu_bearing.modal.receptance.scene_receptance import Receptance, receptance
     from fmu_bearing.recording.measurements import audio, measure, pictures, tables
     from fmu_bearing.recording.record import Recording, record
     from fmu_bearing.recording.studies.compare import compare
@@ -97,6 +98,7 @@ _PLACES = {
     "Dimensions": "scene.own_bearing",
     "ErrorMotion": "metrology.error_motion",
     "Modes": "modal.modes.natural_modes",
+    "Receptance": "modal.receptance.scene_receptance",
     "Recording": "recording.recording",
     "Run": "results.result",
     "Scene": "scene",
@@ -121,6 +123,7 @@ _PLACES = {
     "pictures": "recording.measurements",
     "read_scene": "scene",
     "realtime": "run.realtime",
+    "receptance": "modal.receptance.scene_receptance",
     "record": "recording.record",
     "report": "reports",
     "simulate": "run.simulate",
@@ -141,6 +144,7 @@ __all__ = [
     "Dimensions",
     "ErrorMotion",
     "Modes",
+    "Receptance",
     "Recording",
     "Run",
     "Scene",
@@ -165,6 +169,7 @@ __all__ = [
     "pictures",
     "read_scene",
     "realtime",
+    "receptance",
     "record",
     "report",
     "simulate",

@@ -14,6 +14,7 @@
 ``studies``       choose, tradeoff, sensitivity, changes
 ``several``       sensitivity to several values at once
 ``stiffness``     K and C over speed, preload and frequency, and of a set's shaft
+``receptance``    motion of the nose per force on it, over frequency
 ``fits``          what tolerances of shaft and housing do
 ``sweep``         a scene over a grid of its values
 ``dataset``       labelled waveforms of many runs
@@ -41,6 +42,7 @@ from fmu_bearing.cli import (  # noqa: F401
     info,
     modes,
     realtime,
+    receptance,
     report,
     runs,
     scenes,

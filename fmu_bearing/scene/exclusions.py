@@ -30,6 +30,7 @@ Subject = Literal[
     "measurement",
     "modes",
     "plane",
+    "receptance",
     "recording",
     "report",
     "response",
@@ -249,7 +250,10 @@ EXCLUSIONS = (
     ),
     Exclusion(
         _PORT,
-        {"modes": "natural modes and their Campbell diagram"},
+        {
+            "modes": "natural modes and their Campbell diagram",
+            "receptance": "receptance of the nose and milling stability",
+        },
         "another model owns the shaft, and they depend on its mass",
         _OWN_SHAFT,
     ),

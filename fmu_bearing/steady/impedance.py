@@ -11,8 +11,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 from fmu_bearing.engine.layout import STRIDE, P, Y
 from fmu_bearing.modal.equations.bearing import BearingLinearised
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 
-FREEDOMS = ("x", "y", "z", "by", "bz")  # m, and tilts (rad), of the inner ring
 _BALL_PLACES = Y.PLACES // STRIDE  # ball states that are places
 _ORBIT = Y.TH // STRIDE  # the place round the bearing
 # rad/s: as good as rest. What is slowest in a bearing, the balls' spin, follows at some 1 to 1e3 1/s, and K

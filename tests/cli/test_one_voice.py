@@ -19,6 +19,7 @@ SCENES = {
     "info",
     "modes",
     "stiffness",
+    "receptance",
     "fits",
     "realtime",
     "choose",
@@ -30,7 +31,7 @@ FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "envelope", "compare", "report", "stiffness",
     "modes", "tradeoff", "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
-    "error-motion", "dataset",
+    "error-motion", "dataset", "receptance",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
@@ -48,6 +49,7 @@ HAVE = {
         "compare",
         "modes",
         "stiffness",
+        "receptance",
         "fits",
         "tradeoff",
         "sensitivity",
@@ -88,6 +90,8 @@ OTHERWISE = {
     ("stiffness", "--speeds"): "default: the scene's",
     ("build", "--platforms"): "default: this machine's",
     ("sound", "--at"): "What makes the noise",
+    ("receptance", "--speeds"): "default: the scene's",
+    ("receptance", "--frequencies"): "default: 20:5000:2491",
     ("error-motion", "--at"): "Place of the point",
     ("error-motion", "--speeds"): "default: the scene's",
     ("vibration", "--speed"): "default: by the outside diameter",

@@ -90,7 +90,10 @@ DOORS = (
     (sounding("compact", pair()), sounding("compact", pair(**SPRINGS)), {"housing": HOUSING}),
     (sounding("compact", pair(**SPRINGS)), sounding("compact", pair()), {"housing": HOUSING}),
     (sounding("paper", pair()), sounding("compact", pair()), {"housing": HOUSING}),
-    (read_scene(PORT), pair(), {"modes": lambda scene, folder: require(scene, "modes")}),
+    (read_scene(PORT), pair(), {
+        "modes": lambda scene, folder: require(scene, "modes"),
+        "receptance": lambda scene, folder: require(scene, "receptance"),
+    }),
     (read_scene(PORT), pair(), {
         "statics": lambda scene, folder: require(scene, "statics"),
         "report": lambda scene, folder: make(scene, folder / "a.html"),

@@ -10,6 +10,8 @@ from scipy.linalg import block_diag
 
 from fmu_bearing.engine.layout import FL, F, P, Q, W, Y
 
+#: Motions of an inner ring or of a shaft's nose: m, and tilts (rad).
+FREEDOMS = ("x", "y", "z", "by", "bz")
 _PLACES = (Y.X, Y.R, Y.TH)
 _RATES = (Y.VX, Y.VR, Y.OM, Y.WX, Y.WR, Y.WT)
 _ACCELERATIONS = (F.X, F.R, F.TH, F.WX, F.WR, F.WT)

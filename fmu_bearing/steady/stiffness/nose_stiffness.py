@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.picture_parts import empty, label, marked
 from fmu_bearing.results.table import write_csv
 from fmu_bearing.scene import Scene
-from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.statics import Statics
 from fmu_bearing.steady.stiffness.stiffness_files import unit
 

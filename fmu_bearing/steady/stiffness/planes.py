@@ -26,7 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 
 _X, _Y, _Z, _BY, _BZ = (FREEDOMS.index(name) for name in ("x", "y", "z", "by", "bz"))
 #: Motions aside and the slopes of the axis along them: y, z, bz, -by.

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import check_file, write_whole
-from fmu_bearing.steady.impedance import FREEDOMS
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.steady.stiffness.planes import Planes
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 

@@ -5,22 +5,20 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.engine.constants import RPM
 from fmu_bearing.modal.equations.bearing import BearingLinearised
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.modal.equations.linearised import Linearised, under_force
-from fmu_bearing.modal.modes.points import given
+from fmu_bearing.modal.table_points import above_zero, table_points
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene, SceneSource, scene_of
 from fmu_bearing.scene.exclusions import require
-from fmu_bearing.scene.member import still_of
-from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.steady.impedance import FREEDOMS, at_rest, impedance, spaced
+from fmu_bearing.steady.impedance import at_rest, impedance, spaced
 from fmu_bearing.steady.statics import Statics, point
 from fmu_bearing.steady.stiffness.bearing_stiffness import BearingStiffness
 from fmu_bearing.steady.stiffness.nose_stiffness import NoseStiffness
@@ -186,21 +184,8 @@ def stiffness(
     require(scene, "statics")
     if spacing not in get_args(Spacing):
         raise ValueError(f"spacing = {spacing!r} is refused: it is held or free")
-    fixed = dict(inputs or {})
-    for name, instead in (("shaft_speed", "speeds, in r/min"), ("preload", "preloads, in N")):
-        if name in fixed:
-            raise ValueError(f"{name} is an axis of the table: give {instead}")
-    rpm = _axis("speeds", "r/min", speeds, [scene.operation.speed_rpm])
-    loads = _axis("preloads", "N", preloads, [scene.assembly.preload_N])
-    if preloads is not None and not scene.assembly.can_preload:
-        raise ValueError(f"{scene.name}: has no [spindle.preload] that could be changed: leave preloads out")
-    most = scene.most_speed
-    if rpm[0] < -most or rpm[-1] > most:
-        raise ValueError(f"speeds are refused: allowed are {-most:g} to {most:g} r/min")
-    hertz = _axis("frequencies", "Hz", frequencies, FREQUENCIES)
-    if hertz[0] <= 0.0:
-        raise ValueError(f"frequencies: {hertz[0]:g} Hz is refused: damping needs frequencies above 0")
-    points = {(speed, load): _point(scene, fixed, speed, load) for speed in rpm for load in loads}
+    rpm, loads, points = table_points(scene, speeds, preloads, inputs)
+    hertz = above_zero(frequencies, FREQUENCIES, "damping needs frequencies above 0")
     filling = [_Filling((len(rpm), len(loads)), hertz, spacing) for _ in scene.bearings()]
     rows: list[tuple[Statics, ...]] = []
     with keeping(rows, lambda: _table(scene, rpm[: len(rows)], loads, hertz, spacing, filling, rows)):
@@ -256,20 +241,6 @@ class _Filling:
             self.spread[i, k] = max(self.spread[i, k], _apart(other, self.z[i, k][ends]))
 
 
-def _point(
-    scene: Scene, fixed: Mapping[str, float], speed: float, preload: float
-) -> tuple[Scene, dict[int, float]]:  # fmt: skip
-    """Return scene and inputs of a point, checked; a set has its preload in the scene."""
-    if not scene.assembly.joined:
-        values = {**fixed, "shaft_speed": speed * RPM, "preload": preload}
-        return with_fidelity(scene, model="full"), given(scene, values)
-    changed: dict[str, Any] = {"operation.speed_rpm": float(speed)}
-    if scene.assembly.can_preload:
-        changed[scene.assembly.preload_key] = float(preload)
-    there = still_of(scene).replace(changed)
-    return there, given(there, fixed)
-
-
 def _at(scene_and_inputs: tuple[Scene, dict[int, float]], row: list[Statics]) -> Linearised:
     """Return the bearings linearised at a point; the statics of a set go to ``row``."""
     scene, inputs = scene_and_inputs
@@ -282,19 +253,6 @@ def _at(scene_and_inputs: tuple[Scene, dict[int, float]], row: list[Statics]) ->
 
 def _as_it_is(_bearing: BearingLinearised, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return matrix
-
-
-def _axis(
-    name: str, unit: str, values: Sequence[float] | None, default: Sequence[float]
-) -> NDArray[np.float64]:
-    """Return the values of an axis, rising, each once."""
-    try:
-        axis = np.unique([float(value) for value in (default if values is None else values)])
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} = {values!r} is refused: give numbers, in {unit}") from None
-    if axis.size == 0 or not np.isfinite(axis).all():
-        raise ValueError(f"{name} = {values!r} is refused: give finite numbers, in {unit}")
-    return axis
 
 
 def _apart(one: NDArray[np.complex128], other: NDArray[np.complex128]) -> float:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.extras import need
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.results.base import write_netcdf
 from fmu_bearing.results.result import check_target
 from fmu_bearing.results.table import write_csv
-from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.results.picture_parts import empty, label, marked
-from fmu_bearing.steady.impedance import FREEDOMS
 from fmu_bearing.steady.stiffness.stiffness_table import StiffnessTable
 
 if TYPE_CHECKING:

@@ -1,0 +1,90 @@
+"""Receptance of a linearised scene at its nose: G = N (i w - A)^-1 B, motion per force there.
+
+N reads the five motions of the nose, of a single bearing those of its inner ring, from the state. B lets a
+force there accelerate what it acts on: inverse mass times N transposed. By the eigenvectors of A all
+frequencies take one product. Eigenvectors of balls that are free along their orbits may be close to parallel;
+so three frequencies are solved directly beside it, and where they differ, all are, which takes some ten times
+as long.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_bearing.modal.equations.coordinates import FREEDOMS
+from fmu_bearing.modal.equations.linearised import Linearised
+
+_EXACT = 1e-6  # of the largest of an entry: within this the eigenvectors are taken
+_FEW = 8  # frequencies that are solved directly in the time that eigenvectors take
+_NOTHING = 1e-14  # of the largest of all: entries that are zero but for rounding
+
+
+def transfer(
+    system: Linearised, frequencies: NDArray[np.float64], matrix: NDArray[np.float64] | None = None
+) -> NDArray[np.complex128]:
+    """Return the receptance at the nose, shape (frequencies, 5, 5), m and rad per N and N m.
+
+    Rows are motions x, y, z and tilts about y, z, columns forces and moments; a motion is the real part of
+    its amplitude times exp(i w t).
+
+    Parameters
+    ----------
+    system : Linearised
+    frequencies : ndarray
+        Hz, above 0.
+    matrix : ndarray, optional
+        That of one phase of a ball pitch; default: the mean.
+    """
+    a = system.matrix if matrix is None else matrix
+    out, into = _ports(system)
+    s = 2j * math.pi * frequencies.astype(complex)
+    if len(s) <= _FEW:
+        return _direct(a, out, into, s)
+    values, vectors = np.linalg.eig(a)
+    sample = np.unique([0, len(s) // 2, len(s) - 1])
+    direct = _direct(a, out, into, s[sample])
+    try:
+        found = _summed(out @ vectors, values, np.linalg.solve(vectors, into.astype(complex)), s)
+    except np.linalg.LinAlgError:  # two eigenvectors are parallel to the last digit
+        return _direct(a, out, into, s)
+    apart = np.abs(found[sample] - direct).max(axis=0)
+    if np.all(apart <= _EXACT * np.abs(direct).max(axis=0) + _NOTHING * np.abs(direct).max()):
+        return found
+    return _direct(a, out, into, s)
+
+
+def _ports(system: Linearised) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return N (5, n) and B (n, 5) of a linearised scene."""
+    n, five = len(system.matrix), len(FREEDOMS)
+    out, into = np.zeros((five, n)), np.zeros((n, five))
+    shaft = system.shaft
+    if shaft.count:
+        out[:, system.places : system.places + shaft.count] = shaft.nose
+        into[system.rates : system.rates + shaft.count] = shaft.inverse @ shaft.nose.T
+        return out, into
+    (one,) = system.bearings
+    at = one.coordinates
+    places, rates = (first + np.arange(five) for first in (at.rings, at.ring_rates))
+    out[np.arange(five), places] = 1.0
+    into[rates, np.arange(five)] = 1.0 / at.masses[rates]
+    if at.held:  # rigid preload holds the ring along its axis
+        into[rates[0], 0] = 0.0
+    return out, into
+
+
+def _summed(
+    out: NDArray[np.complex128], values: NDArray[np.complex128], into: NDArray[np.complex128],
+    s: NDArray[np.complex128],
+) -> NDArray[np.complex128]:  # fmt: skip
+    """Return out . diag(1 / (s - values)) . into at each s."""
+    pairs = (out[:, None, :] * into.T[None, :, :]).reshape(-1, len(values))
+    five = len(out)
+    return np.asarray((pairs @ (1.0 / (s[None, :] - values[:, None]))).T.reshape(-1, five, five))
+
+
+def _direct(
+    a: NDArray[np.float64], out: NDArray[np.float64], into: NDArray[np.float64], s: NDArray[np.complex128]
+) -> NDArray[np.complex128]:
+    """Return out . (s - a)^-1 . into at each s, each by a solution of its own."""
+    return np.array([out @ np.linalg.solve(one * np.eye(len(a)) - a, into) for one in s])

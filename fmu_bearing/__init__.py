@@ -26,6 +26,7 @@ Data flow in one direction::
 ``fmi``             FMI 2.0: XML, native library, slave, the ``.fmu`` file
 ``results``         values of variables over time: tables, files, spectra, pictures
 ``modal``           small motions: natural modes, Campbell diagram, receptance of the nose
+``machining``       how deep a spindle may cut before it chatters
 ``run``             a scene or an FMU run over inputs; fidelity ``auto``
 ``steady``          what a scene's bearings do without a run: rest, loads, stiffness and damping
 ``design``          what a designer asks: ratings, operating point, verdicts
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from fmu_bearing.design.operating_point import operating_point
     from fmu_bearing.design.verdicts import verdicts
     from fmu_bearing.identification import identify
+    from fmu_bearing.machining.stability import Lobes, lobes
     from fmu_bearing.metrology.error_motion import ErrorMotion, error_motion
     from fmu_bearing.modal.campbell.over_speed import Campbell, campbell
     from fmu_bearing.modal.modes.natural_modes import Modes
@@ -97,6 +99,7 @@ _PLACES = {
     "Campbell": "modal.campbell.over_speed",
     "Dimensions": "scene.own_bearing",
     "ErrorMotion": "metrology.error_motion",
+    "Lobes": "machining.stability",
     "Modes": "modal.modes.natural_modes",
     "Receptance": "modal.receptance.scene_receptance",
     "Recording": "recording.recording",
@@ -116,6 +119,7 @@ _PLACES = {
     "fits": "design.fits",
     "global_sensitivity": "sweeps.global_sensitivity",
     "identify": "identification",
+    "lobes": "machining.stability",
     "measure": "recording.measurements",
     "modes": "modal.modes.points",
     "new_scene": "design.fresh",
@@ -143,6 +147,7 @@ __all__ = [
     "Campbell",
     "Dimensions",
     "ErrorMotion",
+    "Lobes",
     "Modes",
     "Receptance",
     "Recording",
@@ -162,6 +167,7 @@ __all__ = [
     "fits",
     "global_sensitivity",
     "identify",
+    "lobes",
     "measure",
     "modes",
     "new_scene",

@@ -15,6 +15,7 @@
 ``several``       sensitivity to several values at once
 ``stiffness``     K and C over speed, preload and frequency, and of a set's shaft
 ``receptance``    motion of the nose per force on it, over frequency
+``lobes``         how deep a spindle may cut before it chatters
 ``fits``          what tolerances of shaft and housing do
 ``sweep``         a scene over a grid of its values
 ``dataset``       labelled waveforms of many runs
@@ -40,6 +41,7 @@ from fmu_bearing.cli import (  # noqa: F401
     fits,
     identify,
     info,
+    lobes,
     modes,
     realtime,
     receptance,

@@ -13,6 +13,7 @@ from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
 if TYPE_CHECKING:
+    from fmu_bearing.modal.receptance.receptance_table import Place
     from fmu_bearing.modal.receptance.scene_receptance import Receptance
 
 
@@ -28,6 +29,7 @@ def receptance(
     frequencies: Annotated[
         str | None, typer.Option(metavar="VALUES", help="Hz, same syntax; default: 20:5000:2491.")
     ] = None,
+    at: Annotated[str, typer.Option(metavar="NAME", help="nose, or tip of the scene's [tool].")] = "nose",
     settings: Settings = None,
     plot: Plot = None,
     output: Annotated[
@@ -48,6 +50,7 @@ def receptance(
     from fmu_bearing.scene import read_scene
 
     with base.refusals():
+        place = _place(at)
         asked = {
             name: numbers(name, text)
             for name, text in (("speeds", speeds), ("preloads", preloads), ("frequencies", frequencies))
@@ -61,7 +64,7 @@ def receptance(
         chosen, inputs = changed(given, settings)
         table, code = base.so_far(partial(
             table_of, chosen, asked["frequencies"], speeds=asked["speeds"], preloads=asked["preloads"],
-            inputs=inputs, track=partial(steps, what="receptance", unit="speeds"),
+            inputs=inputs, at=place, track=partial(steps, what="receptance", unit="speeds"),
         ))  # fmt: skip
         files = write(table, output, plot)
     if as_json:
@@ -69,6 +72,12 @@ def receptance(
         return base.end(code, files)
     show(table)
     base.end(code, files, named=True)
+
+
+def _place(text: str) -> "Place":
+    if text not in ("nose", "tip"):
+        raise base.Refusal(f"--at {text} is refused: it is nose or tip")
+    return "tip" if text == "tip" else "nose"
 
 
 def write(table: "Receptance", output: Path | None, plot: Path | None) -> base.Writing:

@@ -24,6 +24,7 @@
 ``spindle``       a set of bearings on one shaft, in the place of a mounting
 ``shaft``         its shaft, in sections or of another model
 ``housing``       the housing of a set where it radiates: its place, what it needs
+``tool``          the tool on the nose, and the cut that it takes
 ``imperfections`` waviness, ball spread, unbalance, by values or by grade, with a seed
 ``defect``        local defects of races and balls: shape, size, place
 ``defect_conflicts`` what does not fit between them and their bearing

@@ -39,6 +39,7 @@ Subject = Literal[
     "short runs",
     "statics",
     "temperatures",
+    "tool",
     "tradeoff",
     "unbalance",
     "vibration test",
@@ -134,6 +135,12 @@ def _shaft(tables: Tables) -> Keys:
     for key in SUPPORTS:
         if getattr(set_of(tables), key) is not None:
             yield f"spindle.{key}"
+
+
+def _tool(tables: Tables) -> Keys:
+    for key in ("tool", "milling"):
+        if getattr(tables, key) is not None:
+            yield key
 
 
 def _model(tables: Tables) -> str:
@@ -291,6 +298,13 @@ EXCLUSIONS = (
         "it acts on the shaft, which another model owns",
         "leave it out and give the load to that model",
         _load,
+    ),
+    Exclusion(
+        _PORT,
+        {"tool": "a tool or a cut (`[tool]`, `[milling]`)"},
+        "they belong to the nose of a shaft, which another model owns",
+        f"leave the table out, or {_OWN_SHAFT}",
+        _tool,
     ),
     Exclusion(
         _PORT,

@@ -26,12 +26,17 @@ def seats(data: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], dict[str, 
 
 
 def bodies(data: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], dict[str, Any]]]:
-    """Yield place and table of what may have a material of its own beside the bearing: bodies, seats."""
+    """Yield place and table of what may have a material of its own: bodies, tool, seats."""
     spindle = data.get("spindle")
     for side in SIDES:
         body = spindle.get(side.seat) if isinstance(spindle, Mapping) else None
         if isinstance(body, dict):
             yield ("spindle", side.seat), body
+    tool = data.get("tool")
+    if isinstance(tool, dict):
+        yield ("tool",), tool
+        if isinstance(tool.get("holder"), dict):
+            yield ("tool", "holder"), tool["holder"]
     yield from seats(data)
 
 

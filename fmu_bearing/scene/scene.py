@@ -26,6 +26,7 @@ from fmu_bearing.scene.operation import Operation
 from fmu_bearing.scene.seats import Fit
 from fmu_bearing.scene.sound import Place, Sound
 from fmu_bearing.scene.spindle import SetBearing, Spindle
+from fmu_bearing.scene.tool import Milling, Tool
 
 #: Letters of any script; names of FMUs' files and libraries are made of the designation, in ASCII.
 NAME = r"^[\p{L}\p{N}][\w. -]{0,59}$"
@@ -75,6 +76,10 @@ class Tables(Part):
     accelerometer: tuple[Accelerometer, ...] | None = Field(
         default=None, max_length=64, strict=False, description="Sensors on what does not turn; absent: none."
     )
+    tool: Tool | None = Field(
+        default=None, description="Tool on the nose; absent: receptance and stability are those of the nose."
+    )
+    milling: Milling | None = Field(default=None, description="The cut that `lobes` judges; absent: none.")
     fmu: Fmu | None = Field(default=None, description="Absent: names and causalities as documented.")
 
     def conflicts(self) -> Iterator[Conflict]:

@@ -1,6 +1,6 @@
 """The shaft of a set: sections, stiffness, heavy spots, tilt support; or that of another model."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -16,6 +16,15 @@ Diameter = Annotated[float, Field(ge=1, le=1000)]
 Bore = Annotated[float, Field(ge=0, le=1000)]
 # A file's array arrives as a list: the one conversion that strictness may let pass.
 Section = Annotated[tuple[Length, Diameter, Bore], Field(strict=False)]
+
+
+def thin_sections(sections: Sequence[tuple[float, float, float]]) -> Iterator[Conflict]:
+    """Yield sections (length, diameter, bore) whose bore leaves nothing."""
+    for number, (_, diameter, bore) in enumerate(sections, start=1):
+        if bore >= diameter:
+            yield Conflict(
+                "sections_mm", f"section {number} has a bore of {bore:g} mm in a diameter of {diameter:g}"
+            )
 
 
 class Unbalance(Part):
@@ -103,11 +112,7 @@ class Shaft(Part):
         for key in () if self.flexible else ("fixed_modes", "damping_ratio"):
             if getattr(self, key) != type(self).model_fields[key].default:
                 yield Conflict(key, "applies to a shaft that bends: give flexible = true, or leave it out")
-        for number, (_, diameter, bore) in enumerate(self.sections_mm, start=1):
-            if bore >= diameter:
-                yield Conflict(
-                    "sections_mm", f"section {number} has a bore of {bore:g} mm in a diameter of {diameter:g}"
-                )
+        yield from thin_sections(self.sections_mm)
         for number, spot in enumerate(self.unbalance, start=1):
             if spot.position_mm > self.length_mm:
                 yield Conflict(

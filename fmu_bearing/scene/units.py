@@ -18,16 +18,17 @@ UNITS: dict[str, tuple[float, float]] = {
     "_mm": (1e-3, 0.0), "_um": (1e-6, 0.0), "_nm": (1e-9, 0.0), "_mm2": (1e-6, 0.0),
     "_deg": (math.pi / 180.0, 0.0), "_mrad": (1e-3, 0.0), "_rpm": (math.pi / 30.0, 0.0),
     "_degC": (1.0, _ZERO_CELSIUS), "_K": (1.0, 0.0), "_s": (1.0, 0.0), "_us": (1e-6, 0.0), "_N": (1.0, 0.0),
-    "_N_m": (1.0, 0.0), "_N_mm": (1e-3, 0.0), "_N_m_rad": (1.0, 0.0), "_N_s_m": (1.0, 0.0),
-    "_g_mm": (1e-6, 0.0), "_kg": (1.0, 0.0), "_kg_m3": (1.0, 0.0), "_m_s": (1.0, 0.0), "_W_mK": (1.0, 0.0),
+    "_N_m": (1.0, 0.0), "_N_mm": (1e-3, 0.0), "_N_mm2": (1e6, 0.0), "_N_m_rad": (1.0, 0.0),
+    "_N_s_m": (1.0, 0.0), "_g_mm": (1e-6, 0.0), "_kg": (1.0, 0.0), "_kg_m3": (1.0, 0.0),
+    "_m_s": (1.0, 0.0), "_W_mK": (1.0, 0.0),
     "_J_kgK": (1.0, 0.0), "_Pa_s": (1.0, 0.0), "_MPa": (1e6, 0.0), "_GPa": (1e9, 0.0), "_1_GPa": (1e-9, 0.0),
     "_1e6_K": (1e-6, 0.0), "_dB": (1.0, 0.0), "_kHz": (1e3, 0.0), "_h": (3600.0, 0.0),
     "_Hz": (1.0, 0.0), "_m_s2": (1.0, 0.0),
 }  # fmt: skip
 #: Suffixes as messages write them, where taking off the underscore is not enough.
 _SYMBOLS = {
-    "_rpm": "r/min", "_g_mm": "g mm", "_N_m": "N/m", "_N_mm": "N mm", "_N_m_rad": "N m/rad",
-    "_N_s_m": "N s/m", "_kg_m3": "kg/m3", "_m_s": "m/s", "_W_mK": "W/(m K)", "_J_kgK": "J/(kg K)",
+    "_rpm": "r/min", "_g_mm": "g mm", "_N_m": "N/m", "_N_mm": "N mm", "_N_mm2": "N/mm2",
+    "_N_m_rad": "N m/rad",     "_N_s_m": "N s/m", "_kg_m3": "kg/m3", "_m_s": "m/s", "_W_mK": "W/(m K)", "_J_kgK": "J/(kg K)",
     "_Pa_s": "Pa s", "_1_GPa": "1/GPa", "_1e6_K": "1e-6/K", "_m_s2": "m/s2",
 }  # fmt: skip
 _BY_LENGTH = sorted(UNITS, key=len, reverse=True)

@@ -20,6 +20,7 @@ SCENES = {
     "modes",
     "stiffness",
     "receptance",
+    "lobes",
     "fits",
     "realtime",
     "choose",
@@ -31,7 +32,7 @@ FILES = {"scene new", "scene check", "scene show", "scene catalogue"}
 WRITE = {
     "scene new", "build", "simulate", "plot", "sound", "envelope", "compare", "report", "stiffness",
     "modes", "tradeoff", "sensitivity", "sweep", "identify", "realtime", "fits", "vibration",
-    "error-motion", "dataset", "receptance",
+    "error-motion", "dataset", "receptance", "lobes",
 }  # fmt: skip
 #: Commands by the option that they have; the page has the same lists, with the reasons.
 HAVE = {
@@ -50,6 +51,7 @@ HAVE = {
         "modes",
         "stiffness",
         "receptance",
+        "lobes",
         "fits",
         "tradeoff",
         "sensitivity",
@@ -90,7 +92,10 @@ OTHERWISE = {
     ("stiffness", "--speeds"): "default: the scene's",
     ("build", "--platforms"): "default: this machine's",
     ("sound", "--at"): "What makes the noise",
+    ("receptance", "--at"): "or tip of the scene's",
     ("receptance", "--speeds"): "default: the scene's",
+    ("lobes", "--speeds"): "a quarter to 1.25 of the scene's",
+    ("lobes", "--frequencies"): "Hz of chatter",
     ("receptance", "--frequencies"): "default: 20:5000:2491",
     ("error-motion", "--at"): "Place of the point",
     ("error-motion", "--speeds"): "default: the scene's",

@@ -18,6 +18,7 @@ from fmu_bearing import (
     compare,
     error_motion,
     fits,
+    lobes,
     measure,
     modes,
     operating_point,
@@ -36,6 +37,7 @@ from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.identification.data import read_data
 from fmu_bearing.identification.free import free_numbers
 from fmu_bearing.identification.result import Compared, Estimate, Identified
+from fmu_bearing.machining.lobes_result import LobesTable
 from fmu_bearing.modal.campbell.diagram import Diagram
 from fmu_bearing.modal.receptance.receptance_table import ReceptanceTable
 from fmu_bearing.recording.measurements.at_frequency import noise_at
@@ -56,7 +58,7 @@ from tests.conftest import EXAMPLES
 #: Rooms of kernels and of files for other programs: no results.
 WITHOUT = ("fmu_bearing.engine", "fmu_bearing.compiled", "fmu_bearing.fmi", "fmu_bearing.testing")
 #: Classes that only their descendants make.
-BASES = (Diagram, ReceptanceTable, StiffnessTable, Study)
+BASES = (Diagram, LobesTable, ReceptanceTable, StiffnessTable, Study)
 #: Values whose units are in the words beside them: of variables by name, counts, a scene's keys.
 BESIDE = (
     "figures", "energy_share", "last", "values", "fits", "origin", "keys", "std_ln", "std", "value", "moved",
@@ -91,6 +93,7 @@ def roots():
         point, *verdicts(point), fits(EXAMPLES.parent / "fits" / "7003C-ceramic.toml"),
         temperatures(read_scene(bare)), modes(bare), campbell(bare, [18e3, 20e3, 22e3]),
         stiffness(pair, frequencies=[1e3]), receptance(pair, [1e3]),
+        lobes(EXAMPLES.parent / "milling" / "7003C-QBC-end-mill.toml", [18e3]),
         error_motion(scene, revolutions=20), sound,
         noise_at(made, sound, 3000.0), measure.envelope_of(made, "outer_ring.acceleration.z"),
         spread(made, ["P1"], seeds=1), compare(made, made),

@@ -110,6 +110,11 @@ DOORS = (
         "identification": lambda scene, folder: identify(scene, [], ["operation.speed_rpm"]),
     }),
     (read_scene(PORT), pair(), {"load": {"spindle.load.force_x_N": 5.0}}),
+    (read_scene(PORT), pair(), {
+        "tool": {
+            "milling": {"teeth": 4, "cutting_coefficient_N_mm2": 800.0, "radial_immersion": 0.5},
+        },
+    }),
     (read_scene(PORT), pair(), {"shaft": {"spindle.shaft.flexible": True}}),
     (read_scene(PORT), pair(), {
         "unbalance": {"imperfections": {"grade": "P4", "seed": 1, "unbalance_um": 0.5}},

@@ -52,6 +52,7 @@ def test_materials_of_the_catalogue_have_these_values():
         "aluminium": (70.0, 0.33, 2700.0, 23.4),
         "bakelite": (8.0, 0.35, 1400.0, 30.0),
         "PEEK": (3.8, 0.39, 1310.0, 47.0),
+        "tungsten-carbide": (580.0, 0.22, 14400.0, 5.5),
     }
     keys = ("youngs_modulus_GPa", "poisson_ratio", "density_kg_m3", "expansion_1e6_K")
     keys += ("conductivity_W_mK", "specific_heat_J_kgK")

@@ -1,9 +1,11 @@
 """Cylindrical sections of a shaft."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from fmu_bearing.scene import Scene, si
+from fmu_bearing.scene.material import Material
 from fmu_bearing.scene.shaft import Shaft
 
 
@@ -37,10 +39,17 @@ class Section:
 
 def shaft_sections(scene: Scene, shaft: Shaft) -> list[Section]:
     """Return the sections of a scene's shaft from the nose on."""
-    material = si(shaft.material or scene.materials.inner_ring)
-    elastic = (material.density, material.youngs_modulus, material.poisson_ratio)
-    sections, start = [], 0.0
-    for length, diameter, bore in shaft.sections_mm:
+    return sections_of(shaft.sections_mm, shaft.material or scene.materials.inner_ring)
+
+
+def sections_of(
+    rows: Iterable[tuple[float, float, float]], material: Material, start: float = 0.0
+) -> list[Section]:  # fmt: skip
+    """Return cylinders of one material from rows of length, diameter, bore (mm), the first at ``start``."""
+    found = si(material)
+    elastic = (found.density, found.youngs_modulus, found.poisson_ratio)
+    sections = []
+    for length, diameter, bore in rows:
         sections.append(Section(start, 1e-3 * length, 5e-4 * diameter, 5e-4 * bore, *elastic))
         start += 1e-3 * length
     return sections

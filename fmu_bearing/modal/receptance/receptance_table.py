@@ -114,7 +114,7 @@ class ReceptanceTable(Result):
                 f"{self.speeds[i]:g} r/min, {self.preloads[k]:g} N: a motion grows by itself by "
                 f"{self.growing[i, k]:.3g} 1/s, see `modes`: no receptance can be measured there"
             )
-        if self.place == "nose" and self.scene.assembly.joined and not self._bends:
+        if self.scene.assembly.joined and not self._bends:
             sentences.append(
                 "the shaft is rigid here: one that bends is softer at its nose: set "
                 "spindle.shaft.flexible = true"

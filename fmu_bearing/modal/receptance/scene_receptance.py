@@ -4,7 +4,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from fmu_bearing.modal.modes.solve import may_grow, solved
 from fmu_bearing.modal.receptance import receptance_files
 from fmu_bearing.modal.receptance.receptance_picture import picture
 from fmu_bearing.modal.receptance.receptance_table import Place, ReceptanceTable
+from fmu_bearing.modal.receptance.tool import at_tip, tool_of
 from fmu_bearing.modal.receptance.transfer import transfer
 from fmu_bearing.modal.table_points import above_zero, table_points
 from fmu_bearing.progress import keeping
@@ -82,6 +83,7 @@ def receptance(
     speeds: Sequence[float] | None = None,
     preloads: Sequence[float] | None = None,
     inputs: Mapping[str, float] | None = None,
+    at: Place = "nose",
     track: Callable[[Sequence[float]], Iterable[float]] | None = None,
 ) -> Receptance:
     """Return the receptance of a scene's nose over speed, preload and frequency, without a run.
@@ -100,6 +102,8 @@ def receptance(
         N; default: the scene's own.
     inputs : mapping, optional
         Other inputs of the model by name, SI units: ``radial_load.z``, ``inner_ring_temperature``.
+    at : {"nose", "tip"}
+        ``tip``: of the scene's ``[tool]`` on the nose, by receptance coupling.
     track : callable, optional
         Wraps the speeds, to show progress.
 
@@ -123,23 +127,27 @@ def receptance(
     """
     scene = scene_of(scene)
     require(scene, "receptance")
+    if at not in get_args(Place):
+        raise ValueError(f"at = {at!r} is refused: it is nose or tip")
+    if at == "tip":
+        tool_of(scene)
     hertz = above_zero(frequencies, FREQUENCIES, "a receptance is over frequencies above 0")
     rpm, loads, points = table_points(scene, speeds, preloads, inputs)
     rows: list[_Row] = []
-    with keeping(rows, lambda: _table(scene, rpm[: len(rows)], loads, hertz, rows)):
+    with keeping(rows, lambda: _table(scene, at, rpm[: len(rows)], loads, hertz, rows)):
         for speed in track(list(rpm)) if track else rpm:
-            row = _Row(hertz)
+            row = _Row(hertz, at)
             for load in loads:
                 row.add(*points[speed, load])
             rows.append(row)
-    return _table(scene, rpm, loads, hertz, rows)
+    return _table(scene, at, rpm, loads, hertz, rows)
 
 
 class _Row:
     """What a table has at one speed, a value for each preload."""
 
-    def __init__(self, hertz: NDArray[np.float64]) -> None:
-        self._hertz = hertz
+    def __init__(self, hertz: NDArray[np.float64], at: Place) -> None:
+        self._hertz, self._at = hertz, at
         self.g: list[NDArray[np.complex128]] = []
         self.spread: list[float] = []
         self.steady: list[bool] = []
@@ -150,7 +158,8 @@ class _Row:
         """Take the numbers of the next preload."""
         system = linearised(scene, inputs)
         g = transfer(system, self._hertz)
-        self.g.append(g)
+        tip = self._at == "tip"
+        self.g.append(at_tip(scene, g, self._hertz, system.speed) if tip else g)
         self.spread.append(_spread(system, g[:1], self._hertz[:1]))
         self.steady.append(system.steady)
         growing = self_excited(solved(scene, system)) if may_grow(system.matrix) else None
@@ -159,8 +168,8 @@ class _Row:
 
 
 def _table(
-    scene: Scene, rpm: NDArray[np.float64], loads: NDArray[np.float64], hertz: NDArray[np.float64],
-    rows: list[_Row], place: Place = "nose",
+    scene: Scene, place: Place, rpm: NDArray[np.float64], loads: NDArray[np.float64],
+    hertz: NDArray[np.float64], rows: list[_Row],
 ) -> Receptance:  # fmt: skip
     return Receptance(
         scene, place, rpm, loads, hertz, np.array([row.g for row in rows]),

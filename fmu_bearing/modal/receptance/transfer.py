@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.modal.equations.linearised import Linearised
 
-_EXACT = 1e-6  # of the largest of an entry: within this the eigenvectors are taken
+_EXACT = 1e-6  # of the root of both entries on the diagonal: within this the eigenvectors are taken
 _FEW = 8  # frequencies that are solved directly in the time that eigenvectors take
-_NOTHING = 1e-14  # of the largest of all: entries that are zero but for rounding
 
 
 def transfer(
@@ -48,8 +47,8 @@ def transfer(
         found = _summed(out @ vectors, values, np.linalg.solve(vectors, into.astype(complex)), s)
     except np.linalg.LinAlgError:  # two eigenvectors are parallel to the last digit
         return _direct(a, out, into, s)
-    apart = np.abs(found[sample] - direct).max(axis=0)
-    if np.all(apart <= _EXACT * np.abs(direct).max(axis=0) + _NOTHING * np.abs(direct).max()):
+    size = np.sqrt(np.abs(np.diagonal(direct, axis1=1, axis2=2)).max(axis=0))
+    if np.all(np.abs(found[sample] - direct).max(axis=0) <= _EXACT * np.outer(size, size)):
         return found
     return _direct(a, out, into, s)
 

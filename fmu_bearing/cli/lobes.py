@@ -70,7 +70,7 @@ def lobes(
 
     if pockets := found.pockets()[:_SHOWN]:
         base.show(f"{found.scene.name}: deepest between lobes", *table(Limit, pockets))
-    typer.echo(found.verdict())
+    typer.echo(found.verdict().replace("; ", ";\n"))
     for line in found.cautions():
         base.tell(f"caution: {line}")
     base.end(0, files, named=True)

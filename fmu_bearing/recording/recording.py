@@ -306,8 +306,8 @@ class Recording(ChannelHistory):
         """Return pressures (Pa) over microphones and time, and the variables over ``output_time``.
 
         Accelerations (m/s2) over accelerometers and time, too, where the scene has any. Names and places (m)
-        of microphones are coordinates; units are attributes, the scene is TOML text in ``scene``, the table of
-        its local defects JSON text in ``defects``.
+        of microphones are coordinates; units are attributes, the scene is TOML text in ``scene``, the table
+        of its local defects JSON text in ``defects``.
 
         Raises
         ------

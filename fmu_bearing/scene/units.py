@@ -28,7 +28,8 @@ UNITS: dict[str, tuple[float, float]] = {
 #: Suffixes as messages write them, where taking off the underscore is not enough.
 _SYMBOLS = {
     "_rpm": "r/min", "_g_mm": "g mm", "_N_m": "N/m", "_N_mm": "N mm", "_N_mm2": "N/mm2",
-    "_N_m_rad": "N m/rad",     "_N_s_m": "N s/m", "_kg_m3": "kg/m3", "_m_s": "m/s", "_W_mK": "W/(m K)", "_J_kgK": "J/(kg K)",
+    "_N_m_rad": "N m/rad", "_N_s_m": "N s/m", "_kg_m3": "kg/m3", "_m_s": "m/s", "_W_mK": "W/(m K)",
+    "_J_kgK": "J/(kg K)",
     "_Pa_s": "Pa s", "_1_GPa": "1/GPa", "_1e6_K": "1e-6/K", "_m_s2": "m/s2",
 }  # fmt: skip
 _BY_LENGTH = sorted(UNITS, key=len, reverse=True)

@@ -4,13 +4,14 @@ import json
 import os
 import shlex
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import scipy
 
 from fmu_bearing import measure, record
-from fmu_bearing.recording.measurements.envelope import squared_envelope
+from fmu_bearing.recording.measurements.envelope import EnvelopeLine, squared_envelope
 from fmu_bearing.results.base import table
 from fmu_bearing.scene.read import with_fidelity
 
@@ -204,6 +205,21 @@ def test_lines_are_those_of_the_cage_as_it_ran(recording):
     assert abs(lines["f_o"].found - turned.f_o) < found.resolution
     columns, rows = table(type(found.lines[0]), found.records())
     assert len(rows) == len(found.lines) == 51 and columns[0] == "line"
+
+
+def test_a_peak_has_the_name_of_the_nearest_line_and_its_skirt_has_none():
+    time = np.arange(25_600) / RATE  # 2 Hz
+    # a motor's 6205: 3 f_o = 322.7 is a resolution from 2 f_i = 324.9, and 2 f_b - f_c close to f_o
+    swell = sum(np.cos(2.0 * np.pi * 107.566 * k * time) for k in range(1, 5))
+    found = measure.envelope((5.0 + swell) * np.sin(2.0 * np.pi * 5000.0 * time), RATE, (4000.0, 6000.0))
+    given = {"f_o": 107.566, "3 f_o": 322.698, "2 f_i": 324.868, "f_i - 2 f_r": 102.434, "f_r": 30.0}
+    lines = [
+        EnvelopeLine(name, "", f, at, amplitude / found.mean, 20.0 * np.log10(over))
+        for name, f in given.items()
+        for at, amplitude, over in [found.at(f)]
+    ]
+    named = replace(found, lines=tuple(lines)).far()
+    assert [line.name for line in sorted(named, key=lambda line: line.frequency)] == ["f_o", "3 f_o"]
 
 
 def test_microphones_and_variables_have_envelopes_too(recording):

@@ -34,6 +34,8 @@ _ORDER = 4  # of the band-pass, which is run forwards and backwards
 _FEWEST = 256  # samples
 _FINER = 4  # bins in place of one: a line between two of them then reads low by less than 1 %
 _AROUND = 25.0  # resolutions to either side, whose median is what a line is held against
+_LOBE, _SKIRT = 2.0, 4.0  # resolutions: of a line under Hann's window, and of one whose frequency trembles
+_BESIDE = 0.1  # of a line, which its skirt may have
 _HARMONICS, _SIDES = 3, 2  # of each line, and side bands to either side
 _SLIDING = 0.015  # of a frequency that is not known from the run: rolling at one contact angle
 _SLIP = 3e-4  # of one that is: balls of a bearing spin as fast within that
@@ -154,12 +156,27 @@ class Envelope(Result):
         return min(1.1 * max(first + [line.frequency for line in self.far()]), whole) if self.lines else whole
 
     def far(self) -> list[EnvelopeLine]:
-        """Return the lines 10 dB over the median, farthest first: of those at one peak the simplest."""
+        """Return the lines 10 dB over the median, farthest first: of those at one peak the nearest.
+
+        Within two resolutions of a higher one, and within four of one ten times as high, a line is not told
+        from its skirt, and left out.
+        """
         taken: dict[int, EnvelopeLine] = {}
-        for line in sorted(self.lines, key=lambda line: (len(line.name), line.name)):
-            if line.over_median >= FAR:
+        for line in sorted(self.lines, key=self._fit):
+            if line.over_median >= FAR and not self._on_a_skirt(line):
                 taken.setdefault(round(line.found / self.resolution), line)
         return sorted(taken.values(), key=lambda line: -line.over_median)
+
+    def _fit(self, line: EnvelopeLine) -> tuple[float, int, str]:
+        """How far a line is from its peak, in quarters of a resolution, and how long its name is."""
+        off = abs(line.found - line.frequency) / self.resolution
+        return (math.inf if math.isnan(off) else round(4.0 * off)), len(line.name), line.name
+
+    def _on_a_skirt(self, line: EnvelopeLine) -> bool:
+        """Whether a line is lower than what is within a lobe of the window, or far lower a little farther."""
+        off, height = np.abs(self.frequency - line.found) / self.resolution, line.depth * self.mean
+        within = [float(self.amplitude[off <= reach].max()) for reach in (_LOBE, _SKIRT)]
+        return height < 0.98 * within[0] or height < _BESIDE * within[1]
 
     def picture(self, title: str = "", highest: float | None = None) -> "Figure":
         """Draw the spectrum in per cent of the mean, lines far over the median named.

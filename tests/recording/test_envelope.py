@@ -5,6 +5,7 @@ import os
 import shlex
 import subprocess
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import scipy
 
 from fmu_bearing import measure, record
 from fmu_bearing.recording.measurements.envelope import EnvelopeLine, squared_envelope
+from fmu_bearing.recording.measurements.envelope_files import usual_signals
 from fmu_bearing.results.base import table
 from fmu_bearing.scene.read import with_fidelity
 
@@ -232,6 +234,33 @@ def test_microphones_and_variables_have_envelopes_too(recording):
     assert "inner_ring.acceleration.x" in recording.signal_names
     with pytest.raises(ValueError, match="did you mean 'outer_ring.acceleration"):
         measure.envelope_of(recording, "outer_ring.aceleration.z")
+
+
+def test_accelerometers_are_signals_and_the_usual_ones(recording, monkeypatch):
+    read = recording.signal("outer_ring.acceleration.z").values
+    monkeypatch.setattr(type(recording), "accelerometers", ("DE",), raising=False)
+    monkeypatch.setattr(type(recording), "acceleration", lambda self, name: 2.0 * read, raising=False)
+    assert "DE" in recording.signal_names and usual_signals(recording) == ["DE"]
+    signal = recording.signal("DE")
+    assert (signal.unit, signal.rate, signal.highest) == ("m/s2", RATE, 20_000.0)
+    found, ring = (
+        measure.envelope_of(recording, name, (5e3, 15e3)) for name in ("DE", "outer_ring.acceleration.z")
+    )
+    assert found.rms == pytest.approx(2.0 * ring.rms)
+    assert [line.name for line in found.far()] == [line.name for line in ring.far()]
+
+
+def test_lines_of_local_defects_name_them(recording, monkeypatch):
+    lines = tuple(
+        SimpleNamespace(bearing=0, carrier=carrier, defect=f"defect {number}")
+        for number, carrier in enumerate(("f_o", "f_b", "f_o"), start=1)
+    )
+    monkeypatch.setattr(type(recording), "defect_lines", lambda self: lines, raising=False)
+    found = measure.envelope_of(recording, "outer_ring.acceleration.z", (5e3, 15e3))
+    of = {line.name: line.of for line in found.lines}
+    assert (of["f_o"], of["2 f_o - f_r"]) == ("outer race (defect 1, defect 3)",) * 2
+    assert (of["2 f_b"], of["f_i"], of["f_c"]) == ("ball (defect 2)", "inner race", "cage")
+    assert found.strongest("outer race").name.endswith("f_o")
 
 
 def test_a_speed_that_changes_is_refused(scene):

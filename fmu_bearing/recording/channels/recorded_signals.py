@@ -26,7 +26,8 @@ class RecordedSignal:
     Attributes
     ----------
     name : str
-        A microphone; ``outer_ring.acceleration.z``; a variable. Names of a set begin as ``bearing[1].``.
+        A microphone or accelerometer; ``outer_ring.acceleration.z``; a variable. Names of a set begin as
+        ``bearing[1].``.
     unit : str
     values : ndarray, shape (samples,)
     rate, start : float
@@ -55,9 +56,15 @@ class RecordedSignal:
 
 
 def signal_names(recording: ChannelHistory) -> list[str]:
-    """Return the names of all signals: microphones, accelerations, variables at even points."""
+    """Return the names of all signals: microphones, accelerometers, bodies, variables at even points."""
     microphones = [name for name, _ in recording.microphones]
-    return [*microphones, *_accelerations(recording), *(recording.outputs if _step(recording) else ())]
+    variables = recording.outputs if _step(recording) else ()
+    return [*microphones, *accelerometers(recording), *_accelerations(recording), *variables]
+
+
+def accelerometers(recording: ChannelHistory) -> tuple[str, ...]:
+    """Return the names of the accelerometers of a recording."""
+    return tuple(getattr(recording, "accelerometers", ()))
 
 
 def recorded_signal(
@@ -71,6 +78,9 @@ def recorded_signal(
         place = dict(recording.microphones)[name]
         highest = min(BAND[1], 0.5 * recording.rate)
         return RecordedSignal(name, "Pa", values, recording.rate, recording.start, highest, None, place)
+    if name in accelerometers(recording):
+        read: NDArray[np.float64] = getattr(recording, "acceleration")(name)  # noqa: B009
+        return RecordedSignal(name, ACCELERATION, read, recording.rate, recording.start, BAND[1])
     column = _accelerations(recording).get(name)
     if column is not None:
         (values,) = recording.channel_signals([column])

@@ -6,9 +6,9 @@ bearing and what modulates them are lines.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -58,7 +58,8 @@ class EnvelopeLine(Result):
     name: str
     """As ``2 f_o + f_r``."""
     of: str
-    """What strikes: ``outer race``, ``inner race``, ``ball``, ``shaft``, ``cage``; of a set whose."""
+    """What strikes: ``outer race``, ``inner race``, ``ball``, ``shaft``, ``cage``; of a set whose, and the
+    local defects there: ``outer race (defect 1)``."""
     frequency: float
     """Hz, as cage and balls turned."""
     found: float
@@ -336,7 +337,7 @@ def envelope_of(
             "envelope spread with it: record at one speed"
         )
     turning = [] if recording.scene is None else _turning(recording, signal)
-    fastest = max((max(one.f_i, one.f_o, 2.0 * one.f_b) for _, one in turning), default=0.0)
+    fastest = max((max(one.f_i, one.f_o, 2.0 * one.f_b) for one, _, _ in turning), default=0.0)
     reach = 0.5 * (signal.highest - _LOWEST)
     try:
         found = envelope(
@@ -346,21 +347,35 @@ def envelope_of(
     except ValueError as problem:
         raise ValueError(f"{name}: {problem}") from None
     slip = _SLIP if recording.turning_known else _SLIDING
-    read = [_read(found, *line, slip) for whose, one in turning for line in _expected(one, whose)]
+    read = [_read(found, *line, slip) for place in turning for line in _expected(*place)]
     once = {(line.name, line.of): line for line in read}  # the shaft's own are those of every bearing
     return replace(found, lines=tuple(once.values()))
 
 
-def _turning(recording: ChannelHistory, signal: RecordedSignal) -> list[tuple[str, KinematicFrequencies]]:
-    """Return whose frequencies may show in a signal: those of its bearing, else of all."""
+def _turning(
+    recording: ChannelHistory, signal: RecordedSignal
+) -> list[tuple[KinematicFrequencies, str, dict[str, str]]]:
+    """Return frequencies that may show in a signal, whose they are, and the defects at each carrier.
+
+    Those of its bearing, of a signal of no single one those of all.
+    """
     every = recording.bearing_kinematics()
-    if len(every) == 1:
-        return [("", every[0])]
-    numbers = range(1, len(every) + 1) if signal.bearing is None else [signal.bearing]
-    return [(f"bearing {number}", every[number - 1]) for number in numbers]
+    lines: Sequence[Any] = getattr(recording, "defect_lines", tuple)()
+    found = []
+    for number, one in enumerate(every, start=1):
+        if signal.bearing in (None, number):
+            struck: dict[str, str] = {}
+            for line in lines:
+                if line.bearing == number - 1:
+                    more = f"{struck[line.carrier]}, " if line.carrier in struck else ""
+                    struck[line.carrier] = more + line.defect
+            found.append((one, f"bearing {number}" if len(every) > 1 else "", struck))
+    return found
 
 
-def _expected(one: KinematicFrequencies, whose: str) -> Iterator[tuple[str, str, float]]:
+def _expected(
+    one: KinematicFrequencies, whose: str, struck: Mapping[str, str]
+) -> Iterator[tuple[str, str, float]]:
     """Yield names, of what, and frequencies (Hz) of the lines of a bearing."""
     for kind, name in (("shaft", "f_r"), ("cage", "f_c")):
         of = f"{kind} of {whose}" if whose and kind != "shaft" else kind
@@ -368,6 +383,7 @@ def _expected(one: KinematicFrequencies, whose: str) -> Iterator[tuple[str, str,
             yield combination(n, name), of, n * getattr(one, name)
     for kind, per, name, side in _FAMILIES:
         of = f"{kind} of {whose}" if whose else kind
+        of += f" ({struck[name]})" if name in struck else ""
         for n in range(1, _HARMONICS + 1):
             carrier, step = n * per * getattr(one, name), getattr(one, side)
             yield combination(n * per, name), of, carrier

@@ -9,7 +9,7 @@ import numpy as np
 from fmu_bearing.extras import available
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import recorded_signal, signal_names
+from fmu_bearing.recording.channels.recorded_signals import accelerometers, recorded_signal, signal_names
 from fmu_bearing.recording.measurements.envelope import Envelope, EnvelopeLine
 from fmu_bearing.recording.measurements.kurtogram import Band
 from fmu_bearing.recording.measurements.sound_analysis import stems
@@ -35,16 +35,18 @@ _MOST = 12  # lines of a table
 def usual_signals(recording: ChannelHistory) -> list[str]:
     """Return the signals that an envelope analysis takes without names.
 
-    Both radial accelerations of the outer ring of each bearing, as the one across the load sees little of a
-    defect; of rings that a rigid housing holds, those of the inner ring. Of a recording of pressures the
-    microphones.
+    Its accelerometers; without any both radial accelerations of the outer ring of each bearing, as the one
+    across the load sees little of a defect; of rings that a rigid housing holds, those of the inner ring. Of
+    a recording of pressures the microphones.
 
     Raises
     ------
     ValueError
         Where there are neither.
     """
-    found: list[str] = []
+    found = list(accelerometers(recording))
+    if found:
+        return found
     names = signal_names(recording)
     for ring in ("outer_ring", "inner_ring"):
         ends = tuple(f"{ring}.acceleration.{way}" for way in "yz")

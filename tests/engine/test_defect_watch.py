@@ -39,13 +39,13 @@ def wrapped(angle):
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def rolled(p, s, z, move, count=COUNT):
+def rolled(p, s, z, move, count=COUNT, step=STEP):
     """Outputs of the defects after each step; ``move`` puts a time into the state."""
     rows = []
     for k in range(count):
-        s[S.TIME] = STEP * k
+        s[S.TIME] = step * k
         move(s, s[S.TIME])
-        watch_defects(p, s, STEP)
+        watch_defects(p, s, step)
         observe_defects(p, s, z, 0)
         rows.append(z.copy())
     return np.array(rows)
@@ -92,32 +92,42 @@ def test_passages_and_entries_are_those_of_the_balls_angles(race, way):
     assert np.abs(rows[:, 2] - since).max() < 1e-12
 
 
-def test_a_ball_strikes_where_it_turns_round():
-    """On the outer race a ball sinks outwards; its own and the ring's velocity count, against each other."""
+@pytest.mark.parametrize("ring", [2e-3, -2e-3])
+def test_a_ball_strikes_where_it_turns_round_at_its_deepest(ring):
+    """On the outer race a ball sinks outwards; its own and the ring's motion count, against each other.
+
+    ``ring``: m/s, of the outer ring upwards. The ball swings in the defect and turns round twice.
+    """
     p, s, z = bearing(on_race(1))
-    ring = 2e-3  # m/s, of the outer ring upwards
+    rate, amplitude, middle, step = 2e4, 5e-3, 2e-3, 1e-6
 
     def move(state, time):
-        state[S.Y + Y.TH] = wrapped(ANGLE + ORBIT * (time - 0.01))
+        phase = rate * (time - middle)
+        state[S.Y + Y.TH] = wrapped(ANGLE + ORBIT * (time - middle))
         state[S.Y + Y.TH + 1 : S.Y + Y.TH + BALLS] = 0.0
-        state[S.Y + Y.VR] = 5e-3 * math.cos(1e4 * (time - 0.01))
+        state[S.Y + Y.R] = amplitude / rate * math.sin(phase)
+        state[S.Y + Y.VR] = amplitude * math.cos(phase)
+        state[S.Y + Y.Q0 + Q.OUTER + Q.Z] = ring * (time - middle)
         state[S.Y + Y.V0 + Q.OUTER + Q.Z] = ring
 
-    rows = rolled(p, s, z, move, 500)
-    # it sinks by v_r and by what the ring rises at its lowest place: until cos = -0.4
-    struck = 0.01 + math.acos(-0.4) / 1e4
-    assert RADII[1] * ORBIT * (struck - 0.01) < 0.5 * LENGTH  # inside
-    # straight lines between steps of 30 us: h^2 f''/(8 f') is 0.5 us; over the sound race nothing counts
-    assert rows[-1, 4] == pytest.approx(struck, abs=1e-6)
-    before = int(struck / STEP)
-    assert rows[before, 4] == 0.0 and rows[before + 1, 4] == rows[-1, 4]
+    rows = rolled(p, s, z, move, 3000, step)
+    # it sinks by v_r and by what the ring rises at its lowest place: until cos = -ring / amplitude
+    turn = math.acos(-ring / amplitude)
+    first, second = (middle + (turn + 2.0 * math.pi * k) / rate for k in (-1, 0))
+    assert RADII[1] * ORBIT * max(middle - first, second - middle) < 0.5 * LENGTH  # inside, both
+    # a ring that rises makes the second one deeper; one that falls makes it less deep, and it does not count;
+    # 16 mrad beside its lowest place a ring rises by 1e-4 less: 3 ns
+    assert rows[round((second - 2e-5) / step), 4] == pytest.approx(first, abs=1e-8)
+    assert rows[-1, 4] == pytest.approx(second if ring > 0.0 else first, abs=1e-8)
+    assert not rows[: int(first / step), 4].any()
 
 
 def test_a_moved_ring_sees_a_ball_at_another_angle():
     p, s, _ = bearing(on_race(1))
     s[S.Y + Y.TH] = 0.5 * math.pi  # at -Y
     s[S.Y + Y.Q0 + Q.OUTER + Q.Z] = 1e-4
-    angle, _ = on_ring(p, s, 1, 0)
+    angle, depth, _ = on_ring(p, s, 1, 0)
+    assert abs(depth) < 1e-6  # it moved along the track
     # from a ring that is higher the ball is lower: further on its way from 12 o'clock to 6
     assert angle == pytest.approx(0.5 * math.pi + math.atan2(1e-4, PITCH), rel=1e-5)
 

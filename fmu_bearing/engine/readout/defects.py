@@ -2,8 +2,9 @@
 
 The ball nearest to a defect is followed from step to step: of a race by its angle on the ring, of a ball by
 the angle from the defect to its two contacts. A ball enters where its middle comes over the edge of the
-defect, half a length from its middle, and strikes where it turns round there: until then it sinks towards the
-race. Times are those of straight lines between the ends of a step. None of it acts on the bearing.
+defect, half a length from its middle, and strikes where it turns round at its deepest since then: until there
+it sinks towards the race. What it does on its way up again, as rings shake, is no impact. Times are those of
+straight lines between the ends of a step. None of it acts on the bearing.
 """
 
 import math
@@ -12,6 +13,8 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import DE, P, Q, R, S, Y, Z
 from fmu_bearing.engine.mechanics.defects import head_of, table_of, within
 from fmu_bearing.engine.mechanics.trigonometry import wrap
+
+_NOWHERE = -1e30  # m: less deep than any place
 
 
 @kernel
@@ -22,7 +25,7 @@ def turned_by(s, race):
 
 @kernel
 def on_ring(p, s, race, j):
-    """Angle (rad) of ball ``j`` on a ring, and its velocity (m/s) towards the ring's race."""
+    """Angle (rad) of ball ``j`` on a ring; how far it is towards the ring's race (m), and how fast (m/s)."""
     ring = S.Y + Y.Q0 + (0 if race == 0 else Q.OUTER)
     rate = S.Y + Y.V0 + (0 if race == 0 else Q.OUTER)
     angle = s[S.Y + Y.TH + j]
@@ -32,12 +35,13 @@ def on_ring(p, s, race, j):
     out = p[P.PITCH_RADIUS] + s[S.Y + Y.R + j] + n * s[ring + Q.Y] - c * s[ring + Q.Z]
     ahead = c * s[ring + Q.Y] + n * s[ring + Q.Z]
     outwards = s[S.Y + Y.VR + j] + n * s[rate + Q.Y] - c * s[rate + Q.Z]
-    return angle + ahead / out - turned_by(s, race), outwards if race == 1 else -outwards
+    side = 1.0 if race == 1 else -1.0
+    return angle + ahead / out - turned_by(s, race), side * (out - p[P.PITCH_RADIUS]), side * outwards
 
 
 @kernel
 def nearest_on_race(p, s, head):
-    """Ball nearest to a defect of a race: its number, place (m) along the track and sinking (m/s)."""
+    """Ball nearest to a defect of a race: number, place (m) along the track, depth (m) and sinking (m/s)."""
     race = int(p[head + DE.ON])
     there = p[head + DE.ANGLE] + turned_by(s, race)
     near = 0
@@ -47,13 +51,13 @@ def nearest_on_race(p, s, head):
         if away < least:
             near = j
             least = away
-    angle, sinking = on_ring(p, s, race, near)
-    return near, p[head + DE.RADIUS + race] * wrap(angle - p[head + DE.ANGLE]), sinking
+    angle, depth, sinking = on_ring(p, s, race, near)
+    return near, p[head + DE.RADIUS + race] * wrap(angle - p[head + DE.ANGLE]), depth, sinking
 
 
 @kernel
 def nearest_on_ball(p, s, k):
-    """Contact of its ball nearest to a defect: race, place (m) along the track and sinking (m/s).
+    """Contact of its ball nearest to a defect: race, place (m) along the track, depth (m) and sinking (m/s).
 
     The contacts' directions are those of the last communication point. A contact whose track the defect
     misses is as far away as can be.
@@ -63,6 +67,7 @@ def nearest_on_ball(p, s, k):
     d = S.DEFECT_AXES + DE.VECTOR * k
     near = 0
     place = 1e30
+    depth = 0.0
     sinking = 0.0
     for race in range(2):
         kept = S.CONTACTS + race * R.KEPT + j
@@ -76,13 +81,13 @@ def nearest_on_ball(p, s, k):
             if abs(x) < abs(place):
                 near = race
                 place = x
-                _, sinking = on_ring(p, s, race, j)
-    return near, place, sinking
+                _, depth, sinking = on_ring(p, s, race, j)
+    return near, place, depth, sinking
 
 
 @kernel
 def nearest(p, s, k):
-    """Ball, or contact of the ball, nearest to defect ``k``: its number, place (m) and sinking (m/s)."""
+    """Ball, or contact of the ball, nearest to defect ``k``: its number, place, depth (m), sinking (m/s)."""
     head = head_of(p, k)
     if p[head + DE.ON] == DE.BALL:
         return nearest_on_ball(p, s, k)
@@ -94,7 +99,7 @@ def watch_defects(p, s, h):
     """Note what the step ``h`` (s) that led to the state ``s`` of a bearing has seen of its defects."""
     for k in range(int(p[P.DEFECTS])):
         at = S.SEEN + k * DE.SEEN_SIZE
-        near, place, sinking = nearest(p, s, k)
+        near, place, depth, sinking = nearest(p, s, k)
         before = s[at + DE.PLACE]
         moved = place - before
         head = head_of(p, k)
@@ -106,9 +111,12 @@ def watch_defects(p, s, h):
             edge = -half if moved > 0.0 else half
             if moved * (edge - before) > 0.0 and moved * (place - edge) >= 0.0:
                 s[at + DE.ENTRY] = s[S.TIME] - h * (place - edge) / moved
+                s[at + DE.DEEPEST] = _NOWHERE
             sunk = s[at + DE.SINKING]
-            if abs(place) <= half and sunk > 0.0 and not (sinking > 0.0):
+            turned = sunk > 0.0 and not (sinking > 0.0)
+            if turned and abs(place) <= half and depth > s[at + DE.DEEPEST]:
                 s[at + DE.IMPACT] = s[S.TIME] + h * sinking / (sunk - sinking)
+                s[at + DE.DEEPEST] = depth
         s[at + DE.NEAR] = near + 1.0
         s[at + DE.PLACE] = place
         s[at + DE.SINKING] = sinking
@@ -120,7 +128,7 @@ def observe_defects(p, s, z, to):
     for k in range(int(p[P.DEFECTS])):
         head = head_of(p, k)
         at = S.SEEN + k * DE.SEEN_SIZE
-        near, place, _ = nearest(p, s, k)
+        near, place, _, _ = nearest(p, s, k)
         race = int(p[head + DE.ON])
         ball = near
         if race == DE.BALL:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.measured import friction, motion, stiffness
+from benchmarks.measured import defects, friction, motion, stiffness
 from benchmarks.measured.sources import NAN, OTHER_BALLS, Value, of
 from fmu_bearing.progress import Tell, silent
 
@@ -133,6 +133,25 @@ def cwru() -> list[Compared]:
     return found
 
 
+def cwru_pits() -> list[Compared]:
+    """Return side bands and places of the pits of the 6205."""
+    found = []
+    for one in of("cwru_pits"):
+        each = [defects.cwru_value(one, loads) for loads in defects.LOADS]
+        found.append(Compared(one, each[0], min(each), max(each)))
+    return found
+
+
+def mfpt() -> list[Compared]:
+    """Return how a bearing with faults follows its load."""
+    found = []
+    for one in of("mfpt"):
+        each = [defects.mfpt_value(one, size) for size in defects.SIZES]
+        base = one.quantity.startswith(("rms", "kurtosis")) and one.load_N == defects.LEAST
+        found.append(Compared(one, each[0], min(each), max(each), counts=not base))
+    return found
+
+
 def paderborn() -> list[Compared]:
     """Return the slip of cages."""
     bound = motion.SLIP_BOUND
@@ -157,7 +176,7 @@ def tnd7870() -> list[Compared]:
 
 
 #: Sources in the order of the table of values.
-SOURCES = (nsk, tpi, ibc, skf, tp2275, asme, ntn, cwru, paderborn, kyk, tnd7870)
+SOURCES = (nsk, tpi, ibc, skf, tp2275, asme, ntn, cwru, cwru_pits, mfpt, paderborn, kyk, tnd7870)
 
 
 def everything(tell: Tell = silent) -> dict[str, list[Compared]]:

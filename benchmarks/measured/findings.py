@@ -1,6 +1,6 @@
 """What each source says of the package: goals, what was found, misses first."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +37,25 @@ def span(values: Iterable[float], digits: int = 2) -> str:
     """Return the least and the largest value in words."""
     every = list(values)
     return f"{min(every):.{digits}f} to {max(every):.{digits}f}"
+
+
+def _of_defects(rows: Callable[..., list[Compared]]) -> Iterator[Finding]:
+    """Yield what records of defects say; goals were set before the comparison was made."""
+    goals = (
+        ("cwru_pits", "side bands", "side bands over line, pits of an inner race", 2.0),
+        ("cwru_pits", "line of", "line at 3 and 12 over 6 o'clock, pits of an outer race", 4.0),
+        ("mfpt", "line of", "line of the inner race over shaft", 1.005),
+        ("mfpt", "side bands", "side bands over line of the inner race", 1.5),
+        ("mfpt", "rms", "growth of the rms with the load, outer race", 1.5),
+        ("mfpt", "kurtosis", "growth of the kurtosis with the load, outer race", 2.0),
+    )
+    for source, quantity, what, factor in goals:
+        ratios = np.array([one.found for one in rows(source, quantity)])
+        inside = np.abs(np.log(ratios)) <= np.log(factor)
+        goal = "within 0.5 %" if factor < 1.1 else f"within a factor of {factor:g}"
+        digits = 4 if factor < 1.1 else 2
+        found = f"{inside.sum()} within, {span(ratios, digits)}"
+        yield Finding(source, what, ratios.size, goal, found, _within(bool(inside.all())))
 
 
 def findings(found: Mapping[str, list[Compared]]) -> list[Finding]:
@@ -94,6 +113,7 @@ def findings(found: Mapping[str, list[Compared]]) -> list[Finding]:
         Finding("cwru", "cage over shaft speed", len(cage), "within 0.5 %",
                 f"{100 * cage.min():+.2f} to {100 * cage.max():+.2f} %",
                 _within(bool(np.all(abs(cage) < 5e-3)))),
+        *_of_defects(rows),
         Finding("paderborn", "slip of the cage", len(slip), "within 0.5 %",
                 f"{slip.min():+.2f} to {slip.max():+.2f} %", _within(bool(np.all(abs(slip) < 0.5)))),
         Finding("kyk", "vibration in three bands, steel 7003C P4 beside limit V3", len(limit),

@@ -7,9 +7,9 @@ Pressures p >= 0 on a grid of rectangles, each constant, so that
 where ``gap`` is that of the undeformed bodies at a given approach, below zero where they overlap. Conjugate
 gradients with projection (Polonsky and Keer, Wear 231 (1999) 206), here at a fixed approach; influence of a
 rectangle by Love (1929), summed by Fourier transforms over a grid of twice the size, on which nothing wraps
-round (Liu, Wang and Liu, Wear 243 (2000) 101). The inverse of the influence of all cells, by the same
-transforms, preconditions the steps (Vollebregt, J. Comput. Phys. 257 (2014) 333): half as many, and no more
-on finer grids.
+round (from memory: Liu, Wang and Liu, Wear 243 (2000) 101). The inverse of the influence of all cells, by the
+same transforms, preconditions the steps (from memory: Vollebregt, J. Comput. Phys. 257 (2014) 333): half as
+many.
 
 The pressures are those of least complementary energy V = int p (u/2 + gap) dA, and U = -V is the energy that
 the contact stores. Its slopes come with the pressures: dU/d(approach) is the load, and with a gap that moves

@@ -159,4 +159,5 @@ def _cells(low: float, high: float, number: int, size: float, middle: float) -> 
         first = middle - 0.5 * size
         low = first + width * math.floor((low - first) / width)
         number = math.ceil((high - low) / width)
-    return low + width * (np.arange(number) + 0.5), width
+    middles: Real = low + width * (np.arange(number, dtype=np.float64) + 0.5)
+    return middles, width

@@ -14,7 +14,7 @@ from fmu_bearing.prepare.contacts import surfaces
 from fmu_bearing.prepare.defect_blocks import pass_rate
 from tests.engine.deep_groove import deep_groove
 from tests.engine.defects import groove, on_ball, on_race, smooth, with_defects
-from tests.engine.helpers import Run
+from tests.engine.helpers import Run, quiet
 from tests.marks import heavy_but
 
 LOAD, CLEARANCE, SPEED = 300.0, 12.0, 1797.0  # N, um, r/min
@@ -55,6 +55,19 @@ def test_energy_is_kept(length):
     run = Passage(length).init()
     run.run(0.2, 2e-3)
     assert abs(run.imbalance) < 1e-4 * run.heat
+
+
+@pytest.mark.parametrize("on", heavy_but(["inner", "outer", "ball"], 1))
+def test_energy_is_kept_with_bending_rings(scene, on):
+    run = Run(quiet(scene("7009C-full-ceramic")), 18e3, bends=True)
+    table = smooth(touch=1e-6, lost=1e-6)
+    one = {
+        "inner": lambda: on_race(run.p, 0, table), "outer": lambda: on_race(run.p, 1, table),
+        "ball": lambda: on_ball(run.p, (table, table), 3),
+    }[on]()  # fmt: skip
+    run.p = with_defects(run.p, one)
+    run.init().run(0.01, 1e-3)
+    assert abs(run.imbalance) < 1e-5 * run.heat
 
 
 @pytest.mark.heavy

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import DE, STRIDE, C, F, P, Q, R, S, W, X, Y
-from fmu_bearing.engine.mechanics.ball_waves import advance_axes, turn_axes
+from fmu_bearing.engine.mechanics.ball_waves import advance_axes, first_axes, turn_axes
 from fmu_bearing.engine.mechanics.defects import acts_across, left_over, scaled_left_over
 from fmu_bearing.engine.mechanics.energy import stored_energy
 from fmu_bearing.prepare.defect_blocks import rows
@@ -98,15 +98,14 @@ def flawed(point, kind, ball):
     point.p = with_defects(p, *placed)
     point.c[C.DEFECT_SCALE : C.DEFECT_SCALE + len(placed)] = 0.9
     axes = np.zeros(S.JAC - S.AXES)
-    for k, one in enumerate(placed):
-        axes[S.DEFECT_AXES - S.AXES + DE.VECTOR * k :][: DE.VECTOR] = one.direction
+    first_axes(point.p, axes)
     turn_axes(point.p, axes, y, int(p[P.LANES]), 0.0, point.w)
     return axes
 
 
-def state(scene, kind, name="7003C-spindle"):
+def state(scene, kind, ball_waves=None):
     """A state with defects, its axes, and the ball that meets them."""
-    point = shaken(scene(name), WAVINESS=0.0)
+    point = shaken(scene("7003C-spindle"), WAVINESS=0.0, ball_waves=ball_waves)
     point.accelerations(point.y)
     ball = pressed(point)
     return point, flawed(point, kind, ball), ball
@@ -120,10 +119,11 @@ def energy(point, axes, y, t):
     return stored_energy(point.p, point.c, y, point.w)
 
 
+@pytest.mark.parametrize("waves", [None, 1e-7 * np.array([0.0, 1.0, 0.5])], ids=["round", "wavy"])
 @pytest.mark.parametrize("kind", DEFECTS)
-def test_stored_energy_grows_by_what_is_put_in_less_what_is_lost(scene, kind):
+def test_stored_energy_grows_by_what_is_put_in_less_what_is_lost(scene, kind, waves):
     """Forces on balls and rings, moments and damping belong to one energy of the contact."""
-    point, axes, ball = state(scene, kind)
+    point, axes, ball = state(scene, kind, waves)
     y, f = point.y, point.accelerations(point.y)
     gains = [point.w[W.RACE + race * R.SIZE + R.GAIN + ball] for race in range(2)]
     assert min(gains) < 0.95

@@ -14,6 +14,8 @@ from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.design.verdicts import GYROSCOPIC, HIGH_PRESSURE, verdicts
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas import clearances, iso76, iso281, makers, seals
+from fmu_bearing.machining.stability import lobes
+from fmu_bearing.modal.receptance.scene_receptance import receptance
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.recording.record import record
 from fmu_bearing.scene import read_scene, read_scene_text
@@ -204,6 +206,35 @@ def degrees_per_um():
     )
 
 
+END_MILL = EXAMPLES.parent / "milling" / "7003C-QBC-end-mill.toml"
+
+
+@functools.cache
+def milled(**keys):
+    """Lobes of the end mill with other keys, dots written as two underscores."""
+    return lobes(read_scene(END_MILL).replace({key.replace("__", "."): value for key, value in keys.items()}))
+
+
+def deepest(rpm, **keys):
+    """Limit of its depth at a speed, mm."""
+    found = milled(**keys)
+    return 1e3 * min(found.limits, key=lambda one: abs(one.speed - rpm)).depth
+
+
+def floor(**keys):
+    """Least limit, mm."""
+    return 1e3 * milled(**keys).least.depth
+
+
+@functools.cache
+def tip():
+    """Peak of its tip along Y."""
+    return receptance(END_MILL, at="tip").peaks()[1]
+
+
+SOFT = {"spindle__preload__preload_N": 60.0}
+STIFF = {"spindle__preload__preload_N": 240.0}
+
 #: Figures of each page in words, and where they come from.
 FIGURES = {
     "tutorial.md": {
@@ -335,6 +366,21 @@ FIGURES = {
         "20.9 W in": lambda: rubbed("RSH").heats[0].seals,
         "1.3 W.**": lambda: rubbed("RSL").heats[0].seals,
     },
+    "chatter.md": {
+        "2.4 N/um, at": lambda: 1e-6 * tip().stiffness,
+        "1472 Hz": lambda: tip().frequency,
+        "0.04 N/um": lambda: 1e-6 * tip().dynamic,
+        "0.40 of its": lambda: tip().cross,
+        "0.103 mm, three": lambda: floor(**SOFT),
+        "0.65 mm at": lambda: deepest(18e3, **SOFT),
+        "0.045 and": lambda: floor(**STIFF),
+        "0.12 mm.": lambda: deepest(18e3, **STIFF),
+        "0.4 of the limit": lambda: 0.5 / deepest(20_250.0),
+        "7 % less": lambda: (
+            100.0 * (1.0 - deepest(20_250.0, bearing__contact_damping_us=1.25) / deepest(20_250.0))
+        ),
+        "0.07 mm, 0.7": lambda: 0.7 * deepest(18e3, bearing__contact_damping_us=1.25),
+    },
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),
         "1986 Hz": lambda: resonance(point()),
@@ -344,8 +390,9 @@ FIGURES = {
 
 
 def _studied(page):
-    """The page; fits has three studies of five columns, 5 s each."""
-    return pytest.param(page, marks=pytest.mark.heavy) if page == "fits.md" else page
+    """The page; fits has three studies of five columns, 5 s each, chatter five of lobes, 10 s each."""
+    heavy = page in ("fits.md", "chatter.md")
+    return pytest.param(page, marks=pytest.mark.heavy) if heavy else page
 
 
 @pytest.mark.heavy
@@ -396,6 +443,27 @@ def test_table_of_preloads():
         assert axial == pytest.approx(1e-6 * found.stiffness[0, 0], abs=0.06)
         assert across == pytest.approx(radial(found), abs=0.06)
         assert life == pytest.approx(1e-3 * found.rating.life, abs=0.06)
+
+
+@pytest.mark.heavy
+def test_table_of_damping():
+    """Rows by their words; the floor of the lobes moves by what the sentence below says, in a ratio of 90."""
+    rows = {
+        "as it is": {},
+        "contacts 1.25 us": {"bearing__contact_damping_us": 1.25},
+        "contacts 5 us": {"bearing__contact_damping_us": 5.0},
+        "shaft 0.0025": {"spindle__shaft__damping_ratio": 0.0025},
+        "shaft 0.01": {"spindle__shaft__damping_ratio": 0.01},
+        "tool 0.005": {"tool__damping_ratio": 0.005},
+        "tool 0.02": {"tool__damping_ratio": 0.02},
+    }
+    text = (LEARN / "chatter.md").read_text(encoding="utf-8")
+    for words, keys in rows.items():
+        cells = re.search(rf"\| {re.escape(words)} \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", text).groups()
+        found = floor(**keys), deepest(18e3, **keys), deepest(20_250.0, **keys)
+        for cell, value, digits in zip(cells, found, (3, 3, 2), strict=True):
+            assert float(cell) == pytest.approx(value, abs=0.51 * 10.0**-digits), words
+    assert milled().pockets()[0].depth / milled().least.depth == pytest.approx(90.0, rel=0.05)
 
 
 def test_table_of_lives():
@@ -451,8 +519,8 @@ def test_a_wanted_life_is_judged():
 
 
 def weighed(page):
-    """The page; tutorial (a report), noise (dozens of runs) and fits (studies) take some 20 s each."""
-    heavy = page in ("tutorial.md", "noise.md", "fits.md")
+    """The page; tutorial (a report), noise (dozens of runs), fits, chatter (studies): some 20 s each."""
+    heavy = page in ("tutorial.md", "noise.md", "fits.md", "chatter.md")
     return pytest.param(page, marks=pytest.mark.heavy) if heavy else page
 
 

@@ -19,6 +19,8 @@ QUESTIONS = (
      "between the skidding limit and the heavy class"),
     ("How hot do the rings and the oil get?", "learn/heat.md", "info --temperatures"),
     ("Will it last 20,000 hours?", "learn/life.md", "For 20,000 h keep the"),
+    ("At which speed may I cut deeper before it chatters?", "learn/chatter.md",
+     "run this mill at 20,250 r/min"),
     ("My bearing is not in the catalogue. How do I enter it?", "sizes.md",
      "give the balls. `fmu-bearing scene new` with `--bore`"),
     ("Which speed excites a resonance, and which preload avoids it?", "modes.md", "Take 650 N"),

@@ -92,8 +92,8 @@ class BallOverDefect:
         return self.extent(highest)[0] + beside
 
     def extent(self, highest: float) -> tuple[float, float]:
-        """Half lengths (m) of the shape along and across, of a track as wide as its ball overlaps it."""
-        return self.shape.extent(math.sqrt(2.0 * self.ry * (highest + self.shape.rim)))
+        """Half lengths (m) of the shape along and across, on a track as wide as the undamaged contact is."""
+        return self.shape.extent(self.hertz.half_length * math.sqrt(highest))
 
     def _pit(self, x: Real, y: Real) -> Real:
         return self.shape.pit(*np.broadcast_arrays(x, y))

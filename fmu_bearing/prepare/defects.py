@@ -76,7 +76,7 @@ class Table(NamedTuple):
 def defect_table(shape: Shape, radius_x: float, radius_y: float, modulus: float) -> Table:
     """Table of a defect under a ball: from memory, from disk, or computed now.
 
-    It takes 10 to 20 s of a processor. Tables are kept beside the compiled kernels, in the folder ``defects``
+    It takes 2 to 20 s of a processor. Tables are kept beside the compiled kernels, in the folder ``defects``
     (`files.cache_root`), for these numbers and this version of the code.
 
     Parameters
@@ -97,8 +97,9 @@ def defect_table(shape: Shape, radius_x: float, radius_y: float, modulus: float)
     kept = _load(path)
     if kept is not None:
         return kept
-    size = f"{1e3 * shape.length:.3g} x {1e3 * shape.width:.3g} mm"
-    with work(f"contact over a {shape.kind} of {size}, once for it", unit="places") as one:
+    across = "the track's width" if math.isinf(shape.width) else f"{1e3 * shape.width:.3g} mm"
+    what = f"contact over a defect of {1e3 * shape.length:.3g} mm by {across}, once for it"
+    with work(what, unit="places") as one:
         found = computed(shape, radius_x, radius_y, modulus, said=lambda places: one.at(float(places)))
     _save(path, found)
     return found
@@ -107,7 +108,8 @@ def defect_table(shape: Shape, radius_x: float, radius_y: float, modulus: float)
 def _key(shape: Shape, *numbers: float) -> str:
     """Key (64 hex digits) of a table: what it is for, and the sources that compute it."""
     root = pathlib.Path(__file__).parents[1]
-    hashed = hashlib.sha256(repr((tuple(shape), numbers)).encode())
+    given = [shape.kind, *(float(one) for one in (*shape[1:], *numbers))]
+    hashed = hashlib.sha256(repr(given).encode())
     for name in _SOURCES:
         hashed.update((root / name).read_bytes())
     return hashed.hexdigest()

@@ -45,8 +45,8 @@ REASONS = {
     TOO_SOFT: "the loads push the outer ring sideways by more than 0.3 of the pitch radius; "
     "give a stiffer pedestal or less radial load",
     DEEP_DEFECT: "a local defect (imperfections.defect) drops the most loaded ball by more than it is "
-    "pressed into both races, so that balls leave a race there, which fidelity rings does not follow; "
-    "give fidelity full, a smaller defect, or more load",
+    "pressed into both races, so that balls leave a race there, which fidelity rings does not follow; give "
+    "fidelity full, a smaller defect, or more load",
 }
 # of a set these words differ: loads are those on its shaft
 _OF_SETS = {

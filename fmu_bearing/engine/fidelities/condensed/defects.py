@@ -7,8 +7,9 @@ ball misses what rings move aside: micrometres, of a table that is tenths of a m
 Contact damping acts on the rate of what is left of the approach. To first order that is what is left at the
 approach advanced by it, plus tau times its slope along the track times the speed there: see `balls`.
 
-What a defect pushes along its track, the load times the slope of the table, acts on its ring. On the ball it
-does not: orbits are frozen. Nor does what a defect on a ball pushes, which turns the ball above all.
+What a defect pushes along its track, the load times the slope of the table, is T on the ball. It rolls on
+both races, which hold it on its orbit by -T/2 each, in `full` within some microseconds: so the ring with the
+defect feels -T/2 and the other one T/2. What a defect on a ball pushes turns the ball above all: left out.
 """
 
 import math
@@ -88,6 +89,7 @@ def place_defects(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
     orbit = lv[L.RATIO] * speed
     for i in range(2 * STRIDE):
         w[T.MEETS + i] = 0.0
+        w[T.PUSH + i] = 0.0
     for i in range(2 * MAX_DEFECTS * STRIDE):
         w[T.OVER + i] = _FAR
     for k in range(int(p[P.DEFECTS])):
@@ -151,8 +153,8 @@ def push_ring(p, race, row, force, w):
     ``row``: rows of the contacts. The force acts at the balls' middles, as the normal one.
     """
     for j in range(int(p[P.BALLS])):
-        if w[T.MEETS + race * STRIDE + j] != 0.0:
-            ft = w[T.PUSH + race * STRIDE + j]
+        if w[T.MEETS + j] + w[T.MEETS + STRIDE + j] != 0.0:
+            ft = 0.5 * (w[T.PUSH + race * STRIDE + j] - w[T.PUSH + (1 - race) * STRIDE + j])
             co, si = w[T.COS + j], w[T.SIN + j]
             gr = -w[row + T.QX + j] * ft
             w[force + T.FY + j] -= co * ft

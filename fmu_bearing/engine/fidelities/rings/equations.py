@@ -183,15 +183,24 @@ def stiffness_matrix(p, s, own, ws, at):
 
 
 @kernel
-def differentiate(p, s, w):
-    """Jacobian at the present state, with balls at rest; False if there is none."""
+def show_present(p, s, w):
+    """Put the present state of rings, balls and races to the trial places."""
     lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
-    c = s[S.C : S.C + C.SIZE]
     for i in range(L.N):
         w[W.STAGE + Y.Q0 + i] = lv[L.Q0 + i]
         w[W.STAGE + Y.V0 + i] = lv[L.V0 + i]
     show_balls(lv, L.X, w)
-    set_angles(p, c, lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], lv[L.Q0 + L.TURN], s[S.SPEED], w)
+    set_angles(
+        p, s[S.C : S.C + C.SIZE], lv, lv[L.THETA], lv[L.ROLLED], s[S.ANGLE], lv[L.Q0 + L.TURN], s[S.SPEED], w
+    )
+
+
+@kernel
+def differentiate(p, s, w):
+    """Jacobian at the present state, with balls at rest; False if there is none."""
+    lv = s[S.CONDENSED : S.CONDENSED + L.SIZE]
+    c = s[S.C : S.C + C.SIZE]
+    show_present(p, s, w)
     if not derivatives(p, c, lv, s[S.ANGLE], s[S.SPEED], s[S.SPEED_RATE], w):
         return False
     s[S.JACOBIANS] += 1.0

@@ -10,17 +10,19 @@ Arguments: see `spindle.members`.
 
 from fmu_bearing.engine.fidelities import steps
 from fmu_bearing.engine.fidelities.condensed.ball_motion import forget_balls
+from fmu_bearing.engine.fidelities.condensed.balls import accelerations
 from fmu_bearing.engine.fidelities.condensed.rows import turn_balls
 from fmu_bearing.engine.fidelities.condensed.shared import advance
 from fmu_bearing.engine.fidelities.full.start import exceeds_pedestal
 from fmu_bearing.engine.fidelities.rings import equations, frozen_points, predictor
 from fmu_bearing.engine.fidelities.rings.march import emit_rings, go_on, take_inputs
-from fmu_bearing.engine.fidelities.rings.start import begin_at_rest
+from fmu_bearing.engine.fidelities.rings.start import begin_at_rest, follows_defects
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import L, S, U
+from fmu_bearing.engine.layout import DE, C, L, P, S, T, U
+from fmu_bearing.engine.mechanics.defects import head_of
 from fmu_bearing.engine.spindle import members
 from fmu_bearing.engine.spindle.sound_sum import sampled
-from fmu_bearing.engine.status import OK, TOO_SOFT
+from fmu_bearing.engine.status import DEEP_DEFECT, OK, TOO_SOFT
 
 _TRIES = 3  # times to begin again within a communication step, before the rings wait for its end
 
@@ -55,14 +57,44 @@ def wait(p, s, w, h):
 
 
 @kernel
+def defects_grow(p, s):
+    """Whether a local defect has got a larger scale than in the last step."""
+    for b in range(members.bearing_count(p)):
+        pb = members.parameters(p, b)
+        for k in range(int(pb[P.DEFECTS])):
+            now = p[P.DEFECT_SCALE + int(pb[head_of(pb, k) + DE.NUMBER])]
+            if now > members.state(p, s, b)[S.C + C.DEFECT_SCALE + k]:
+                return True
+    return False
+
+
+@kernel
+def follows_now(p, s, w):
+    """Whether no local defect is deeper than balls follow from the present state on."""
+    for b in range(members.bearing_count(p)):
+        pb = members.parameters(p, b)
+        sb = members.state(p, s, b)
+        wb = members.work(p, w, b)
+        equations.show_present(pb, sb, wb)
+        q = wb[T.Q : T.Q + L.COLUMN]
+        c, lv = sb[S.C : S.C + C.SIZE], members.condensed(sb)
+        if not accelerations(pb, c, lv, sb[S.ANGLE], sb[S.SPEED], sb[S.SPEED_RATE], q, wb):
+            return False
+    return follows_defects(p, s, w)
+
+
+@kernel
 def march_rings(p, u, s, w, h):
     """Advance the state of a set by the communication step ``h`` (s); status code."""
     for b in range(members.bearing_count(p)):
         steps.begin_means(members.state(p, s, b))
     end = s[S.TIME] + h
+    deeper = defects_grow(p, s)
     status = take_inputs(p, u, s, w, h)
     if exceeds_pedestal(p, s):
         return TOO_SOFT
+    if deeper and not follows_now(p, s, w):
+        return DEEP_DEFECT
     if status == OK:
         status = go_on(p, u, s, w, h, h, end)
     for again in range(_TRIES):

@@ -79,6 +79,16 @@ def begin_at_rest(p, s, w):
 
 
 @kernel
+def follows_defects(p, s, w):
+    """Whether no local defect is deeper than balls follow, see above; their contacts are in ``w``."""
+    for b in range(members.bearing_count(p)):
+        c = members.state(p, s, b)[S.C : S.C + C.SIZE]
+        if taken_by_defects(members.parameters(p, b), c, members.work(p, w, b)) > _MOST_TAKEN:
+            return False
+    return True
+
+
+@kernel
 def start_rings(p, u, s, w, t):
     """Fill the state ``s`` of a set for the inputs ``u`` at time ``t`` (s); status code."""
     status = frozen_points.start_frozen(p, u, s, w, t)
@@ -92,11 +102,8 @@ def start_rings(p, u, s, w, t):
             status = NO_START
         if status != OK:
             return status
-    for b in range(members.bearing_count(p)):
-        sb = members.state(p, s, b)
-        c = sb[S.C : S.C + C.SIZE]
-        if taken_by_defects(members.parameters(p, b), c, members.work(p, w, b)) > _MOST_TAKEN:
-            return DEEP_DEFECT
+    if not follows_defects(p, s, w):
+        return DEEP_DEFECT
     growth.search_at_once(p, s, w)
     for b in range(members.bearing_count(p)):
         begin_means(members.state(p, s, b))

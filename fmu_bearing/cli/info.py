@@ -91,8 +91,10 @@ def info(
     else:
         _show_bearing(point.bearings[0])
     if defects:
-        rows = [[one.defect, one.words, one.name, f"{one.frequency:.1f}", one.modulator] for one in defects]
-        show("local defects", ("", "", "line", "Hz", "side bands by"), rows)
+        rows = [[one.defect, one.name, f"{one.frequency:.1f}", one.modulator] for one in defects]
+        show("lines of local defects", ("", "line", "Hz", "side bands by"), rows)
+        for one in defects:
+            _show_heading(f"{one.defect}: {one.words}")
     if point.scene.fit is not None:
         _show_fits(point)
     _show_heat(point)

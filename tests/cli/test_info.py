@@ -57,6 +57,22 @@ def test_info_fits_a_terminal_and_names_units(run):
     assert "caution: contact pressure 1.89 GPa" in result.stderr
 
 
+def test_info_names_local_defects_and_their_lines(run, tmp_path):
+    lines = '[[imperfections.defect]]\non = "inner"\nshape = "pit"\nlength_mm = 0.3\ndepth_um = 50.0\n\n'
+    path = changed(tmp_path, ("[operation]", lines + "[operation]"))
+    result = run("info", path)
+    assert result.exit_code == 0
+    assert max(map(len, result.stdout.splitlines()[1:])) <= 80
+    assert "defect 1: pit of 0.3 mm, 50 um deep, on the inner race at 0 deg" in result.stdout
+    data = run("info", path, "--json").data
+    frequencies = data["bearings"][0]["frequencies_Hz"]
+    assert data["defects"] == [{
+        "defect": "defect 1", "words": "pit of 0.3 mm, 50 um deep, on the inner race at 0 deg", "line": "f_i",
+        "frequency_Hz": frequencies["f_i"], "side_bands_Hz": frequencies["f_r"],
+    }]  # fmt: skip
+    assert "defects" not in run("info", EXAMPLES / "7003C-spindle.toml", "--json").data
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("path", [EXAMPLES / "7003C-spindle.toml", SET], ids=["single", "set"])
 def test_info_says_how_far_torque_and_stiffness_were_from_values_elsewhere(run, path):

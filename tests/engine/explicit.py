@@ -8,7 +8,7 @@ import numpy as np
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import STRIDE, C, F, Q, S, W, Y
-from fmu_bearing.engine.reference.runge_kutta import AXES, ROWS, SIZE
+from fmu_bearing.engine.reference.runge_kutta import AXES, DIRECTIONS, ROWS, SIZE
 
 _PLACES = 3 * STRIDE  # of the balls: x, r, theta
 
@@ -23,10 +23,10 @@ class Motion:
         self.angle, self.speed = run.s[S.ANGLE], run.s[S.SPEED]
 
     def rate(self, t, y):
-        """Rates of the state ``y``, ``t`` (s) after the start."""
+        """Rates of the state ``y``, ``t`` (s) after the start, without defects on balls."""
         f, out = np.zeros(F.SIZE), np.zeros_like(y)
         angle = self.angle + self.speed * t
-        axes = y[AXES:].reshape(3, STRIDE)
+        axes = y[AXES:DIRECTIONS].reshape(3, STRIDE)
         self.w[W.AXES :][: axes.size] = axes.ravel()
         call("right_hand_side", self.p, self.c, y[: Y.SIZE].copy(), self.w, f, angle, self.speed, 0.0)
         out[:_PLACES] = y[_PLACES : 2 * _PLACES]
@@ -35,7 +35,7 @@ class Motion:
         out[Y.V0 : Y.SIZE] = f[F.BODY : F.BODY + Q.SIZE]
         spin = y[Y.WX : Y.Q0].reshape(3, STRIDE).copy()
         spin[0] -= y[Y.OM : Y.OM + STRIDE]
-        out[AXES:] = np.cross(spin, axes, axis=0).ravel()
+        out[AXES:DIRECTIONS] = np.cross(spin, axes, axis=0).ravel()
         return out
 
     def after(self, duration, h):

@@ -9,11 +9,13 @@ import pytest
 from scipy.optimize import brentq
 
 from fmu_bearing.engine.constants import GRAVITY
-from fmu_bearing.engine.layout import DE, C, P, R, S, U, Y
+from fmu_bearing.engine.layout import DE, C, P, Q, R, S, U, Y
+from fmu_bearing.engine.reference.runge_kutta import DIRECTIONS
 from fmu_bearing.prepare.contacts import surfaces
 from fmu_bearing.prepare.defect_blocks import pass_rate
 from tests.engine.deep_groove import deep_groove
 from tests.engine.defects import groove, on_ball, on_race, smooth, with_defects
+from tests.engine.explicit import Motion
 from tests.engine.helpers import Run, quiet
 from tests.marks import heavy_but
 
@@ -200,3 +202,55 @@ def test_a_defect_of_a_ball_meets_both_races(rpm, tilt):
         drops = np.ptp(least[race])
         assert drops > 0.2 if away < 6e-4 else drops > 0.0
     assert np.linalg.norm(run.s[S.DEFECT_AXES : S.DEFECT_AXES + DE.VECTOR]) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("on", ["inner", "outer", "ball"])
+def test_motion_is_that_of_tiny_steps_by_another_method(on):
+    """Kutta's method with steps of 0.05 us, which knows the right-hand side and turns the directions."""
+    run = Run(deep_groove(LOAD, SPEED, -8.0), SPEED, MAX_STEP=2e-6, TOLERANCE=1e-7)
+    table, ball = smooth(0.6e-3, touch=1e-6, lost=1e-6), 8.0 * np.pi / 9.0  # where the fifth one starts
+    one = {
+        "inner": lambda: on_race(run.p, 0, table, ball - 0.05),
+        "outer": lambda: on_race(run.p, 1, table, ball + 0.03),
+        "ball": lambda: on_ball(run.p, (table, table), 4, (0.0, 0.99, np.sqrt(1.0 - 0.99**2))),
+    }[on]()  # fmt: skip
+    run.p = with_defects(run.p, one)
+    run.u[U.LOAD_Z] = -LOAD
+    run.init()
+    motion = Motion(run)
+    still = run.s[S.Y : S.Y + Y.SIZE].copy()
+    run.run(1e-3, 1e-4)
+    wanted, found = motion.after(1e-3, 5e-8), run.s[S.Y : S.Y + Y.SIZE]
+    rings = slice(Y.V0, Y.V0 + Q.CAGE)
+    moved = np.abs(wanted[rings] - still[rings]).max()
+    assert moved > 1e-4  # m/s: the start knows of no defect
+    np.testing.assert_allclose(found[rings], wanted[rings], atol=1e-3 * moved)
+    directions = run.s[S.DEFECT_AXES : S.DEFECT_AXES + DE.VECTOR]
+    np.testing.assert_allclose(directions, wanted[DIRECTIONS : DIRECTIONS + DE.VECTOR], atol=1e-5)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("width", "low", "high"), [(0.3, 125.0, 155.0), (0.533, 45.0, 75.0), (0.8, 0.0, 0.0)]
+)
+def test_a_scratch_of_a_scene_unloads_the_lowest_ball(width, low, high):
+    """By half-space tables at 1,797 r/min; rigid edges leave 129, 47 and 0 N of 180, yielding ones more."""
+    flaws = {
+        "seed": 1, "unbalance_um": 0.0, "ball_diameter_spread_nm": 0.0, "inner_race_amplitude_um": 0.0,
+        "outer_race_amplitude_um": 0.0, "waviness_exponent": 1.0,
+        "defect": [{"on": "outer", "shape": "scratch", "width_mm": width, "depth_um": 280.0}],
+    }  # fmt: skip
+    scene = deep_groove(LOAD, SPEED, CLEARANCE, {"imperfections": flaws})
+    run = Run(scene, SPEED)
+    run.u[U.LOAD_Z] = -LOAD
+    run.init()
+    run.run(0.03, 1e-3)
+    least = np.inf
+    for _ in range(4000):  # two balls pass
+        run.run(4e-6, 4e-6)
+        angle = run.s[S.Y + Y.TH :][: int(run.p[P.BALLS])]
+        near = np.abs(np.mod(angle, 2.0 * np.pi) - BOTTOM) < 4e-4  # rad: 10 um
+        least = min([least, *run.s[S.CONTACTS + R.KEPT + R.KEPT_LOAD :][: near.size][near]])
+    assert low <= least <= high
+    assert abs(run.imbalance) < 1e-4 * run.heat

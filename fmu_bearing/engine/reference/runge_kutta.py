@@ -1,18 +1,40 @@
 """The classical method of Kutta (1901): explicit, and it knows the right-hand side only.
 
-Its state is that of the engine, with the balls' body-fixed axes behind it: a' = (w - theta' e_x) x a.
+Its state is that of the engine, with the balls' body-fixed axes behind it: a' = (w - theta' e_x) x a. The
+directions of local defects on balls follow, which turn the same way.
 """
 
 from fmu_bearing.engine.jit import kernel
-from fmu_bearing.engine.layout import FOUR, STRIDE, F, J, P, Q, W, Y
+from fmu_bearing.engine.layout import DE, FOUR, MAX_DEFECTS, STRIDE, F, J, P, Q, W, Y
 from fmu_bearing.engine.mechanics.ball_waves import turning
 from fmu_bearing.engine.mechanics.equations import right_hand_side
 from fmu_bearing.engine.mechanics.triples import cross, store_three, three
 
 AXES = Y.SIZE  # the balls' body-fixed axes (3 rows) in the state
-SIZE = AXES + 3 * STRIDE
+DIRECTIONS = AXES + 3 * STRIDE  # of the defects on balls, three numbers for each defect
+SIZE = DIRECTIONS + DE.VECTOR * MAX_DEFECTS
 # rows of scratch: rates at four places, the state at the next of them, right-hand side
 _LAST, _NEW, _F, ROWS = 3, 4, 5, 6
+
+
+@kernel
+def _turn_directions(p, y, w, k):
+    """Rates into ``k`` of the directions of defects on balls, which go to ``W.DEFECT_AXES``, too."""
+    for i in range(DIRECTIONS, SIZE):
+        k[i] = 0.0
+    for n in range(int(p[P.DEFECTS])):
+        head = int(p[P.AT_DEFECTS]) + n * DE.SIZE
+        if p[head + DE.ON] == DE.BALL:
+            j = int(p[head + DE.OF_BALL])
+            at = DIRECTIONS + DE.VECTOR * n
+            to = W.DEFECT_AXES + DE.VECTOR * n
+            spin = (y[Y.WX + j] - y[Y.OM + j], y[Y.WR + j], y[Y.WT + j])
+            x, r, t = cross(spin, (y[at], y[at + 1], y[at + 2]))
+            k[at] = x
+            k[at + 1] = r
+            k[at + 2] = t
+            for i in range(DE.VECTOR):
+                w[to + i] = y[at + i]
 
 
 @kernel
@@ -23,6 +45,7 @@ def _rates(p, c, y, angle, speed, w, f, k):
         axis = three(y, AXES + j)
         store_three(w, W.AXES + j, axis)
         store_three(k, AXES + j, cross(turning(y, j), axis))
+    _turn_directions(p, y, w, k)
     right_hand_side(p, c, y, angle, speed, 0.0, w, f)
     for i in range(J.PLACED):
         for j in range(lanes):

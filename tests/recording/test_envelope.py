@@ -15,7 +15,8 @@ from fmu_bearing import measure, record
 from fmu_bearing.recording.measurements.envelope import EnvelopeLine, squared_envelope
 from fmu_bearing.recording.measurements.envelope_files import usual_signals
 from fmu_bearing.results.base import table
-from fmu_bearing.scene.read import with_fidelity
+from fmu_bearing.scene.read import read_scene, with_fidelity
+from tests.conftest import EXAMPLES
 
 OPENCONMO = os.environ.get("FMU_BEARING_OPENCONMO")
 RATE = 51_200.0
@@ -190,6 +191,29 @@ def test_accelerations_are_the_rates_of_the_velocities_without_delay(recording):
     assert loud.sum() > 5
     # velocities at points are not band-limited: what is above 25.6 kHz is folded onto them
     assert np.abs(ratio) == pytest.approx(1.0, abs=0.02) and np.angle(ratio) == pytest.approx(0.0, abs=0.02)
+
+
+def test_accelerations_of_a_pair_have_the_axes_of_its_shaft():
+    pair = read_scene(EXAMPLES.parent / "spindle_set" / "7003C-DB.toml")
+    assert [bearing.sign for bearing in pair.bearings()] == [1.0, -1.0]
+    names = [f"bearing[{k}].inner_ring" for k in (1, 2)]
+    forces = {
+        f"nose.force.{way}": lambda t, f=f: 50.0 * np.sin(2.0 * np.pi * f * t)
+        for way, f in (("x", 1600.0), ("y", 900.0), ("z", 700.0))
+    }
+    outputs = [f"{name}.velocity.{way}" for name in names for way in "xyz"]
+    moved = record(
+        with_fidelity(pair, model="rings"), 0.05, step=1.0 / RATE, inputs=forces, radiation_model="compact",
+        outputs=outputs, warn=False,
+    )  # fmt: skip
+    for name in names:
+        for way in "xyz":
+            read, rate = (moved.signal(f"{name}.{kind}.{way}") for kind in ("acceleration", "velocity"))
+            wanted = np.gradient(rate.values, 1.0 / RATE)
+            # below some kHz, differences of samples are derivatives
+            sections = scipy.signal.butter(4, (100.0, 4000.0), "bandpass", fs=RATE, output="sos")
+            one, other = (scipy.signal.sosfiltfilt(sections, x)[200:-200] for x in (read.values, wanted))
+            assert np.linalg.norm(one - other) < 0.05 * np.linalg.norm(one), (name, way)
 
 
 def test_lines_are_those_of_the_cage_as_it_ran(recording):

@@ -81,9 +81,9 @@ def recorded_signal(
     if name in accelerometers(recording):
         read: NDArray[np.float64] = getattr(recording, "acceleration")(name)  # noqa: B009
         return RecordedSignal(name, ACCELERATION, read, recording.rate, recording.start, BAND[1])
-    column = _accelerations(recording).get(name)
-    if column is not None:
-        (values,) = recording.channel_signals([column])
+    if name in _accelerations(recording):
+        column, sign = _accelerations(recording)[name]
+        values = sign * recording.channel_signals([column])[0]
         return RecordedSignal(name, ACCELERATION, values, recording.rate, recording.start, BAND[1], number)
     step = _step(recording)
     kept = _within(recording)
@@ -97,18 +97,24 @@ def _number(name: str) -> int | None:
     return int(head[8:-1]) if head.startswith("bearing[") and head[8:-1].isdigit() else None
 
 
-def _accelerations(recording: ChannelHistory) -> dict[str, int]:
-    """Return columns of the channel history by the name of the acceleration that they hold."""
+def _accelerations(recording: ChannelHistory) -> dict[str, tuple[int, float]]:
+    """Return columns of the channel history by the name of the acceleration that they hold, and its sign.
+
+    Channels along x are in the axes of their bearing, which one that is mounted the other way round has
+    towards the nose.
+    """
     scene = recording.scene
     if scene is None or not recording.history.size or form_of(recording.radiation_model) != "vectors":
         return {}
-    found, first = {}, 0
+    found: dict[str, tuple[int, float]] = {}
+    first = 0
     for k, bearing in enumerate(scene.bearings()):
         for body, word in enumerate(_BODIES):
             if word == "cage" and bearing.scene.bearing.cage is None:
                 continue
             for axis, way in enumerate("xyz"):
-                found[f"{bearing.prefix}{word}.acceleration.{way}"] = first + SD.c_body(body, axis)
+                sign = bearing.sign if way == "x" else 1.0
+                found[f"{bearing.prefix}{word}.acceleration.{way}"] = first + SD.c_body(body, axis), sign
         modes = ring_modes(radiating(scene, k))
         first += SD.vector_channels(recording.harmonics, 2 * len(modes))
     return found

@@ -40,6 +40,7 @@ _READ = {
 MAT, MODELICA = "a MATLAB file (.mat)", "a result file of a Modelica tool (.mat)"
 WORKBOOK = "a workbook of a spreadsheet"
 TDMS, MDF, PARQUET = "a LabVIEW file (.tdms)", "a measurement file (MDF)", "a Parquet file"
+UNIVERSAL = "a universal file (.uff), which programs of modal analysis read"
 _CSV = "write it as CSV, `time` (s) first:"
 #: How what other programs write becomes a table; said where a table or a result is due.
 _CONVERT = {
@@ -49,6 +50,7 @@ _CONVERT = {
     WORKBOOK: "save its sheet as CSV (UTF-8)",
     TDMS: f"{_CSV} nptdms in Python (`to_csv` of its data frame)",
     MDF: f'{_CSV} asammdf in Python (`export("csv")`)',
+    UNIVERSAL: f"{_CSV} pyuff in Python reads it; a run is saved as .csv or .nc beside it",
     PARQUET: f"{_CSV} `pandas.read_parquet(...).to_csv(..., index=False)`",
 }
 _BEGINNINGS = {
@@ -58,6 +60,8 @@ _BEGINNINGS = {
     b"PAR1": PARQUET,
     b"\xd0\xcf\x11\xe0": WORKBOOK,  # of Excel before 2007
     b"\x89HDF": NETCDF,
+    b"-1\n": UNIVERSAL,
+    b"-1\r\n": UNIVERSAL,
     b"RIFF": "a WAV file",
     b"\x89PNG": "a picture",
     b"%PDF": "a PDF file",

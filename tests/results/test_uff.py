@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fmu_bearing import simulate
+from fmu_bearing import Run, simulate
+from fmu_bearing.results.result import ResultError
 from fmu_bearing.results.uff import Place, Shape, place_of, responses, signal, write_uff
 from fmu_bearing.scene.read import with_fidelity
 
@@ -158,6 +159,13 @@ def test_a_run_is_written_with_its_units(scene, tmp_path):
         assert values == pytest.approx(run[name], rel=1e-12)
     with pytest.raises(ValueError, match="evenly spaced"):
         replace(run, table=run.table[[0, 1, 4]]).save(tmp_path / "uneven.uff")
+
+
+def test_it_is_known_where_another_file_is_due(file):
+    with pytest.raises(
+        ResultError, match=r"all\.uff: .*a universal file \(\.uff\).*pyuff in Python reads it"
+    ):
+        Run.load(file)
 
 
 @pytest.mark.skipif(PYUFF is None, reason="FMU_BEARING_PYUFF names no Python with pyuff 2.5")

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from lxml import etree
 
 from fmu_bearing import record, simulate
 from fmu_bearing.acoustics.analysis.field import Channels
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.layout import SD, P
+from fmu_bearing.fmi.description import description_xml
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.accelerometers import sensors_of
 from fmu_bearing.prepare.model import prepare
@@ -227,3 +229,17 @@ def test_copies_of_a_state_hold_what_accelerometers_go_on_from(fidelity):
         found.append([run.get(name) for name in names])
     assert found[0] == found[1]
     assert found[0][0] != 0.0
+
+
+def test_the_fmu_describes_them():
+    model = prepare(with_sensors(UNBALANCED, {}, {"name": "b"}).replace({"fidelity.model": "rings"}))
+    tree = etree.fromstring(description_xml(model, "native"))
+    found = {one.get("name"): one for one in tree.find("ModelVariables")}
+    for k in (1, 2):
+        for label in ("acceleration", "rms", "peak", "kurtosis"):
+            one = found[f"accelerometer[{k}].{label}"]
+            assert one.get("causality") == "output"
+            assert one[0].get("unit") == ("1" if label == "kurtosis" else "m/s2")
+    assert "accelerometer b" in found["accelerometer[2].rms"].get("description")
+    # they begin to meter without sound, too
+    assert found["sound.metering_start"].get("causality") == "parameter"

@@ -69,14 +69,14 @@ class Milling(Part):
         default=0.3, ge=0, le=2, examples=[0.3], description="Radial over tangential force (default assumed)."
     )
     radial_immersion: float = Field(
-        gt=0, le=1, examples=[0.5],
+        ge=0.01, le=1, examples=[0.5],
         description="Radial depth over the diameter of the tool; 1: a slot.",
     )  # fmt: skip
     direction: Literal["up", "down"] = Field(
         default="down", examples=["down"], description="Up milling, or down (climb) milling."
     )
     depth_mm: float | None = Field(
-        default=None, gt=0, le=1000, examples=[2.0],
+        default=None, ge=1e-4, le=1000, examples=[2.0],
         description="Axial depth of the cut, which is judged (absent: none is), mm.",
     )  # fmt: skip
     feed_angle_deg: float = Field(

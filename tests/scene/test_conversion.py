@@ -24,6 +24,7 @@ CASES = [
     ("radial_load_y_N", 3.0, "radial_load_y", 3.0),
     ("pedestal_stiffness_N_m", 1e8, "pedestal_stiffness", 1e8),
     ("torque_N_mm", 70.0, "torque", 0.07),
+    ("cutting_coefficient_N_mm2", 800.0, "cutting_coefficient", 8e8),
     ("stiffness_N_m_rad", 1e5, "stiffness", 1e5),
     ("pocket_damping_N_s_m", 0.02, "pocket_damping", 0.02),
     ("amount_g_mm", 0.1, "amount", 1e-7),
@@ -51,7 +52,7 @@ DIMENSIONLESS = set(
     pedestal_axial_ratio pedestal_damping_ratio weibull_modulus hysteresis_loss
     damping_ratio seed order_scatter_seed lowest_order highest_order order ball_waviness_order tolerance
     traction_strips waviness_exponent ball_harmonics count walther_slope relative fixed_modes
-    ball bearing""".split()
+    ball bearing teeth radial_ratio radial_immersion""".split()
 )
 
 

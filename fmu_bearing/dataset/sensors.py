@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.field import form_of
 from fmu_bearing.dataset.plan import RATE
-from fmu_bearing.engine.layout import SD
 from fmu_bearing.interface.names import known
 from fmu_bearing.recording.recording import Recording
 from fmu_bearing.scene import Scene
 
-_RINGS = {"inner_ring": SD.C_INNER, "outer_ring": SD.C_OUTER}
-_AXES = "xyz"
+_RINGS = ("inner_ring", "outer_ring")
 _STOP = 90.0  # dB by which what would fold is weakened
 _WIDTH = 0.1  # of the rate: the filter falls from 0.4 to 0.5 of it
 PRESSURE, ACCELERATION = "Pa", "m/s2"
@@ -34,11 +32,10 @@ def sensors_of(scene: Scene, asked: Sequence[str] = ()) -> dict[str, str]:
     ValueError
         Where nothing is there to be read.
     """
-    mounted = {one.name: ACCELERATION for one in getattr(scene, "accelerometers", ())}
+    mounted = {one.name: ACCELERATION for one in scene.accelerometers}
     heard = {name: PRESSURE for name, _ in scene.microphones}
-    rings = {}
-    if not scene.members:  # of a set accelerometers say which bearing
-        rings = {f"{ring}.acceleration.{axis}": ACCELERATION for ring in _RINGS for axis in _AXES}
+    heads = [bearing.prefix + ring for bearing in scene.bearings() for ring in _RINGS]
+    rings = {f"{head}.acceleration.{axis}": ACCELERATION for head in heads for axis in "xyz"}
     there = rings | heard | mounted
     for name in asked:
         known(name, list(there), "sensor of the scene")
@@ -55,16 +52,11 @@ def signals(recording: Recording, units: dict[str, str]) -> NDArray[np.float64]:
     """Return what sensors read at the engine's rate (Pa, m/s2), shape (sensors, samples)."""
     heard = [name for name, unit in units.items() if unit == PRESSURE]
     pressures = dict(zip(heard, recording.pressure(heard), strict=True)) if heard else {}
-    return np.array([pressures[name] if name in pressures else _motion(recording, name) for name in units])
-
-
-def _motion(recording: Recording, name: str) -> NDArray[np.float64]:
-    """Return an acceleration (m/s2) at each sample."""
-    ring, _, axis = name.partition(".acceleration.")
-    if ring in _RINGS and axis:
-        return recording.channels[:, _RINGS[ring] + _AXES.index(axis)]
-    read: NDArray[np.float64] = recording.acceleration(name)  # type: ignore[attr-defined]
-    return read
+    mounted = recording.accelerometers
+    read = recording.acceleration, lambda name: recording.signal(name).values
+    return np.array([
+        pressures[name] if name in pressures else read[name not in mounted](name) for name in units
+    ])  # fmt: skip
 
 
 def radiation_model_of(scene: Scene, units: dict[str, str]) -> str | None:

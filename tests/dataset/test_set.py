@@ -86,7 +86,9 @@ def test_waveforms_are_those_of_a_recording(made):
     one = read_scene_text(data["scene"].values[2])
     whole = record(one, 0.06, settle=0.02, warn=False, progress=False)
     low = scipy.signal.firwin(801, 5700.0, fs=SD.RATE)
-    for sensor, signal_ in enumerate((whole.channels[:, SD.C_OUTER + 2], whole.pressure(["P1"])[0])):
+    for sensor, signal_ in enumerate(
+        (whole.signal("outer_ring.acceleration.z").values, whole.pressure(["P1"])[0])
+    ):
         beside = scipy.signal.oaconvolve(signal_, low, "same")[512 : 512 + 2048 : 4]
         kept = data["waveforms"].values[2, sensor].astype(np.float64)
         # both fall from 5.1 to 6.4 kHz, in different ways
@@ -164,3 +166,17 @@ def test_a_lost_worker_loses_no_other_run(made):
     assert store.load(task) is None
     store.keep(task, RunOutcome((), "no equilibrium", 0.1))
     assert store.load(task).reason == "no equilibrium" and store.read(task)[1].size == 0
+
+
+def test_accelerometers_are_kept_with_their_noise(bare, tmp_path):
+    """By default, in the place of microphones; of a set each bearing's rings have names of their own."""
+    sensor = {"name": "DE", "angle_deg": 0.0, "resonance_kHz": 20.0, "noise_m_s2": 0.2}
+    head = plans.HEAD.replace("runs = 6", "runs = 2").replace("sensors", "#").replace("12800", "51200")
+    path = plans.file(tmp_path, bare.replace({"accelerometer": [sensor]}), head=head)
+    dataset(path, tmp_path / "out", workers=1)
+    data, labels = opened(tmp_path / "out"), rows(tmp_path / "out")
+    assert list(data["sensor"].values) == ["DE"] and "rms.DE [m/s2]" in labels[0]
+    one = read_scene_text(data["scene"].values[0])
+    whole = record(one, 0.04, settle=0.03, warn=False, progress=False)
+    assert np.array_equal(data["waveforms"].values[0, 0], whole.acceleration("DE").astype(np.float32))
+    assert not np.allclose(whole.acceleration("DE", noise=False), whole.acceleration("DE"), atol=0.1)

@@ -9,6 +9,7 @@ import pytest
 from fmu_bearing import read_scene, record
 from fmu_bearing.acoustics.analysis.lines import explain
 from fmu_bearing.recording.measurements.measure import known_lines
+from fmu_bearing.recording.record import OUTPUTS
 from fmu_bearing.reports import make
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import GATES
@@ -28,7 +29,10 @@ def recording():
         scene = read_scene(GATES / "7003C-bare.toml").replace(
             {"sound.radiation_model": "compact", "imperfections.defect": [SPALL]}
         )
-        yield record(with_fidelity(scene, model="rings"), 0.1, settle=0.02, progress=False, warn=False)
+        yield record(
+            with_fidelity(scene, model="rings"), 0.1, settle=0.02, progress=False, warn=False,
+            outputs=(*OUTPUTS, "defect[1].passages"),
+        )  # fmt: skip
 
 
 def test_lines_are_at_multiples_of_the_run_s_passing_frequency(recording):

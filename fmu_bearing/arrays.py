@@ -1,6 +1,6 @@
 """A bearing, or a set, as flat arrays: made, initialised, stepped, saved and restored; refusals in words."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Self
 
 import numpy as np
@@ -93,13 +93,18 @@ class Arrays:
         self.calls = Calls(self.p, self.u, self.s, self.z, self.w)
 
     @classmethod
-    def of(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
+    def of(
+        cls, scene: Scene, *sounds: NDArray[np.float64], felt: Sequence[NDArray[np.float64]] = (),
+        **parameters: float,
+    ) -> Self:  # fmt: skip
         """Return the arrays of a scene at its own speed, loads and temperatures.
 
         ``sounds``: the sound block of each bearing (``prepare.sound_block.sound_blocks``); default: no sound.
+        ``felt``: that of its accelerometers (``prepare.accelerometers.felt_blocks``); default: none.
         ``parameters``: values for places of ``p`` by their names in ``layout.p``, as ``TOLERANCE=1e-5``.
         """
-        return cls(_fixed(pack(scene, *(sounds or [np.empty(0)])), parameters), input_values(scene))
+        packed = pack(scene, *(sounds or [np.empty(0)]), felt=felt or None)
+        return cls(_fixed(packed, parameters), input_values(scene))
 
     def at(self, inputs: Mapping[int, float]) -> Self:
         """Return these arrays with inputs set, by their places in ``u``, SI units."""

@@ -255,6 +255,8 @@ def _usual(name: str, members: list[Variable]) -> str:
     if len(members) > 1 or name.startswith(("inner_ring.flexure", "outer_ring.flexure")):
         return "rms"
     end = name.rpartition(".")[2]
+    if name.startswith("accelerometer["):
+        return "rms" if end == "acceleration" else "last"  # the others are metered
     if members[0].unit == "dB" or members[0].type == "Integer":
         return "last"
     if end in ("shoulder_margin", "lambda_min"):

@@ -19,6 +19,8 @@ WRITING = {
     "plot": (("plot", "{result}"), ["result.png"]),
     "sound": (("sound", "{scene}", "-o", "{folder}"), ["levels.csv", "P1.wav"]),
     "sound, picture": (("sound", "{scene}", "-o", "{folder}", "--plot", "{folder}/p.svg"), ["p.svg"]),
+    "envelope": (("envelope", "{scene}", "-o", "{folder}"), ["lines-P1.csv", "signals.uff"]),
+    "envelope, picture": (("envelope", "{scene}", "--plot", "{folder}/e.png"), ["e.png"]),
     "compare": (("compare", "{scene}", "{scene}", "-o", "{folder}"), ["levels.csv"]),
     "compare, picture": (("compare", "{scene}", "{scene}", "--plot", "{folder}/p.pdf"), ["p.pdf"]),
     "report": (("report", "{scene}", "-o", "{folder}/page.html"), ["page.html"]),

@@ -181,6 +181,18 @@ def test_sound_keeps_what_was_recorded(run, rings_file, tmp_path, press):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_envelope_keeps_what_was_recorded(run, rings_file, tmp_path, press):
+    """200 steps of 0.4 ms are 80 ms, 10 of them left out."""
+    press(200)
+    done = run("envelope", rings_file, "--settle", "0.01", "-o", tmp_path / "out", "--json")
+    assert done.exit_code == 130 and done.stderr.startswith("interrupted: ")
+    kept = Recording.load(tmp_path / "out" / "recording.npz")
+    assert kept.size / kept.rate == pytest.approx(0.07 - TAIL / kept.rate, abs=0.001)
+    (resolution,) = {one["resolution_Hz"] for one in done.data["envelopes"]}
+    assert resolution == pytest.approx(kept.rate / kept.size) and (tmp_path / "out" / "signals.uff").is_file()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 def test_sound_says_why_nothing_is_kept(run, rings_file, tmp_path, press):
     press(20)
     done = run("sound", rings_file, "--duration", "0.5", "--settle", "0.01", "-o", tmp_path / "out")

@@ -22,6 +22,7 @@ def blocked(tmp_path, monkeypatch):
         ("simulate", "{scene}", "-o", "{file}/run.csv"),
         ("sound", "{scene}", "-o", "{file}"),
         ("sound", "{scene}", "-o", "{file}/sub"),
+        ("envelope", "{scene}", "-o", "{file}/sub"),
         ("tradeoff", "{scene}", "-o", "{file}/sub"),
         ("tradeoff", "{scene}", "-o", "{folder}/out", "--plot", "{file}/chart.png"),
         ("sensitivity", "{scene}", "-o", "{file}"),

@@ -284,7 +284,7 @@ def test_lines_of_local_defects_name_them(recording, monkeypatch):
     of = {line.name: line.of for line in found.lines}
     assert (of["f_o"], of["2 f_o - f_r"]) == ("outer race (defect 1, defect 3)",) * 2
     assert (of["2 f_b"], of["f_i"], of["f_c"]) == ("ball (defect 2)", "inner race", "cage")
-    assert found.strongest("outer race").name.endswith("f_o")
+    assert found.strongest("outer race").of == of["f_o"] and found.strongest("no such") is None
 
 
 def test_a_speed_that_changes_is_refused(scene):

@@ -132,11 +132,8 @@ class Envelope(Result):
         return found, amplitude, amplitude / float(np.median(values[around]))
 
     def strongest(self, of: str = "") -> EnvelopeLine | None:
-        """Return the line that is farthest over the median, ``of`` one kind where it is named; None: none."""
-        chosen = [
-            line for line in self.lines if line.of.startswith(of) and line.over_median == line.over_median
-        ]
-        return max(chosen, key=lambda line: line.over_median, default=None)
+        """Return the first line of `far`, ``of`` one kind where that is named; None: there is none."""
+        return next((line for line in self.far() if line.of.startswith(of)), None)
 
     def spectrum_table(self) -> Table:
         """Return frequency, and amplitude over the mean of the squared envelope."""

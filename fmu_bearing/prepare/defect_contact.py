@@ -12,8 +12,8 @@ from fmu_bearing.prepare.defect_shapes import RIM_END, Shape
 
 Real = NDArray[np.float64]
 
-#: Cells along and across of the box in which bodies overlap: loads within 0.5 % of the undamaged one of those
-#: on 300 x 360 cells, in 15 ms.
+#: Cells along and across of the box in which bodies overlap: loads are within 0.2 % of the undamaged one of
+#: those on twice as many each way, in 25 ms.
 CELLS = (144, 112)
 _LOOK = 96  # points each way at which an overlap is looked for
 _FINE = 301  # points each way at which the first touch is looked for

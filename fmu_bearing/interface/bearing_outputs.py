@@ -255,7 +255,7 @@ def _defects(scene: Scene) -> list[Variable]:
             ),
             read(
                 f"{name}.impact", "output",
-                f"When a {one} in the defect last turned to rising, at its deepest; 0 before the first",
+                f"When a {one} in the defect last turned from sinking to rising; 0 before the first",
                 "s", impact, **time,
             ),
         ]  # fmt: skip

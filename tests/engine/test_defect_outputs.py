@@ -111,15 +111,25 @@ def test_outputs_are_those_of_the_kept_angles(fidelity, on):
     assert np.abs(run["defect[1].entry"] - entry).max() < 1e-8
     since = np.where(entry > 0.0, time - entry, 0.0)
     assert np.abs(run["defect[1].time"] - since).max() < 1e-8
-    # impact: the nearest ball is at its deepest since it entered, by what is seen at the points
+    # impact: the last turn within a tenth of the way down; steps within may turn once more than points show
     inside = np.flatnonzero(np.abs(place) < half)
     compared = 0
     for passage in np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1):
-        deepest = passage[depth[passage, near[passage]].argmax()]
-        if entry[passage[-1]] > 0.0 and passage[0] < deepest < passage[-1]:
-            compared += 1
-            assert run["defect[1].impact"][passage[-1]] == pytest.approx(time[deepest], abs=STEP)
-    assert compared >= 2
+        if entry[passage[-1]] == 0.0 or passage[-1] == len(time) - 1:
+            continue
+        down = depth[passage, near[passage]]
+        way = down.max() - down[0]
+        tops = 1 + np.flatnonzero((down[1:-1] > down[:-2]) & (down[1:-1] >= down[2:]))
+        tops = tops[down[tops] >= down.max() - 0.1 * way]
+        if not tops.size:  # balls pass the inner race within few points
+            continue
+        last = time[passage[tops[-1]]]
+        found = run["defect[1].impact"][passage[-1]]
+        assert last - STEP <= found <= time[passage[-1]]
+        # a step of 20 us rises or falls by a hundredth of the way near the bottom
+        assert np.interp(found, time[passage], down) >= down.max() - 0.12 * way
+        compared += 1
+    assert compared >= 1
 
 
 def test_on_a_slow_shaft_impact_follows_entry_by_half_a_length():
@@ -132,7 +142,8 @@ def test_on_a_slow_shaft_impact_follows_entry_by_half_a_length():
     bearing = scene.bearing
     speed = centre * (1.0 + bearing.ball_diameter_mm / bearing.pitch_diameter_mm)
     between = run["defect[1].impact"][-1] - run["defect[1].entry"][-1]
-    assert between == pytest.approx(0.5 * 0.3e-3 / speed, rel=0.03)
+    # rings shake: it turns round last where it has risen by a tenth at most, 5.1 % of half a length further
+    assert between == pytest.approx(0.5 * 0.3e-3 / speed, rel=0.052)
 
 
 def test_a_ball_s_defect_meets_both_races_at_twice_its_spin():

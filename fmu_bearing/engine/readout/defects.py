@@ -2,9 +2,10 @@
 
 The ball nearest to a defect is followed from step to step: of a race by its angle on the ring, of a ball by
 the angle from the defect to its two contacts. A ball enters where its middle comes over the edge of the
-defect, half a length from its middle, and strikes where it turns round at its deepest since then: until there
-it sinks towards the race. What it does on its way up again, as rings shake, is no impact. Times are those of
-straight lines between the ends of a step. None of it acts on the bearing.
+defect, half a length from its middle, and strikes where it last turns round in it: until there it sinks
+towards the race. Where it turns round on its way up again, as rings shake, is no impact: a tenth of the way
+down is the most that it may have risen. Times are those of straight lines between the ends of a step. None of
+it acts on the bearing.
 """
 
 import math
@@ -14,7 +15,7 @@ from fmu_bearing.engine.layout import DE, P, Q, R, S, Y, Z
 from fmu_bearing.engine.mechanics.defects import head_of, table_of, within
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_NOWHERE = -1e30  # m: less deep than any place
+_RISEN = 0.1  # of the way down: further up a ball is on its way out
 
 
 @kernel
@@ -111,12 +112,15 @@ def watch_defects(p, s, h):
             edge = -half if moved > 0.0 else half
             if moved * (edge - before) > 0.0 and moved * (place - edge) >= 0.0:
                 s[at + DE.ENTRY] = s[S.TIME] - h * (place - edge) / moved
-                s[at + DE.DEEPEST] = _NOWHERE
+                s[at + DE.ENTERED] = depth
+                s[at + DE.DEEPEST] = depth
+            deepest = max(s[at + DE.DEEPEST], depth)
+            s[at + DE.DEEPEST] = deepest
+            near_bottom = not (depth < deepest - _RISEN * (deepest - s[at + DE.ENTERED]))
             sunk = s[at + DE.SINKING]
             turned = sunk > 0.0 and not (sinking > 0.0)
-            if turned and abs(place) <= half and depth > s[at + DE.DEEPEST]:
+            if turned and near_bottom and abs(place) <= half:
                 s[at + DE.IMPACT] = s[S.TIME] + h * sinking / (sunk - sinking)
-                s[at + DE.DEEPEST] = depth
         s[at + DE.NEAR] = near + 1.0
         s[at + DE.PLACE] = place
         s[at + DE.SINKING] = sinking

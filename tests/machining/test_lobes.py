@@ -13,6 +13,7 @@ from fmu_bearing.modal.receptance import transfer
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import EXAMPLES
 from tests.machining import delay
+from tests.marks import heavy_but
 
 DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 END_MILL = EXAMPLES.parent / "milling" / "7003C-QBC-end-mill.toml"
@@ -71,6 +72,7 @@ def test_one_direction_alone_would_be_wrong_where_the_nose_whirls():
     assert abs(least[1] / least[0] - 1.0) > 0.2
 
 
+@pytest.mark.heavy
 def test_receptance_follows_the_speed_and_some_speeds_are_enough():
     speeds = np.linspace(5e3, 22e3, 35)
     few, many = (lobes(END_MILL, speeds, coarse=count) for count in (5, 9))
@@ -110,7 +112,7 @@ def test_a_single_bearing_with_a_rotor_has_lobes_as_a_set_has():
     assert front.own == found.own and middle.own.depth > 1.2 * front.own.depth
 
 
-@pytest.mark.parametrize(("bearing", "arrangement"), [("NSK-7010C", "DB"), ("7009C", None)])
+@pytest.mark.parametrize(("bearing", "arrangement"), heavy_but([("7009C", None), ("NSK-7010C", "DB")], 0))
 def test_bearings_of_the_catalogue_have_lobes(bearing, arrangement):
     made = read_scene_text(new_scene("drawn", bearing, arrangement=arrangement, sound=False))
     scene = made.replace({"milling": CUT | {"radial_immersion": 0.5, "direction": "up"}})

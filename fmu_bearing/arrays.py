@@ -93,17 +93,25 @@ class Arrays:
         self.calls = Calls(self.p, self.u, self.s, self.z, self.w)
 
     @classmethod
-    def of(
-        cls, scene: Scene, *sounds: NDArray[np.float64], felt: Sequence[NDArray[np.float64]] = (),
-        **parameters: float,
-    ) -> Self:  # fmt: skip
+    def of(cls, scene: Scene, *sounds: NDArray[np.float64], **parameters: float) -> Self:
         """Return the arrays of a scene at its own speed, loads and temperatures.
 
         ``sounds``: the sound block of each bearing (``prepare.sound_block.sound_blocks``); default: no sound.
-        ``felt``: that of its accelerometers (``prepare.accelerometers.felt_blocks``); default: none.
         ``parameters``: values for places of ``p`` by their names in ``layout.p``, as ``TOLERANCE=1e-5``.
         """
-        packed = pack(scene, *(sounds or [np.empty(0)]), felt=felt or None)
+        return cls.sensing(scene, sounds, None, **parameters)
+
+    @classmethod
+    def sensing(
+        cls,
+        scene: Scene,
+        sounds: Sequence[NDArray[np.float64]],
+        felt: Sequence[NDArray[np.float64]] | None,
+        /,
+        **parameters: float,
+    ) -> Self:
+        """As `of`; ``felt``: blocks of accelerometers (`prepare.accelerometers.felt_blocks`); None: none."""
+        packed = pack(scene, *(sounds or [np.empty(0)]), felt=felt)
         return cls(_fixed(packed, parameters), input_values(scene))
 
     def at(self, inputs: Mapping[int, float]) -> Self:

@@ -121,8 +121,8 @@ def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
 def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     scene = task.scene
     read = any(name.startswith("accelerometer[") for name in task.figures)
-    felt = felt_blocks(scene) if read and scene.accelerometers else ()
-    bearing = Arrays.of(scene, *sounds, felt=felt, METERING_START=task.settle).init()
+    felt = felt_blocks(scene) if read and scene.accelerometers else None
+    bearing = Arrays.sensing(scene, sounds, felt, METERING_START=task.settle).init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
         bearing.run(task.settle, task.settle / steps)

@@ -210,7 +210,7 @@ def first_passage(load):
 
 
 @pytest.mark.usefixtures("_rigid")
-@pytest.mark.parametrize(("on", "angle"), [("outer", 180.0), ("outer", 200.0)])
+@pytest.mark.parametrize(("on", "angle"), [("outer", 180.0), ("outer", 200.0), ("inner", 190.0)])
 def test_a_slow_ball_carries_in_rings_what_it_does_in_full(on, angle):
     """At 30 r/min nothing swings: most and least load of a passage; balls of full get there by slip later."""
     scene = with_groove(0.35, rpm=30.0, on=on, angle_deg=angle)

@@ -1,8 +1,8 @@
 """Local defects under balls that rest between the races; tables and law are those of `mechanics.defects`.
 
-Where each ball is over each defect follows from the time alone, as race heights do: by the orbit that is
-frozen, on a ball by the spin and the contact directions that are (`ball_form`). So a defect's place under a
-ball misses what rings move aside: micrometres, of a table that is tenths of a millimetre long.
+Where each ball is over each defect follows from the time, as race heights do: by the orbit that is frozen,
+on a ball by the spin and the contact directions that are (`ball_form`). What a ring moves aside is added on a
+race: micrometres, but the load under an edge of a deep defect changes by some per cent in one.
 
 Contact damping acts on the rate of what is left of the approach. To first order that is what is left at the
 approach advanced by it, plus tau times its slope along the track times the speed there: see `balls`.
@@ -28,25 +28,29 @@ from fmu_bearing.engine.mechanics.defects import (
     table_of,
     within,
 )
+from fmu_bearing.engine.mechanics.pose import bearing_angle
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 from fmu_bearing.engine.mechanics.triples import added, cross, dot, scaled
 
 _FAR = 1.0  # m: a place beyond any table
+_ASIDE = 1e-3  # m: more than rings move aside, but on pedestals as soft as `full` alone carries
 
 
 @kernel
 def place_balls_over(p, head, table, angle, ahead, race, meet, w):
-    """Put the places of all balls over a defect of a race to row ``meet`` of ``T.OVER``.
+    """Put the places of all balls over a defect of a race, with it centred, to row ``meet`` of ``T.OVER``.
 
     ``angle`` (rad): of ball 0 from the defect; ``ahead`` (rad): by which it changes in the damping time.
     """
     radius = p[head + DE.RADIUS + race]
     balls = int(p[P.BALLS])
+    first = p[table + DE.TABLE_HEAD]
+    last = p[table + DE.TABLE_HEAD + int(p[table + DE.PLACES]) - 1]
     w[T.MEET_AHEAD + meet] = radius * ahead
     for j in range(int(p[P.LANES])):
         own = j if j < balls else 0
         x = radius * wrap(angle + 2.0 * PI * own / balls)
-        if within(p, table, x):
+        if x > first - _ASIDE and x < last + _ASIDE:
             w[T.OVER + meet * STRIDE + j] = x
             w[T.MEETS + race * STRIDE + j] = 1.0
 
@@ -114,8 +118,8 @@ def place_defects(p, c, lv, theta, rolled, inner_angle, outer_angle, speed, w):
 def meet_defects(p, c, race, heights, row, w):
     """Put defects into the contacts of the balls with a race, in its rows from ``row`` on.
 
-    ``heights``: row of the race's heights. Changes load and slopes of the balls that `place_defects` has
-    found within reach, and writes what they push along the track to ``T.PUSH``.
+    ``heights``: row of the race's heights. Changes load and slopes of the balls within reach, and writes
+    what they push along the track to ``T.PUSH``; after `place_defects`.
     """
     stiffness = p[P.RACES + race * P.RACE_SIZE + P.RACE_STIFFNESS]
     free = c[C.RACES + race * C.RACE_SIZE + C.FREE]
@@ -124,13 +128,18 @@ def meet_defects(p, c, race, heights, row, w):
             continue
         at = row + j
         left, gain, bend, ahead, along = w[at + T.APPROACH], 1.0, 0.0, 0.0, 0.0
+        met = False
         for k in range(int(p[P.DEFECTS])):
             meet = race * MAX_DEFECTS + k
             x = w[T.OVER + meet * STRIDE + j]
-            if x < _FAR:
-                head = head_of(p, k)
+            head = head_of(p, k)
+            table = table_of(p, head, race)
+            if p[head + DE.ON] != DE.BALL:
+                x += p[head + DE.RADIUS + race] * bearing_angle(w[at + T.QR], w[at + T.QT])
+            if table != 0 and within(p, table, x):
+                met = True
                 left, own, slope, by_two, _, _, _ = scaled_left_over(
-                    p, table_of(p, head, race), w[T.MEET_SCALE + meet], left, x
+                    p, table, w[T.MEET_SCALE + meet], left, x
                 )
                 own = max(own, LEAST_GAIN)
                 bend = own * bend + by_two * gain * gain
@@ -139,6 +148,9 @@ def meet_defects(p, c, race, heights, row, w):
                 if p[head + DE.ON] != DE.BALL:
                     along += slope * p[head + DE.RADIUS + race]
                 gain *= own
+        if not met:
+            w[T.PUSH + race * STRIDE + j] = 0.0
+            continue
         pressed, stiff, _ = hertz(stiffness, left + ahead)
         w[at + T.LOAD] = gain * pressed
         w[at + T.STIFF] = max(gain * gain * stiff + bend * pressed, 0.0)

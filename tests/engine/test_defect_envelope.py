@@ -126,3 +126,24 @@ def test_a_defect_of_the_outer_race_is_loud_where_the_load_is(fidelity):
     assert none < TEN
     assert more > 2.0 * some > 2.0 * none
     assert lines[300.0, 0.0] > 1.5 * lines[150.0, 0.0]
+
+
+@pytest.mark.parametrize(("length", "axial", "rpm"), [(0.356, 30.0, 1797.0), (0.533, 100.0, 6000.0)])
+def test_rings_shakes_as_full_does(length, axial, rpm):
+    """Found 1.10 and 1.12: rms acceleration of the outer ring along the load, up to 12.5 kHz."""
+    defect = [PIT | {"on": "outer", "length_mm": length}]
+    scene = deep_groove(
+        300.0, rpm, CLEARANCE,
+        {"mounting.preload_N": axial, "imperfections": NO_IMPERFECTIONS | {"defect": defect}},
+    )  # fmt: skip
+    found = []
+    for fidelity in FIDELITIES:
+        bearing = Instance(prepare(scene, fidelity=fidelity))
+        bearing.initialise()
+        velocity = []
+        for _ in range(round(0.2 / SAMPLE)):
+            bearing.step(SAMPLE)
+            velocity.append(bearing.get("outer_ring.velocity.z"))
+        assert bearing.get("solver.restarts") == 0.0
+        found.append(np.diff(velocity[round(WARM_UP / SAMPLE) :]).std() / SAMPLE)
+    assert 0.9 < found[1] / found[0] < 1.25

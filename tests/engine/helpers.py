@@ -5,7 +5,7 @@ from scipy.special import comb
 
 from fmu_bearing.compiled import call
 from fmu_bearing.engine.constants import REFERENCE_TEMPERATURE, RPM
-from fmu_bearing.engine.layout import STRIDE, P, Q, S, U, W, Z
+from fmu_bearing.engine.layout import MAX_DEFECTS, STRIDE, P, Q, S, U, W, Z
 from fmu_bearing.engine.status import OK
 from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.surfaces import form_rows
@@ -74,7 +74,8 @@ class Run:
         self.u[U.PEDESTAL] = mounting.pedestal_stiffness_N_m if pedestal is None else pedestal
         self.s = np.zeros(S.size(self.p))
         self.w = np.zeros(W.size(self.p))
-        self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES])))
+        # with room for defects, which a test may put into the parameters
+        self.z = np.zeros(Z.size(int(self.p[P.BALLS]), 0, 0, int(self.p[P.MODES]), MAX_DEFECTS))
 
     def init(self):
         status = call("init", self.p, self.u, self.s, self.z, self.w, 0.0)

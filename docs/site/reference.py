@@ -19,7 +19,7 @@ from fmu_bearing.fmi.documentation import range_of
 from fmu_bearing.formulas.iso76 import static_rating
 from fmu_bearing.formulas.iso281 import dynamic_rating
 from fmu_bearing.interface import variables
-from fmu_bearing.results.variable_names import any_sets, spalled
+from fmu_bearing.results.variable_names import any_sets
 from fmu_bearing.scene import Scene, read_scene
 from fmu_bearing.scene.exclusions import EXCLUSIONS
 from fmu_bearing.scene.nsk import CLASSES, PREFIX, sizes as printed_sizes
@@ -241,7 +241,7 @@ def fmu():
 
 
 def all_variables():
-    """Variables of scenes that together have everything: third octaves, bending, cage, fits, defects, a set.
+    """Variables of scenes that have everything: third octaves, bending, fits, defects, clearance, a set.
 
     Of the set those that no single bearing has.
     """
@@ -253,7 +253,8 @@ def all_variables():
         {"mounting.fit": {k: {key: value, "temperature_degC": 40.0} for k, (key, value) in seats.items()}}
         | {"mounting.fit.housing.outside_diameter_mm": 60.0}
     )
-    scenes = spindle, fitted, bending, spalled(spindle)
+    deep_groove = read_scene(SCENES / "6205-outer-spall.toml")
+    scenes = spindle, fitted, bending, deep_groove
     single = [one for scene in scenes for one in variables(scene, 0.0)]
     names = {variable.name for variable in single}
     sets = {one.name: one for found in any_sets(spindle) for one in variables(found, 0.0)}

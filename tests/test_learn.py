@@ -16,10 +16,13 @@ from fmu_bearing.engine.constants import RPM
 from fmu_bearing.formulas import clearances, iso76, iso281, makers, seals
 from fmu_bearing.machining.stability import lobes
 from fmu_bearing.modal.receptance.scene_receptance import receptance
+from fmu_bearing.prepare.contacts import surfaces
+from fmu_bearing.prepare.defect_blocks import of_scene
 from fmu_bearing.prepare.fits import seats
 from fmu_bearing.recording.record import record
 from fmu_bearing.scene import read_scene, read_scene_text
 from tests.conftest import EXAMPLES
+from tests.engine.defects import left as left_by
 from tests.pages import DOCS, run_page
 
 pytestmark = pytest.mark.pages
@@ -232,6 +235,30 @@ def tip():
     return receptance(END_MILL, at="tip").peaks()[1]
 
 
+@functools.cache
+def fan_scene():
+    """The scene of the page on a spall."""
+    made = new_scene("fan", "6205", clearance="CN", radial_load_N=500.0, speed_rpm=1500.0)
+    return read_scene_text(made).replace({"mounting.preload_N": 100.0})
+
+
+def fan():
+    return operating_point(fan_scene()).bearings[0]
+
+
+def sinks(length):
+    """What a rigid ball sinks into a spall (mm) of the outer race that is as wide as the track, um."""
+    along, _, _ = surfaces(fan_scene(), 1)
+    return length**2 / (8.0 * along)
+
+
+def bridged(length):
+    """What a round pit (mm) takes off an approach of 5 um, um."""
+    pit = {"on": "outer", "shape": "pit", "length_mm": length, "depth_um": 100.0, "angle_deg": 180.0}
+    (one,) = of_scene(fan_scene().replace({"imperfections.defect": [pit]}), [0])
+    return 1e6 * (5e-6 - left_by(one.tables[1], 5e-6, 0.0))
+
+
 SOFT = {"spindle__preload__preload_N": 60.0}
 STIFF = {"spindle__preload__preload_N": 240.0}
 
@@ -381,6 +408,17 @@ FIGURES = {
         ),
         "0.07 mm, 0.7": lambda: 0.7 * deepest(18e3, bearing__contact_damping_us=1.25),
     },
+    # what runs with strokes give is in test_learn_spall.py
+    "spall.md": {
+        "90.0 Hz in": lambda: fan().frequencies.f_o,
+        "0.400 of the": lambda: fan().frequencies.f_c / fan().frequencies.f_r,
+        "6.5 um over": lambda: sinks(0.5),
+        "104 um deep": lambda: sinks(2.0),
+        "0.7 um.": lambda: bridged(0.5),
+        "0.16 mm here": lambda: (
+            fan_scene().bearing.cage.pocket_diameter_mm - fan_scene().bearing.ball_diameter_mm
+        ),
+    },
     "noise.md": {
         "159.5 N/um": lambda: radial(point()),
         "1986 Hz": lambda: resonance(point()),
@@ -519,8 +557,8 @@ def test_a_wanted_life_is_judged():
 
 
 def weighed(page):
-    """The page; tutorial (a report), noise (dozens of runs), fits, chatter (studies): some 20 s each."""
-    heavy = page in ("tutorial.md", "noise.md", "fits.md", "chatter.md")
+    """The page; tutorial (a report), noise and spall (many runs), fits, chatter (studies): some 20 s each."""
+    heavy = page in ("tutorial.md", "noise.md", "fits.md", "chatter.md", "spall.md")
     return pytest.param(page, marks=pytest.mark.heavy) if heavy else page
 
 

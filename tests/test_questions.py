@@ -37,6 +37,8 @@ QUESTIONS = (
     ("Why is a bare bearing too quiet in `rings`?", "fidelities/rings.md", "The cage's own sound is missing"),
     ("What does `response` do when a load jumps?", "fidelities/response.md",
      "A jump of an input is followed 5 to 30 ms late"),
+    ("How do I see a damaged race, and how long is the spall?", "learn/spall.md",
+     "The time gives its 1 mm within a tenth"),
     # the author of a test harness
     ("Does the FMU need Python?", "fmu.md", "the C library of the system"),
     ("Which sign has the torque, and who owns the inertia?", "coupling.md", "which **the drive owns**"),

@@ -8,7 +8,9 @@ from tests.conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
 #: s, of recordings in the tests: long enough to separate the lines that the notebooks name.
-SHORT = {"first_result": 0.2, "run_up": 0.3}
+SHORT = {"first_result": 0.2, "run_up": 0.3, "defects": 0.3}
+#: Runs of the data set in the tests.
+FEW = 24
 
 
 def run(name):
@@ -23,6 +25,7 @@ def run(name):
         r"^DURATION = [\d.]+", f"DURATION = {SHORT[name]}", first.source, flags=re.MULTILINE
     )
     assert changed == 1
+    first.source = re.sub(r"^RUNS = \d+", f"RUNS = {FEW}", first.source, flags=re.MULTILINE)
     nbclient.NotebookClient(
         notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
     ).execute()
@@ -64,3 +67,15 @@ def test_run_up():
     assert 27_900.0 < peaks["shaft"][0] < 31_000.0
     for name in ("f_o", "f_i - f_r"):
         assert peaks[name][1] == pytest.approx(1986.0, rel=0.05), name
+
+
+@pytest.mark.heavy
+def test_defects():
+    """What few runs can show: all are made, and the lines of a class stand out in its own runs."""
+    pytest.importorskip("sklearn", reason="the notebook on defects needs scikit-learn")
+    reported, pictures = run("defects")
+    assert pictures == 1 and f"{FEW} of {FEW} runs have waveforms" in reported
+    lines = {row[0]: [float(x) for x in row[1:3]] for row in re.findall(
+        r"^(outer|inner|healthy) +(-?[\d.]+) +(-?[\d.]+) +-?[\d.]+ +-?[\d.]+$", reported, re.MULTILINE)}  # fmt: skip
+    assert lines["outer"][0] > lines["healthy"][0] + 10.0 and lines["inner"][1] > lines["healthy"][1] + 10.0
+    assert "CWRU, lines: " in reported and "MFPT, lines: " in reported

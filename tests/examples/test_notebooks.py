@@ -8,9 +8,9 @@ from tests.conftest import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
 #: s, of recordings in the tests: long enough to separate the lines that the notebooks name.
-SHORT = {"first_result": 0.2, "run_up": 0.3, "defects": 0.3}
-#: Runs of the data set in the tests.
-FEW = 24
+SHORT = {"first_result": 0.2, "run_up": 0.3}
+#: Notebooks that record nothing.
+READ = ("defects",)
 
 
 def run(name):
@@ -20,12 +20,12 @@ def run(name):
     pytest.importorskip("ipykernel")
     folder = ROOT / "examples" / "notebooks"
     notebook = nbformat.read(folder / f"{name}.ipynb", as_version=4)
-    first = next(cell for cell in notebook.cells if cell.cell_type == "code")
-    first.source, changed = re.subn(
-        r"^DURATION = [\d.]+", f"DURATION = {SHORT[name]}", first.source, flags=re.MULTILINE
-    )
-    assert changed == 1
-    first.source = re.sub(r"^RUNS = \d+", f"RUNS = {FEW}", first.source, flags=re.MULTILINE)
+    if name not in READ:
+        first = next(cell for cell in notebook.cells if cell.cell_type == "code")
+        first.source, changed = re.subn(
+            r"^DURATION = [\d.]+", f"DURATION = {SHORT[name]}", first.source, flags=re.MULTILINE
+        )
+        assert changed == 1
     nbclient.NotebookClient(
         notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
     ).execute()
@@ -39,7 +39,7 @@ def run(name):
 def test_no_outputs_are_stored(path):
     cells = pytest.importorskip("nbformat").read(path, as_version=4).cells
     assert all(not cell.outputs and cell.execution_count is None for cell in cells if "outputs" in cell)
-    assert path.stem in SHORT
+    assert path.stem in (*SHORT, *READ)
 
 
 @pytest.mark.heavy
@@ -67,15 +67,3 @@ def test_run_up():
     assert 27_900.0 < peaks["shaft"][0] < 31_000.0
     for name in ("f_o", "f_i - f_r"):
         assert peaks[name][1] == pytest.approx(1986.0, rel=0.05), name
-
-
-@pytest.mark.heavy
-def test_defects():
-    """What few runs can show: all are made, and the lines of a class stand out in its own runs."""
-    pytest.importorskip("sklearn", reason="the notebook on defects needs scikit-learn")
-    reported, pictures = run("defects")
-    assert pictures == 1 and f"{FEW} of {FEW} runs have waveforms" in reported
-    lines = {row[0]: [float(x) for x in row[1:3]] for row in re.findall(
-        r"^(outer|inner|healthy) +(-?[\d.]+) +(-?[\d.]+) +-?[\d.]+ +-?[\d.]+$", reported, re.MULTILINE)}  # fmt: skip
-    assert lines["outer"][0] > lines["healthy"][0] + 10.0 and lines["inner"][1] > lines["healthy"][1] + 10.0
-    assert "CWRU, lines: " in reported and "MFPT, lines: " in reported

@@ -146,6 +146,8 @@ def test_notebook():
         "healthy": [1, 0, 0, 0], "outer": [4, 14, 10, 0], "inner": [4, 0, 12, 0], "ball": [6, 0, 2, 8],
     }.items():  # fmt: skip
         assert table[kind] == pytest.approx(said, abs=2 if kind != "healthy" else 0), kind
+    single = r"CWRU, lines and shapes: (\d+) of 61 records right \(single forests (\d+) to (\d+)\)"
+    assert number(single, text) == pytest.approx([35, 28, 36], abs=4)
     assert counts(text, "MFPT, lines and shapes") == {"outer": [0, 7, 0, 0], "inner": [0, 0, 7, 0]}
     assert number(r"CWRU, shapes and shares: (\d+) of", text)[0] == pytest.approx(23, abs=5)
     assert number(r"MFPT, shapes and shares: (\d+) of", text)[0] <= 5

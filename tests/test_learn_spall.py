@@ -66,7 +66,7 @@ def test_sizes(page):
 
 
 def test_estimates_of_length(page):
-    """Rows of the table, means of 3 to 12 passages: pockets that fit within 0.06, others within 0.03."""
+    """Rows of the table, means of 5 to 11 passages: pockets that fit within 0.06, others within 0.03."""
     text = PAGE.read_text(encoding="utf-8")
     rows = re.findall(r"^\| (\d+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", text, re.MULTILINE)
     assert len(rows) == 4

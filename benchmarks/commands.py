@@ -21,11 +21,13 @@ COLUMNS = ("command", "single, CPU s", "DB, CPU s")
 _LIMIT = 300.0  # s of the clock
 _NEW = {"single": "", "DB": " --arrangement DB"}
 _BRIEF = "--duration 0.2 --no-directivity --no-wav"
+_MILLING = {"teeth": 4, "cutting_coefficient_N_mm2": 800.0, "radial_ratio": 0.3, "depth_mm": 0.1}
 _FIT = {"bearing_class": "P4", "preload": "unmounted", "shaft": {"shaft_class": "js5"}}
 #: In this order: some read what one before them wrote.
 COMMANDS = (
     "scene new new.toml --bearing 7003C --speed 20000", "scene check S.toml", "scene show S.toml",
     "info S.toml", "fits F.toml", "modes S.toml", "stiffness S.toml --output K.csv",
+    "receptance S.toml --output G.csv", "lobes M.toml --output L.csv",
     "simulate S.toml --stop-time 0.1 --output run.csv", "plot run.csv",
     "error-motion S.toml --fidelity rings --revolutions 20 --output error",
     "realtime S.toml --step 1e-3 --duration 0.05", "build S.toml --output S.fmu", "validate S.fmu",
@@ -41,10 +43,10 @@ COMMANDS = (
 
 _HEAD = """Made by `python -m benchmarks.commands`: seconds of the processor (user and system, child processes
 too) for each command in a process of its own. S.toml is the example 7003C-spindle, 20,000 r/min, or 7003C-DB,
-15,000 r/min, with four microphones; F.toml is the same with js5 on P4. `scene new` has `--arrangement DB` for
-the pair. Sound is of radiation model `compact`; kernels were compiled before. Other work ran beside: caches
-and clock are shared, so that a figure is good to some 20 %. `warm-up` compiles once, `identify` needs a
-measurement, and `dataset` has a table of its own: they are left out.
+15,000 r/min, with four microphones; F.toml is the same with js5 on P4, M.toml with a cut. `scene new` has
+`--arrangement DB` for the pair. Sound is of radiation model `compact`; kernels were compiled before. Other
+work ran beside: caches and clock are shared, so that a figure is good to some 20 %. `warm-up` compiles once,
+`identify` needs a measurement, and `dataset` has a table of its own: they are left out.
 """
 
 
@@ -73,6 +75,8 @@ def rows(commands: tuple[str, ...] = COMMANDS) -> Iterator[list[str]]:
             (folders[words] / "S.toml").write_text(brief.to_toml(), encoding="utf-8")
             table = "mounting.fit" if scene.spindle is None else "spindle.fit"
             (folders[words] / "F.toml").write_text(brief.replace({table: _FIT}).to_toml(), encoding="utf-8")
+            milled = brief.replace({"milling": _MILLING | {"radial_immersion": 0.5, "direction": "down"}})
+            (folders[words] / "M.toml").write_text(milled.to_toml(), encoding="utf-8")
             spent("info S.toml", folders[words])  # the first process reads the package from the disk
         for one in commands:
             more = {words: add if one.startswith("scene new") else "" for words, add in _NEW.items()}

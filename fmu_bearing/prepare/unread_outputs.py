@@ -44,7 +44,8 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
             balls |= set(range(forces, forces + SP.Z_FORCE))
         of[P.READ_BALLS] = not read.isdisjoint(balls)
         of[P.READ_SOUND] = not read.isdisjoint(microphone_places)
-        of[P.READ_FELT] = not read.isdisjoint(sensor_places)
+        if p[P.ACCELEROMETERS] != 0.0:
+            of[P.READ_FELT] = not read.isdisjoint(sensor_places)
         block = int(of[P.AT_SOUND])
         if block == 0:
             continue

@@ -56,6 +56,9 @@ WRITING = {
         ("sweep", "{scene}", "-a", "speed=5000,9000", "-o", "{folder}", "--plot", "{folder}/s.png"),
         ["s.png"],
     ),
+    "receptance": (("receptance", "{scene}", "-o", "{folder}/g.csv"), ["g.csv"]),
+    "receptance, picture": (("receptance", "{scene}", "--plot", "{folder}/g.svg"), ["g.svg"]),
+    "lobes": (("lobes", "{scene}", "-o", "{folder}/l.csv"), ["l.csv"]),
     "dataset": (("dataset", "{plan}", "-o", "{folder}"), ["labels.csv", "waveforms.nc"]),
     "identify": (("identify", "{scene}", "{result}", "-f", "x", "-o", "{folder}/i.toml"), ["i.toml"]),
     "identify, folder": (

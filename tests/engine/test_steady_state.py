@@ -121,7 +121,10 @@ def test_compiled_runge_kutta_is_the_classical_method(scene):
         y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
     balls = np.arange(STRIDE) < run.p[P.BALLS]  # the other lanes are copies
     rows, bodies = np.tile(balls, Y.Q0 // STRIDE), np.ones(Y.SIZE - Y.Q0, dtype=bool)
-    real = np.concatenate([rows, bodies, np.tile(balls, 3)])
+    directions = np.ones(
+        len(y) - Y.SIZE - 3 * STRIDE, dtype=bool
+    )  # of defects on balls, of which there are none
+    real = np.concatenate([rows, bodies, np.tile(balls, 3), directions])
     moved = np.abs(y - motion.start)
     # one rounding of the state in each step, and those of the increment; explicit Euler is a third of it off
     allowed = 3 * np.spacing(np.abs(y)) + 1e-14 * moved

@@ -68,7 +68,12 @@ def test_groups_are_words_for_patterns_and_together_all_but_the_solver(file):
         try:
             some[word] = set(shown(file, [word])) - {"friction_torque"}
         except SceneError as problem:
-            assert (word, file) in {("forces", SINGLE), ("levels", SET)}, problem
+            assert (word, file) in {
+                ("forces", SINGLE),
+                ("levels", SET),
+                ("defects", SINGLE),
+                ("defects", SET),
+            }
             assert f"fmu.outputs: this scene has nothing of '{word}'" in str(problem)
     rest = every.difference(*some.values()) - {"friction_torque"}
     assert {re.sub(r"\[\d+\]", "[]", name) for name in rest} <= {

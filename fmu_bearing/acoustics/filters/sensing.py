@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from fmu_bearing.acoustics.filters.blocks import Wire
 from fmu_bearing.acoustics.filters.fir import WEAK, delay_of, fit
@@ -185,10 +185,10 @@ def read(sensor: Sensor, channels: NDArray[np.float64]) -> NDArray[np.float64]:
     delayed = np.pad(channels, ((0, 0), (late, 0)))[:, : channels.shape[1]]
     total = np.zeros(channels.shape[1])
     for pole, taps in _filters(sensor):
-        driven = sum((lfilter(one, 1.0, delayed[k]) for k, one in taps), np.zeros_like(total))
-        total += driven if pole is None else lfilter([1.0], [1.0, *pole.section], driven)
+        driven = sum((scipy.signal.lfilter(one, 1.0, delayed[k]) for k, one in taps), np.zeros_like(total))
+        total += driven if pole is None else scipy.signal.lfilter([1.0], [1.0, *pole.section], driven)
     if sensor.mount is not None:
-        total = lfilter([1.0], [1.0, *sensor.mount.section], total)
+        total = scipy.signal.lfilter([1.0], [1.0, *sensor.mount.section], total)
     return total[SD.LATENCY :]
 
 

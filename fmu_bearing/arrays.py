@@ -106,12 +106,12 @@ class Arrays:
         cls,
         scene: Scene,
         sounds: Sequence[NDArray[np.float64]],
-        felt: Sequence[NDArray[np.float64]] | None,
+        sensors: Sequence[NDArray[np.float64]] | None,
         /,
         **parameters: float,
     ) -> Self:
-        """As `of`; ``felt``: blocks of accelerometers (`prepare.accelerometers.felt_blocks`); None: none."""
-        packed = pack(scene, *(sounds or [np.empty(0)]), felt=felt)
+        """As `of`; ``sensors``: `prepare.accelerometers.sensor_blocks`; None: no accelerometers."""
+        packed = pack(scene, *(sounds or [np.empty(0)]), sensors=sensors)
         return cls(_fixed(packed, parameters), input_values(scene))
 
     def at(self, inputs: Mapping[int, float]) -> Self:

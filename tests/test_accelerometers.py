@@ -142,9 +142,9 @@ def test_without_accelerometers_nothing_differs():
 def test_unread_accelerometers_cost_nothing_and_read_ones_are_the_same():
     model = prepare(with_sensors(UNBALANCED, {}).replace({"fidelity.model": "rings"}))
     read = [one for one in model.variables if one.name in ("accelerometer[1].rms", "outer_ring.velocity.z")]
-    assert without_unread(model.parameters, read)[P.READ_FELT] == 1.0
+    assert without_unread(model.parameters, read)[P.READ_SENSORS] == 1.0
     others = [one for one in read if one.name.startswith("outer")]
-    assert without_unread(model.parameters, others)[P.READ_FELT] == 0.0
+    assert without_unread(model.parameters, others)[P.READ_SENSORS] == 0.0
 
 
 @pytest.mark.parametrize("fidelity", FIDELITIES)

@@ -62,7 +62,7 @@ def envelope(
     """Show how often a band of a signal swells: strokes of defects, and what else passes the balls.
 
     A band-pass, the analytic signal, the spectrum of its square; lines are those of the bearing as its cage
-    ran. A kurtogram chooses the band in which strokes stand out. --plot draws the first signal's spectrum.
+    ran. A kurtogram chooses the band with the strongest strokes. --plot draws the first signal's spectrum.
     """
     from fmu_bearing.recording.measurements.envelope import envelope_of
     from fmu_bearing.recording.measurements.envelope_files import FILES, usual_signals, write_envelopes

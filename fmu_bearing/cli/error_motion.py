@@ -7,8 +7,18 @@ from typing import Annotated
 import typer
 
 from fmu_bearing.cli import base
-from fmu_bearing.cli.options import Catalogues, Fidelity, Folder, Force, Json, Plot, SceneFile, Settings
-from fmu_bearing.cli.settings import AXIS, changed, numbers
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Fidelity,
+    Folder,
+    Force,
+    Json,
+    Plot,
+    SceneFile,
+    Settings,
+    Speeds,
+)
+from fmu_bearing.cli.settings import changed, numbers
 from fmu_bearing.progress import steps
 
 _PERCENT = 100.0
@@ -17,9 +27,7 @@ _PERCENT = 100.0
 @base.app.command()
 def error_motion(
     scene: SceneFile,
-    speeds: Annotated[
-        str | None, typer.Option(metavar="VALUES", help=f"r/min: {AXIS}; default: the scene's.")
-    ] = None,
+    speeds: Speeds = None,
     at: Annotated[
         float,
         typer.Option(

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from fmu_bearing.cli.base import refusals
+from fmu_bearing.cli.settings import AXIS
 
 #: s: length of a recording, and what is left out before it: by then the start-up has died away.
 DURATION, SETTLE = 0.5, 0.1
@@ -84,6 +85,12 @@ RadiationModel = Annotated[
 ]
 Speed = Annotated[
     float | None, typer.Option("--speed", metavar="RPM", help="Shaft speed, r/min, in place of the scene's.")
+]
+Speeds = Annotated[
+    str | None, typer.Option("--speeds", metavar="VALUES", help=f"r/min: {AXIS}; default: the scene's.")
+]
+Preloads = Annotated[
+    str | None, typer.Option("--preloads", metavar="VALUES", help="N, same syntax; default: the scene's.")
 ]
 SurfaceFile = Annotated[
     Path | None,

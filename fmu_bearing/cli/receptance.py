@@ -7,8 +7,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fmu_bearing.cli import base
-from fmu_bearing.cli.options import Catalogues, Force, Json, Plot, SceneFile, Settings, output as written_to
-from fmu_bearing.cli.settings import AXIS as _SYNTAX, changed, numbers
+from fmu_bearing.cli.options import (
+    Catalogues,
+    Force,
+    Json,
+    Plot,
+    Preloads,
+    SceneFile,
+    Settings,
+    Speeds,
+    output as written_to,
+)
+from fmu_bearing.cli.settings import changed, numbers
 from fmu_bearing.files import check_file
 from fmu_bearing.progress import steps
 
@@ -20,12 +30,8 @@ if TYPE_CHECKING:
 @base.app.command()
 def receptance(
     scene: SceneFile,
-    speeds: Annotated[
-        str | None, typer.Option(metavar="VALUES", help=f"r/min: {_SYNTAX}; default: the scene's.")
-    ] = None,
-    preloads: Annotated[
-        str | None, typer.Option(metavar="VALUES", help="N, same syntax; default: the scene's.")
-    ] = None,
+    speeds: Speeds = None,
+    preloads: Preloads = None,
     frequencies: Annotated[
         str | None, typer.Option(metavar="VALUES", help="Hz, same syntax; default: 20:5000:2491.")
     ] = None,

@@ -39,8 +39,8 @@ GUIDANCES: tuple[Guidance, ...] = get_args(Guidance)
 INNER_GUIDED, OUTER_GUIDED, BALL_GUIDED = range(len(GUIDANCES))
 
 #: How the engine forms the channels of the sound filters, with its number in the sound block:
-#: the multi-source paper's magnitudes, accelerations, normal velocities at the contact points; what
-#: accelerometers feel.
+#: the multi-source paper's magnitudes, accelerations, normal velocities at the contact points;
+#: accelerations under accelerometers.
 ChannelForm = Literal["scalars", "vectors", "contacts", "sensors"]
 CHANNEL_FORMS: dict[ChannelForm, int] = {"scalars": 1, "vectors": 2, "contacts": 3, "sensors": 4}
 SCALARS, VECTORS, CONTACTS, SENSORS = CHANNEL_FORMS.values()

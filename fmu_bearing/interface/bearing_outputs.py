@@ -230,7 +230,7 @@ def _flexure(scene: Scene) -> list[Variable]:
 
 
 def _defects(scene: Scene) -> list[Variable]:
-    """Return what is told of local defects, in the order of the engine's :data:`Z.DEFECT_OUTPUTS`."""
+    """Return the outputs of local defects, in the order of the engine's :data:`Z.DEFECT_OUTPUTS`."""
     at = Z.defects(scene.bearing.ball_count, len(scene.microphones), _bands(scene), scene.flexural_modes)
     time: dict[str, Any] = {"display_unit": "ms", "min": -1e9, "max": 1e9}
     table: list[Variable] = []

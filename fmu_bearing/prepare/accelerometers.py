@@ -25,7 +25,7 @@ from fmu_bearing.threads import one_thread
 
 Array = NDArray[np.float64]
 
-__all__ = ["felt_blocks", "sensors_of"]
+__all__ = ["sensor_blocks", "sensors_of"]
 
 
 class Seat(NamedTuple):
@@ -37,7 +37,7 @@ class Seat(NamedTuple):
 
 
 @one_thread
-def felt_blocks(scene: Scene) -> list[Array]:
+def sensor_blocks(scene: Scene) -> list[Array]:
     """Return the block of accelerometers of every bearing of a scene; empty where it carries none.
 
     Raises

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from fmu_bearing.formulas.half_space import grid, solve
 from fmu_bearing.formulas.hertz import PointContact, point_contact
-from fmu_bearing.prepare.defect_shapes import RIM_END, Shape
+from fmu_bearing.prepare.defect_shapes import Shape
+from fmu_bearing.scene.defect import RIM
 
 Real = NDArray[np.float64]
 
@@ -101,7 +102,7 @@ class BallOverDefect:
     def _misses(self, delta: float, x: float) -> bool:
         """Whether the undamaged contact, and what a rim might touch, lies beside the defect."""
         if self.shape.rim > 0.0:
-            half = RIM_END * 0.5 * math.hypot(self.shape.length, self.shape.width)
+            half = RIM * 0.5 * math.hypot(self.shape.length, self.shape.width)
             gone = half + math.sqrt(2.0 * self.rx * (max(delta, 0.0) + self.shape.rim))
             return abs(x) > gone
         if delta <= 0.0:

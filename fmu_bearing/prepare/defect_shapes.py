@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.scene.defect import RIM
+
 Real = NDArray[np.float64]
 
 #: Outlines with an edge all round, and the dent, which has none.
 KINDS = ("rectangle", "ellipse", "dent")
-#: Radius at which the rim of a dent ends, over the radius of the dent.
-RIM_END = 1.5
 _STEEPEST = math.radians(80.0)  # turn of a shape without end across
 
 
@@ -81,7 +81,7 @@ class Shape(NamedTuple):
         radius = np.hypot(u / half, v / side)
         if self.kind == "dent":
             inside = self.depth * np.maximum(1.0 - radius**2, 0.0) ** 2
-            part = np.clip((radius - 1.0) / (RIM_END - 1.0), 0.0, 1.0)
+            part = np.clip((radius - 1.0) / (RIM - 1.0), 0.0, 1.0)
             return inside - self.rim * np.sin(math.pi * part) ** 2
         # distance to an ellipse of first order, that to a circle exactly
         slope = np.hypot(u / half**2, v / side**2) / np.maximum(radius, 1e-12)
@@ -106,7 +106,7 @@ class Shape(NamedTuple):
 
         What of an endless shape lies further than ``track`` from the middle of the track is left out.
         """
-        out = RIM_END if self.kind == "dent" and self.rim > 0.0 else 1.0
+        out = RIM if self.kind == "dent" and self.rim > 0.0 else 1.0
         half, side = 0.5 * out * self.length, 0.5 * out * self.width
         cosine, sine = abs(math.cos(self.turn)), abs(math.sin(self.turn))
         if self.kind == "rectangle":

@@ -16,7 +16,7 @@ from fmu_bearing.formulas.hertz import effective_modulus, point_contact
 from fmu_bearing.interface import Variable, variables
 from fmu_bearing.interface.inputs import input_values
 from fmu_bearing.prepare import bodies, contacts, fits
-from fmu_bearing.prepare.accelerometers import felt_blocks
+from fmu_bearing.prepare.accelerometers import sensor_blocks
 from fmu_bearing.prepare.defect_blocks import block, of_scene, pass_rate
 from fmu_bearing.prepare.flexure import inner_modes, longest_step, mode_table
 from fmu_bearing.prepare.imperfections import (
@@ -140,10 +140,10 @@ def prepare(
     _require_computable(scene)
     try:
         sounds = sound_blocks(scene, lines=False if samples else None)
-        felt = felt_blocks(scene)
+        sensors = sensor_blocks(scene)
     except ValueError as problem:
         raise SceneError(f"{scene.name}: {problem}") from None
-    parameters = pack(scene, *sounds, felt=felt)
+    parameters = pack(scene, *sounds, sensors=sensors)
     parameters.setflags(write=False)
     table = variables(scene, bodies.rotor_inertia(scene), bodies.rings_at_port(scene))
     return Model(scene, parameters, table, note)
@@ -159,12 +159,12 @@ def _require_computable(scene: Scene) -> None:
 
 
 def pack(
-    scene: Scene, *sounds: NDArray[np.float64], felt: Sequence[NDArray[np.float64]] | None = None
+    scene: Scene, *sounds: NDArray[np.float64], sensors: Sequence[NDArray[np.float64]] | None = None
 ) -> NDArray[np.float64]:
     """Parameter array ``p`` for a scene, of a set too, and its sound block (empty: no sound).
 
-    A set has one sound block for each bearing, or a single empty one. ``felt``: the block of accelerometers
-    of each bearing; default: no accelerometers, whatever the scene has.
+    A set has one sound block for each bearing, or a single empty one. ``sensors``: the block of
+    accelerometers of each bearing; default: no accelerometers, whatever the scene has.
 
     Raises
     ------
@@ -174,10 +174,10 @@ def pack(
     _require_computable(scene)
     bearings = scene.bearings()
     blocks = sounds if len(sounds) == len(bearings) else len(bearings) * sounds
-    sensing = felt or [np.zeros(0)] * len(bearings)
+    sensing = sensors or [np.zeros(0)] * len(bearings)
     packed = [
-        _pack(bearing, heard, sensed, scene, len(scene.accelerometers) if felt else 0)
-        for bearing, heard, sensed in zip(bearings, blocks, sensing, strict=True)
+        _pack(*own, scene, len(scene.accelerometers) if sensors else 0)
+        for own in zip(bearings, blocks, sensing, strict=True)
     ]
     fits.share(packed)
     return pack_set(scene, packed) if scene.assembly.joined else as_set_of_one(packed[0])
@@ -186,13 +186,13 @@ def pack(
 def _pack(
     bearing: SceneBearing[Scene],
     sound: NDArray[np.float64],
-    felt: NDArray[np.float64],
+    sensors: NDArray[np.float64],
     whole: Scene,
     accelerometers: int,
 ) -> NDArray[np.float64]:
     """Return the parameters of one bearing of the ``whole`` scene, which has microphones and defects.
 
-    ``felt``: the block of its own accelerometers, of which the scene has so many.
+    ``sensors``: the block of its own accelerometers, of which the scene has so many.
     """
     scene = fits.loose(bearing.scene)
     defects = of_scene(scene, list(whole.defects_of(bearing.number - 1)))
@@ -210,7 +210,7 @@ def _pack(
         P.AT_FORM: form_rows(form) if form.size else form,
         P.AT_AXES: _joined([_lanes(row) for row in axes] if form.size else []),
         P.AT_SOUND: sound,
-        P.AT_FELT: felt,
+        P.AT_SENSORS: sensors,
         P.AT_MODES: _modes(scene),
         P.AT_DEFECTS: block(defects),
     }
@@ -239,7 +239,7 @@ def _pack(
     _fidelity(scene, p)
     _sound(whole, sound, p)
     if accelerometers:
-        _felt(whole, felt, p, accelerometers)
+        _sensor_block(whole, sensors, p, accelerometers)
     contacts.oil(scene, p)
     contacts.balls(scene, p)
     contacts.races(scene, p)
@@ -286,7 +286,7 @@ def _fidelity(scene: Scene, p: NDArray[np.float64]) -> None:
     p[P.REDUCTION] = terms.rolling_reduction
     p[P.LAND] = 1.0  # the dry stop stays: without it nothing would carry the cage
     p[P.GYROSCOPIC] = terms.gyroscopic
-    p[P.READ_BALLS] = p[P.READ_SOUND] = p[P.READ_FELT] = 1.0
+    p[P.READ_BALLS] = p[P.READ_SOUND] = p[P.READ_SENSORS] = 1.0
 
 
 def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> None:
@@ -301,16 +301,16 @@ def _sound(scene: Scene, sound: NDArray[np.float64], p: NDArray[np.float64]) -> 
         p[P.BANDS] = sound[SD.H_BANDS]
 
 
-def _felt(scene: Scene, felt: NDArray[np.float64], p: NDArray[np.float64], count: int) -> None:
+def _sensor_block(scene: Scene, sensors: NDArray[np.float64], p: NDArray[np.float64], count: int) -> None:
     """Write places of the accelerometers behind those of the sound; without sound its default begins."""
     if scene.sound is None:
         p[P.METERING_START] = Sound.model_fields["metering_start_s"].default
     p[P.ACCELEROMETERS] = count
-    if felt.size:
-        p[P.FELT_SIZE] = felt.size
-        p[P.FELT_STATE], p[P.FELT_WORK] = p[P.SOUND_STATE], p[P.SOUND_WORK]
-        p[P.SOUND_STATE] += SD.state_size(felt)
-        p[P.SOUND_WORK] += SD.work_size(felt)
+    if sensors.size:
+        p[P.SENSORS_SIZE] = sensors.size
+        p[P.SENSORS_STATE], p[P.SENSORS_WORK] = p[P.SOUND_STATE], p[P.SOUND_WORK]
+        p[P.SOUND_STATE] += SD.state_size(sensors)
+        p[P.SOUND_WORK] += SD.work_size(sensors)
 
 
 def _mounting(scene: Scene, p: NDArray[np.float64]) -> None:

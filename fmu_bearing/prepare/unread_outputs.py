@@ -34,8 +34,8 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
     alone = octaves + bands * mics
     behind = alone + (len(parts) * mics if together else 0)
     microphone_places = range(first, behind)
-    felt = behind + (0 if together else 2 * int(p[P.MODES]) + Z.PER_DEFECT * int(p[P.DEFECTS]))
-    sensor_places = range(felt, felt + Z.PER_ACCELEROMETER * int(p[P.ACCELEROMETERS]))
+    sensors = behind + (0 if together else 2 * int(p[P.MODES]) + Z.PER_DEFECT * int(p[P.DEFECTS]))
+    sensor_places = range(sensors, sensors + Z.PER_ACCELEROMETER * int(p[P.ACCELEROMETERS]))
     for b, (part, _) in enumerate(parts):
         of, at = parameters[part], sum(sizes[:b]) if together else 0
         balls = {at + one for one in (*_OF_BALLS, *range(Z.BALLS, Z.mics(int(of[P.BALLS]))))}
@@ -45,7 +45,7 @@ def without_unread(p: NDArray[np.float64], shown: Iterable[Variable]) -> NDArray
         of[P.READ_BALLS] = not read.isdisjoint(balls)
         of[P.READ_SOUND] = not read.isdisjoint(microphone_places)
         if p[P.ACCELEROMETERS] != 0.0:
-            of[P.READ_FELT] = not read.isdisjoint(sensor_places)
+            of[P.READ_SENSORS] = not read.isdisjoint(sensor_places)
         block = int(of[P.AT_SOUND])
         if block == 0:
             continue

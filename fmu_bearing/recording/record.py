@@ -232,12 +232,13 @@ class _History:
     ``p``: its parameters; ``part``: its place in the state.
     """
 
-    def __init__(self, p: NDArray[np.float64], part: slice, felt: bool = False) -> None:
-        block, size = int(p[P.AT_FELT if felt else P.AT_SOUND]), int(p[P.FELT_SIZE if felt else P.SOUND_SIZE])
+    def __init__(self, p: NDArray[np.float64], part: slice, sensors: bool = False) -> None:
+        places = (P.AT_SENSORS, P.SENSORS_SIZE) if sensors else (P.AT_SOUND, P.SOUND_SIZE)
+        block, size = (int(p[place]) for place in places)
         if block == 0:
             raise ValueError("the model has no sound: give the scene, or leave microphones=False")
         sound: NDArray[np.float64] = p[block : block + size]
-        self._begin = S.SOUND + (int(p[P.FELT_STATE]) if felt else 0)
+        self._begin = S.SOUND + (int(p[P.SENSORS_STATE]) if sensors else 0)
         self.depth, self.harmonics = int(sound[SD.H_ROWS]), int(sound[SD.H_HARMONICS])
         lanes, channels = int(sound[SD.H_AT_LANES]), int(sound[SD.H_CHANNELS])
         self.lanes = sound[lanes : lanes + channels].astype(int)
@@ -264,14 +265,14 @@ class _Readings:
         self.watch = watch
         self.rates = RatesWatch()
         self.histories = [_History(bearing.p[at_p], at_s) for at_p, at_s in parts_of(bearing.p)]
-        self.felt = [
-            _History(bearing.p[at_p], at_s, felt=True)
+        self.sensors = [
+            _History(bearing.p[at_p], at_s, sensors=True)
             for at_p, at_s in parts_of(bearing.p)
-            if bearing.p[at_p][P.FELT_SIZE] != 0.0
+            if bearing.p[at_p][P.SENSORS_SIZE] != 0.0
         ]
-        self.depth = min(history.depth for history in (*self.histories, *self.felt))
+        self.depth = min(history.depth for history in (*self.histories, *self.sensors))
         self.rows = np.zeros((rows, sum(len(history.lanes) for history in self.histories)))
-        self.sensed = np.zeros((rows, sum(len(history.lanes) for history in self.felt)))
+        self.sensed = np.zeros((rows, sum(len(history.lanes) for history in self.sensors)))
         self.count = 0
         self.time: list[float] = []
         self.speed: list[float] = []
@@ -291,7 +292,7 @@ class _Readings:
             raise RuntimeError(f"{count - self.count} rows came in one step, the engine keeps {self.depth}")
         new = np.arange(self.count, min(count, len(self.rows)))
         self.rows[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.histories])
-        if self.felt:
-            self.sensed[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.felt])
+        if self.sensors:
+            self.sensed[new] = np.hstack([history.rows(self.bearing.s, new) for history in self.sensors])
         self.count = count
         return min(count, len(self.rows)) / SD.RATE

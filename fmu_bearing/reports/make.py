@@ -398,7 +398,7 @@ def _sections(
     scene = subject.recording.scene
     asked = dict.fromkeys(("arrangement", "axial", "warmth"), subject.several)
     asked |= {"accelerometers": scene is not None and bool(scene.accelerometers)}
-    asked["envelope"] = envelopes.has_defects(scene) if envelope is None else envelope
+    asked["envelope"] = bool(scene and scene.has_defects) if envelope is None else envelope
     asked |= {"fits": scene is not None and scene.fit is not None, "changes": changes is not False}
     sections: list[Section] = []
     stopped = False

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.layout import U
 from fmu_bearing.files import plain_file
-from fmu_bearing.prepare.accelerometers import felt_blocks
+from fmu_bearing.prepare.accelerometers import sensor_blocks
 from fmu_bearing.prepare.sound_block import sound_blocks
 from fmu_bearing.run.figures import code_digest, parts_of, rows_over, values_of
 from fmu_bearing.run.metrics import SAMPLE
@@ -121,8 +121,8 @@ def run_point(task: Task, blocks: Blocks | None = None) -> Outcome:
 def _measured(task: Task, sounds: Blocks) -> tuple[float, ...]:
     scene = task.scene
     read = any(name.startswith("accelerometer[") for name in task.figures)
-    felt = felt_blocks(scene) if read and scene.accelerometers else None
-    bearing = Arrays.sensing(scene, sounds, felt, METERING_START=task.settle).init()
+    sensors = sensor_blocks(scene) if read and scene.accelerometers else None
+    bearing = Arrays.sensing(scene, sounds, sensors, METERING_START=task.settle).init()
     if task.settle > 0.0:
         steps = math.ceil(task.settle / COMMUNICATION)
         bearing.run(task.settle, task.settle / steps)

@@ -27,7 +27,7 @@ def fed(p, s, w, motion, z):
     for k in range(len(motion)):
         w[W.MOTION : W.MOTION + MO.SIZE] = 0.0
         w[W.MOTION + MO.OUTER : W.MOTION + MO.OUTER + MO.PER_BODY] = motion[k]
-        accelerometer.feel(p, s, w, 0.0)
+        accelerometer.sense(p, s, w, 0.0)
         if k % SD.DECIMATION == SD.DECIMATION - 1:
             accelerometer.settle(p, s, w, 0.0)
             accelerometer.observe(p, s, z, 0)
@@ -39,7 +39,7 @@ def play(sensors, motion):
     """Outputs of sensors over time, shape (samples, sensors, outputs)."""
     block = block_of(Sensors(sensors))
     p = np.concatenate([np.zeros(P.TABLES), block])
-    p[P.AT_FELT], p[P.FELT_SIZE] = P.TABLES, block.size
+    p[P.AT_SENSORS], p[P.SENSORS_SIZE] = P.TABLES, block.size
     s, w = np.zeros(S.SOUND + SD.state_size(block)), np.zeros(W.SOUND + SD.work_size(block))
     rows = fed(p, s, w, motion, np.zeros(Z.PER_ACCELEROMETER * len(sensors)))
     return rows.reshape(len(rows), len(sensors), -1)
@@ -93,6 +93,7 @@ CASES = [
 ]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("modes", "mount"), CASES)
 def test_sines_pass_modes_and_resonance_as_the_closed_form_has_it(modes, mount):
     frequencies = np.array([20, 40, 100, 150, 160, 400, 790, 800, 1000, 3000, 3100, 3200, 6000, 8900, 9000])
@@ -106,12 +107,14 @@ def test_sines_pass_modes_and_resonance_as_the_closed_form_has_it(modes, mount):
     assert np.abs(np.angle(found / wanted)).max() < 1e-3
 
 
+@pytest.mark.heavy
 def test_chain_alone_is_flat_to_20_kHz_but_for_the_low_limit():
     frequencies = np.array([20.0, 100.0, 1e3, 5e3, 1e4, 2e4])
     size = np.abs(chain(frequencies))
     assert np.abs(20.0 * np.log10(size)).max() < 0.05  # 0.017 dB at 20 Hz
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("frequency", [31_500.0, 40_000.0, 54_000.0, 80_500.0, 98_000.0])
 def test_what_lies_above_does_not_fold(frequency):
     below = abs((frequency + SD.RATE / 2) % SD.RATE - SD.RATE / 2)
@@ -120,6 +123,7 @@ def test_what_lies_above_does_not_fold(frequency):
     assert 20.0 * np.log10(np.abs(found[0])) < -60.0
 
 
+@pytest.mark.heavy
 def test_meters_read_rms_peak_and_kurtosis():
     rng = np.random.default_rng(3)
     motion = np.zeros((60_000, MO.PER_BODY))
@@ -136,6 +140,7 @@ def test_meters_read_rms_peak_and_kurtosis():
     assert 1.0 <= sine[2] < 1.3
 
 
+@pytest.mark.heavy
 def test_the_filter_of_recordings_is_that_of_the_engine():
     one = sensor(((800.0, 0.02, MASS), (9000.0, 0.01, 0.4)), (6e3, 0.05))
     motion = moved(80_000, [130.0, 790.0, 7000.0, 19_000.0], np.array([1.0, 0.3, 2.0, 1.0]))
@@ -156,7 +161,7 @@ def _channels(one, motion):
     """Rows of the channel history that a run would leave: read from the engine's state after each sample."""
     block = block_of(Sensors([one]))
     p = np.concatenate([np.zeros(P.TABLES), block])
-    p[P.AT_FELT], p[P.FELT_SIZE] = P.TABLES, block.size
+    p[P.AT_SENSORS], p[P.SENSORS_SIZE] = P.TABLES, block.size
     s, w = np.zeros(S.SOUND + SD.state_size(block)), np.zeros(W.SOUND + SD.work_size(block))
     depth, channels = int(block[SD.H_ROWS]), int(block[SD.H_CHANNELS])
     first = S.SOUND + int(block[SD.H_S_CHANNELS])

@@ -8,6 +8,7 @@ END_MILL = EXAMPLES.parent / "milling" / "7003C-QBC-end-mill.toml"
 SHORT = ("--speeds", "16000:22000:25", "--frequencies", "600:3000:601")
 
 
+@pytest.mark.heavy
 def test_pockets_verdict_picture_and_numbers(run, tmp_path):
     out, picture = tmp_path / "l.csv", tmp_path / "l.png"
     done = run("lobes", END_MILL, *SHORT, "-o", out, "--plot", picture)

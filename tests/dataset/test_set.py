@@ -103,12 +103,14 @@ def test_waveforms_are_those_of_a_recording(made):
         )
 
 
+@pytest.mark.heavy
 def test_workers_change_no_byte(made, tmp_path):
     dataset(made / "plan.toml", tmp_path, workers=2)
     for name in FILES:
         assert (tmp_path / name).read_bytes() == (made / "out" / name).read_bytes(), name
 
 
+@pytest.mark.heavy
 def test_a_killed_set_resumes_to_equal_files(made, tmp_path):
     command = [sys.executable, "-m", "fmu_bearing", "dataset", made / "plan.toml", "-o", tmp_path, "-w", "1"]
     process = subprocess.Popen(command, cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)})

@@ -1,4 +1,4 @@
-"""What is told of local defects: passages, entries and impacts beside numpy on the same ball angles."""
+"""Outputs of local defects: passages, entries and impacts beside numpy on the same ball angles."""
 
 import math
 

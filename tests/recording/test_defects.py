@@ -55,6 +55,7 @@ def test_its_passages_are_kept_and_named(recording):
     assert json.loads(recording.to_xarray().attrs["defects"])[0]["line"] == "f_o"
 
 
+@pytest.mark.heavy
 def test_pictures_and_reports_name_the_line(recording, tmp_path):
     mpl.use("Agg")
     (ax,) = recording.plot("P1").axes

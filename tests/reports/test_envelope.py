@@ -1,14 +1,11 @@
 """The section on envelopes: where it is asked for, or where a bearing has a defect; what it shows."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from fmu_bearing import measure
 from fmu_bearing.recording.record import record
 from fmu_bearing.reports import make
-from fmu_bearing.reports.sections.envelopes import has_defects
 from fmu_bearing.scene.read import with_fidelity
 from tests.reports.reading import Page
 
@@ -26,6 +23,7 @@ def page(recording, tmp_path_factory):
     )
 
 
+@pytest.mark.heavy
 def test_the_chart_is_that_of_the_measurement(recording, page):
     found = {way: measure.envelope_of(recording, f"outer_ring.acceleration.{way}") for way in "yz"}
     first = max(found.values(), key=lambda one: one.far()[0].over_median)
@@ -43,16 +41,16 @@ def test_the_chart_is_that_of_the_measurement(recording, page):
     assert np.isfinite(spectrum["y"]).all() and "Envelope" in page.text
 
 
+@pytest.mark.heavy
 def test_it_is_left_out_unless_asked_for(recording, tmp_path):
     made = make(recording, tmp_path / "b.html", changes=False)
     assert "envelope" not in made.sections
-    flaws = SimpleNamespace(defect=("a spall",))
-    one = SimpleNamespace(imperfections=flaws, bearings=lambda: ())
-    none = SimpleNamespace(imperfections=None, bearings=lambda: (SimpleNamespace(scene=one),))
-    bare = SimpleNamespace(imperfections=SimpleNamespace(defect=()), bearings=lambda: ())
-    assert has_defects(one) and has_defects(none) and not has_defects(bare) and not has_defects(None)
+    pit = {"on": "outer", "shape": "pit", "length_mm": 0.3, "depth_um": 50.0}
+    recording.scene = recording.scene.replace({"imperfections.defect": [pit]})
+    assert "envelope" in make(recording, tmp_path / "c.html", changes=False).sections
 
 
+@pytest.mark.heavy
 def test_a_run_up_says_why_it_has_none(scene, tmp_path):
     bare = with_fidelity(scene("7003C-bare"), model="rings")
     ramp = record(bare, 0.05, speed=lambda t: 1000.0 + 2000.0 * t, radiation_model="compact", warn=False)

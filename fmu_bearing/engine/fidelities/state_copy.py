@@ -90,5 +90,5 @@ def _copy_sound(pb, sb, kb):
     beaten = int(ps[SD.H_S_BEATS])
     copy(sb, kb, S.SOUND, S.SOUND + lines + int(ss[SD.SS_LINES]) * beats.line_size(ps))
     copy(sb, kb, S.SOUND + behind, S.SOUND + beaten + int(ss[SD.SS_BEATS]) * beats.beat_size(ps))
-    if pb[P.FELT_SIZE] != 0.0:
-        copy(sb, kb, S.SOUND + int(pb[P.FELT_STATE]), end)
+    if pb[P.SENSORS_SIZE] != 0.0:
+        copy(sb, kb, S.SOUND + int(pb[P.SENSORS_STATE]), end)

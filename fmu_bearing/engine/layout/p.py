@@ -47,7 +47,7 @@ FITS = _at()  # fits of the rings on shaft or in housing
 UNMOUNTED = _at()  # preload is that of the loose bearing
 READ_BALLS = _at()  # outputs of balls and contacts are read; else `response` finds them for warnings alone
 READ_SOUND = _at()  # outputs of microphones are read
-READ_FELT = _at()  # outputs of accelerometers are read
+READ_SENSORS = _at()  # outputs of accelerometers are read
 ACCELEROMETERS = _at()  # how many the scene has
 # offsets into p
 AT_STRIPS = _at()  # strip nodes, then weights
@@ -62,10 +62,10 @@ AT_SOUND = _at()  # sound block; 0: there is none
 SOUND_SIZE = _at()  # its length, and the lengths of its state and work space
 SOUND_STATE = _at()
 SOUND_WORK = _at()
-AT_FELT = _at()  # block of the bearing's accelerometers, in the place of a sound block's
-FELT_SIZE = _at()  # its length; 0: there is none
-FELT_STATE = _at()  # where its state begins in the sound state, whose length holds it,
-FELT_WORK = _at()  # and its work space in that of the sound
+AT_SENSORS = _at()  # block of the bearing's accelerometers, in the place of a sound block's
+SENSORS_SIZE = _at()  # its length; 0: there is none
+SENSORS_STATE = _at()  # where its state begins in the sound state, whose length holds it,
+SENSORS_WORK = _at()  # and its work space in that of the sound
 SET = _at()  # block of a set of bearings, see spindle; 0: parameters of one of its bearings
 ALONE = _at()  # 1: a single bearing, the only one of its set, without shaft
 # balls, contacts, oil

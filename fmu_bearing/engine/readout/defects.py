@@ -15,7 +15,7 @@ from fmu_bearing.engine.layout import DE, P, Q, R, S, Y, Z
 from fmu_bearing.engine.mechanics.defects import head_of, table_of, within
 from fmu_bearing.engine.mechanics.trigonometry import wrap
 
-_RISEN = 0.1  # of the way down: further up a ball is on its way out
+_RISEN = 0.1  # of the way down, assumed: further up a ball is on its way out
 
 
 @kernel

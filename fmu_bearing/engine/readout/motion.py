@@ -182,7 +182,7 @@ def share_of_step(s, h):
 
 @kernel
 def sample_bodies(p, s, w, h):
-    """As `sample_motion`, of what accelerometers feel alone."""
+    """As `sample_motion`, of the rings alone, which accelerometers read."""
     t = share_of_step(s, h)
     bodies_motion(s, w, False, h, t)
     flexure_motion(p, s, w, h, t)

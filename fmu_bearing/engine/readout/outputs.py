@@ -138,7 +138,7 @@ def observe(p, s, z):
     if p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0:
         mics = Z.BALLS + Z.PER_BALL * int(p[P.BALLS])
         levels(sound_block(p), s[S.SOUND :], z, mics)
-    if p[P.READ_FELT] != 0.0:
+    if p[P.READ_SENSORS] != 0.0:
         at = flexures(p, int(p[P.MICS])) + 2 * int(p[P.MODES]) + Z.PER_DEFECT * int(p[P.DEFECTS])
         accelerometer.observe(p, s, z, at)
 

@@ -20,19 +20,19 @@ _LEAST = 1e-300  # m2/s4: a variance below is none
 @kernel
 def block_of(p):
     """Return the block of accelerometers of a bearing's parameters; empty: it carries none."""
-    return p[int(p[P.AT_FELT]) : int(p[P.AT_FELT]) + int(p[P.FELT_SIZE])]
+    return p[int(p[P.AT_SENSORS]) : int(p[P.AT_SENSORS]) + int(p[P.SENSORS_SIZE])]
 
 
 @kernel
 def state_of(p, s):
     """Return the state of a bearing's accelerometers."""
-    return s[S.SOUND + int(p[P.FELT_STATE]) :]
+    return s[S.SOUND + int(p[P.SENSORS_STATE]) :]
 
 
 @kernel
-def feel(p, s, w, metering_start):
+def sense(p, s, w, metering_start):
     """Take the motion sample in ``W.MOTION`` of a bearing that may carry accelerometers."""
-    if p[P.FELT_SIZE] == 0.0:
+    if p[P.SENSORS_SIZE] == 0.0:
         return
     push(block_of(p), state_of(p, s), w[W.MOTION : W.SOUND])
     if waiting(state_of(p, s)) >= SD.BATCH:
@@ -42,10 +42,10 @@ def feel(p, s, w, metering_start):
 @kernel
 def settle(p, s, w, metering_start):
     """Let all samples that wait pass filters, resonators and meters of a bearing's accelerometers."""
-    if p[P.FELT_SIZE] == 0.0:
+    if p[P.SENSORS_SIZE] == 0.0:
         return
     ps, ss = block_of(p), state_of(p, s)
-    ws = w[W.SOUND + int(p[P.FELT_WORK]) :]
+    ws = w[W.SOUND + int(p[P.SENSORS_WORK]) :]
     batch = filtered(ps, ss, ws)
     pitch = in_fours(int(ps[SD.H_OUTPUTS]))
     for k in range(batch):
@@ -103,7 +103,7 @@ def observe(p, s, z, first):
 
     Rms and peak are zero before metering has begun, and kurtosis is where nothing varies.
     """
-    if p[P.FELT_SIZE] == 0.0:
+    if p[P.SENSORS_SIZE] == 0.0:
         return
     ps, ss = block_of(p), state_of(p, s)
     n = int(ps[SD.H_MICS])

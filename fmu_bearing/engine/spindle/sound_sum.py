@@ -16,9 +16,9 @@ from fmu_bearing.engine.spindle import members
 
 
 @kernel
-def felt(p):
+def reads_sensors(p):
     """Whether there are accelerometers that are read."""
-    return p[P.ACCELEROMETERS] != 0.0 and p[P.READ_FELT] != 0.0
+    return p[P.ACCELEROMETERS] != 0.0 and p[P.READ_SENSORS] != 0.0
 
 
 @kernel
@@ -30,24 +30,24 @@ def sampled(p):
 @kernel
 def emit(p, s, w, h):
     """Take every sample that falls into the step just made; where enough of them wait, filter them."""
-    heard = p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0 and sound_block(p)[SD.H_LINES] == 0.0
-    if not (heard or felt(p)):
+    audible = p[P.SOUND_SIZE] != 0.0 and p[P.READ_SOUND] != 0.0 and sound_block(p)[SD.H_LINES] == 0.0
+    if not (audible or reads_sensors(p)):
         return
-    whole = heard and int(sound_block(p)[SD.H_FORM]) != VECTORS
+    whole = audible and int(sound_block(p)[SD.H_FORM]) != VECTORS
     while sample_due(s, h):
         for b in range(members.bearing_count(p)):
             pb = members.parameters(p, b)
             sb = members.state(p, s, b)
             wb = members.work(p, w, b)
-            if heard:
+            if audible:
                 sample_motion(pb, sb, wb, whole, h)
                 push(sound_block(pb), sb[S.SOUND :], wb[W.MOTION : W.SOUND])
             else:
                 sample_bodies(pb, sb, wb, h)
-            if felt(p):
-                accelerometer.feel(pb, sb, wb, p[P.METERING_START])
+            if reads_sensors(p):
+                accelerometer.sense(pb, sb, wb, p[P.METERING_START])
             sb[S.SAMPLE] += 1.0
-        if heard and waiting(s[S.SOUND :]) >= SD.BATCH:
+        if audible and waiting(s[S.SOUND :]) >= SD.BATCH:
             finish_sound(p, s, w)
 
 
@@ -55,7 +55,7 @@ def emit(p, s, w, h):
 def finish(p, s, w):
     """Let all samples that wait pass every bearing's filters and the meters behind them."""
     finish_sound(p, s, w)
-    if felt(p):
+    if reads_sensors(p):
         for b in range(members.bearing_count(p)):
             pb, sb, wb = members.parameters(p, b), members.state(p, s, b), members.work(p, w, b)
             accelerometer.settle(pb, sb, wb, p[P.METERING_START])
@@ -103,7 +103,7 @@ def meter_alone(p, s, w, k):
 @kernel
 def observe_accelerometers(p, s, z, first):
     """Write what all accelerometers read, to ``z[first:]``."""
-    if felt(p):
+    if reads_sensors(p):
         for b in range(members.bearing_count(p)):
             accelerometer.observe(members.parameters(p, b), members.state(p, s, b), z, first)
 

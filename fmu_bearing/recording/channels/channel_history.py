@@ -19,7 +19,7 @@ from fmu_bearing.acoustics.filters.weighting import a_weighting_db, a_weighting_
 from fmu_bearing.acoustics.radiation.radiators import Path
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.prepare.imperfections import excitation_end
-from fmu_bearing.recording.channels.felt import noise_of, read_all
+from fmu_bearing.recording.channels.accelerometers import noise_of, read_all
 from fmu_bearing.recording.channels.microphone_places import Places, named_places
 from fmu_bearing.recording.channels.sources import air_of, sources_of
 from fmu_bearing.recording.channels.turning import Turning

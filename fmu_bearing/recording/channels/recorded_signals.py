@@ -59,12 +59,7 @@ def signal_names(recording: ChannelHistory) -> list[str]:
     """Return the names of all signals: microphones, accelerometers, bodies, variables at even points."""
     microphones = [name for name, _ in recording.microphones]
     variables = recording.outputs if _step(recording) else ()
-    return [*microphones, *accelerometers(recording), *_accelerations(recording), *variables]
-
-
-def accelerometers(recording: ChannelHistory) -> tuple[str, ...]:
-    """Return the names of the accelerometers of a recording."""
-    return tuple(getattr(recording, "accelerometers", ()))
+    return [*microphones, *recording.accelerometers, *_accelerations(recording), *variables]
 
 
 def recorded_signal(
@@ -78,7 +73,7 @@ def recorded_signal(
         place = dict(recording.microphones)[name]
         highest = min(BAND[1], 0.5 * recording.rate)
         return RecordedSignal(name, "Pa", values, recording.rate, recording.start, highest, None, place)
-    if name in accelerometers(recording):
+    if name in recording.accelerometers:
         read: NDArray[np.float64] = getattr(recording, "acceleration")(name)  # noqa: B009
         return RecordedSignal(name, ACCELERATION, read, recording.rate, recording.start, BAND[1])
     if name in _accelerations(recording):

@@ -8,7 +8,7 @@ bearing and what modulates them are lines.
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -156,8 +156,8 @@ class Envelope(Result):
     def far(self) -> list[EnvelopeLine]:
         """Return the lines 10 dB over the median, farthest first: of those at one peak the nearest.
 
-        Within two resolutions of a higher one, and within four of one ten times as high, a line is not told
-        from its skirt, and left out.
+        Within two resolutions of a higher one, and within four of one ten times as high, a line may be the
+        skirt of that one: it is left out.
         """
         taken: dict[int, EnvelopeLine] = {}
         for line in sorted(self.lines, key=self._fit):
@@ -165,10 +165,14 @@ class Envelope(Result):
                 taken.setdefault(round(line.found / self.resolution), line)
         return sorted(taken.values(), key=lambda line: -line.over_median)
 
-    def _fit(self, line: EnvelopeLine) -> tuple[float, int, str]:
-        """How far a line is from its peak, in quarters of a resolution, and how long its name is."""
+    def _fit(self, line: EnvelopeLine) -> tuple[float, bool, int, str]:
+        """How far a line is from its peak, in quarters of a resolution, and which of two names is likelier.
+
+        Where the cage turns at 0.4 of the shaft, 3 f_o is 2 f_i: a defect that is there has its own first.
+        """
         off = abs(line.found - line.frequency) / self.resolution
-        return (math.inf if math.isnan(off) else round(4.0 * off)), len(line.name), line.name
+        known = line.of.endswith(")") and not {"+", "-"} & set(line.name.split())
+        return (math.inf if math.isnan(off) else round(4.0 * off)), not known, len(line.name), line.name
 
     def _on_a_skirt(self, line: EnvelopeLine) -> bool:
         """Whether a line is lower than what is within a lobe of the window, or far lower a little farther."""
@@ -357,7 +361,7 @@ def _turning(
     Those of its bearing, of a signal of no single one those of all.
     """
     every = recording.bearing_kinematics()
-    lines: Sequence[Any] = getattr(recording, "defect_lines", tuple)()
+    lines = recording.defect_lines()
     found = []
     for number, one in enumerate(every, start=1):
         if signal.bearing in (None, number):

@@ -1,4 +1,4 @@
-"""Which signals an envelope analysis takes unless it is told, and the files of its results."""
+"""Signals that an envelope analysis takes by default, and the files of its results."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -9,7 +9,7 @@ import numpy as np
 from fmu_bearing.extras import available
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import accelerometers, recorded_signal, signal_names
+from fmu_bearing.recording.channels.recorded_signals import recorded_signal, signal_names
 from fmu_bearing.recording.measurements.envelope import Envelope, EnvelopeLine
 from fmu_bearing.recording.measurements.kurtogram import Band
 from fmu_bearing.recording.measurements.sound_analysis import stems
@@ -44,7 +44,7 @@ def usual_signals(recording: ChannelHistory) -> list[str]:
     ValueError
         Where there are neither.
     """
-    found = list(accelerometers(recording))
+    found = list(recording.accelerometers)
     if found:
         return found
     names = signal_names(recording)

@@ -8,18 +8,9 @@ from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
 from fmu_bearing.reports.sections.kinematic_marks import mark_kinematics
-from fmu_bearing.scene import Scene
 
 _MOST = 8  # signals: of more bearings the first
 _NAMED = 8  # lines of a signal whose names have room
-
-
-def has_defects(scene: Scene | None) -> bool:
-    """Whether a bearing of a scene has a local defect."""
-    if scene is None:
-        return False
-    every = (scene, *(bearing.scene for bearing in scene.bearings()))
-    return any(getattr(one.imperfections, "defect", ()) for one in every)
 
 
 def envelopes(subject: Subject) -> Section:
@@ -80,7 +71,7 @@ def _chart(subject: Subject, found: Sequence[Envelope]) -> Chart:
         "envelope", "Spectrum of the squared envelope", figure,
         f"How often the bands swell: {'; '.join(one.heading for one in found)}.",
         (Choice("signal", "Signal and band", options),),
-        note=f"{found[0].resolution:.3g} Hz are told apart, Hann window. The band is the one in which a "
+        note=f"{found[0].resolution:.3g} Hz is the resolution, Hann window. The band is the one in which a "
         "kurtogram finds most strokes. A defect is a line at the passing of the balls, f_o, f_i or 2 f_b, "
         "with side bands; waves of the surfaces make lines at the same places, so that a line is no finding "
         "until it exceeds that of a sound bearing.",

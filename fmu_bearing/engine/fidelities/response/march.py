@@ -28,7 +28,7 @@ from fmu_bearing.engine.jit import kernel
 from fmu_bearing.engine.layout import SP, STRIDE, L, P, S, T, U
 from fmu_bearing.engine.readout.contacts import knows_balls
 from fmu_bearing.engine.spindle import members
-from fmu_bearing.engine.spindle.sound_sum import felt
+from fmu_bearing.engine.spindle.sound_sum import reads_sensors
 from fmu_bearing.engine.status import NO_START, OK, TOO_SOFT
 
 
@@ -255,7 +255,7 @@ def march_response(p, u, s, w, h):
     sampled = p[P.SOUND_SIZE] != 0.0 and not from_lines(p)
     if sampled:
         sound_on_the_way(p, s, w, h, speed, near)
-    elif felt(p):
+    elif reads_sensors(p):
         motion_on_the_way(p, s, w, h, speed)
     else:
         turn_all(p, s, h)

@@ -5,6 +5,7 @@ longer than they compute: on a machine with other work an operating point took 1
 """
 
 import os
+import sys
 from collections.abc import Callable
 from functools import lru_cache, wraps
 from typing import ParamSpec, TypeVar
@@ -22,8 +23,11 @@ def cores() -> int:
 
 
 @lru_cache(maxsize=1)
-def _libraries() -> ThreadpoolController:
-    """Return the linear algebra libraries of this process; they are looked for once."""
+def _libraries(modules: int) -> ThreadpoolController:
+    """Return the linear algebra libraries of this process; looked for again when more modules are loaded.
+
+    Other packages bring libraries of their own, of which each keeps its own threads.
+    """
     import scipy.linalg  # noqa: F401 - has a library of its own beside NumPy's: both must be there to be found
 
     return ThreadpoolController()
@@ -34,7 +38,7 @@ def one_thread(function: Callable[_Given, _Found]) -> Callable[_Given, _Found]:
 
     @wraps(function)
     def limited(*args: _Given.args, **kwargs: _Given.kwargs) -> _Found:
-        with _libraries().limit(limits=1):
+        with _libraries(len(sys.modules)).limit(limits=1):
             return function(*args, **kwargs)
 
     return limited

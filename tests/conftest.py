@@ -16,6 +16,9 @@ os.environ.setdefault("FMU_BEARING_KEEP_KERNELS", str(own_folder(cache_root() / 
 # Numba colours the messages of all the overloads that it tries and drops: a tenth of what compiling takes.
 os.environ.setdefault("NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING", "1")
 
+# Workers share the processors, where threads of linear algebra wait for each other: half as long again.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # A shell's background job ignores Ctrl-C, and so would every process that a test starts and interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -9,6 +9,7 @@ from fmu_bearing.engine.layout import PT, C, P, Q, S, U, W, Y
 from fmu_bearing.engine.steady.point import REST, WHIRL
 from fmu_bearing.scene.read import read_scene_text, with_fidelity
 from tests.engine.test_steady_point import balls, eigenvalues_at_rest, lost, scene_at, torque
+from tests.marks import heavy_but
 
 
 def guided(guidance, bearing, rpm, preload, load=0.0, **changes):
@@ -162,7 +163,8 @@ def test_a_ribbon_cage_on_its_balls_leads_by_its_clearance_alone():
 
 
 @pytest.mark.parametrize(
-    ("guidance", "heat", "of_cage"), [("inner", 378, 104), ("outer", 368, 94), ("balls", 274, 0)]
+    ("guidance", "heat", "of_cage"),
+    heavy_but([("inner", 378, 104), ("outer", 368, 94), ("balls", 274, 0)], 0),
 )
 def test_heat_of_a_new_pair(guidance, heat, of_cage):
     """Watts per bearing, as docs/catalogue.md has them."""

@@ -13,7 +13,6 @@ from fmu_bearing.modal.receptance import transfer
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import EXAMPLES
 from tests.machining import delay
-from tests.marks import heavy_but
 
 DB = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
 END_MILL = EXAMPLES.parent / "milling" / "7003C-QBC-end-mill.toml"
@@ -83,6 +82,7 @@ def test_receptance_follows_the_speed_and_some_speeds_are_enough():
     assert np.abs(stiff.depths / many.depths - 1.0).max() > apart.max()
 
 
+@pytest.mark.heavy
 def test_verdict_and_the_way_out():
     found = lobes(END_MILL)
     assert found.place == "tip" and found.judgement == "change"
@@ -112,7 +112,8 @@ def test_a_single_bearing_with_a_rotor_has_lobes_as_a_set_has():
     assert front.own == found.own and middle.own.depth > 1.2 * front.own.depth
 
 
-@pytest.mark.parametrize(("bearing", "arrangement"), heavy_but([("7009C", None), ("NSK-7010C", "DB")], 0))
+@pytest.mark.heavy
+@pytest.mark.parametrize(("bearing", "arrangement"), [("7009C", None), ("NSK-7010C", "DB")])
 def test_bearings_of_the_catalogue_have_lobes(bearing, arrangement):
     made = read_scene_text(new_scene("drawn", bearing, arrangement=arrangement, sound=False))
     scene = made.replace({"milling": CUT | {"radial_immersion": 0.5, "direction": "up"}})

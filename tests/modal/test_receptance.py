@@ -12,7 +12,6 @@ from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.receptance import transfer
 from fmu_bearing.scene import SceneError, read_scene_text
 from tests.conftest import EXAMPLES
-from tests.marks import heavy_but
 from tests.spindle.runs import SetRun
 from tests.spindle.sets import scene
 
@@ -29,7 +28,8 @@ def drawn(bearing, arrangement):
     return read_scene_text(new_scene("drawn", bearing, arrangement=arrangement, sound=False))
 
 
-@pytest.mark.parametrize(("bearing", "arrangement"), heavy_but(DRAWN, 0))
+@pytest.mark.heavy
+@pytest.mark.parametrize(("bearing", "arrangement"), DRAWN)
 def test_at_20_hz_it_is_the_static_stiffness(bearing, arrangement):
     """Within 1 %; the rest is inertia, of the lowest modes some 1e-4, and the slow turning over of balls."""
     given = drawn(bearing, arrangement)
@@ -39,6 +39,7 @@ def test_at_20_hz_it_is_the_static_stiffness(bearing, arrangement):
     assert across.stiffness == pytest.approx(1.0 / np.linalg.inv(found.stiffness)[1, 1], rel=0.01)
 
 
+@pytest.mark.heavy
 def test_over_speed_and_preload_it_is_the_nose_of_stiffness():
     speeds, preloads, warm = [5e3, 15e3], [60.0, 200.0], {"bearing[1].inner_ring_temperature": 330.0}
     found = receptance(QBC, [20.0], speeds=speeds, preloads=preloads, inputs=warm)

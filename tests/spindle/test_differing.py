@@ -320,6 +320,7 @@ def test_a_report_draws_each_in_its_own_size():
     assert places[2] - 141.0 < 47.0 - places[1]
 
 
+@pytest.mark.heavy
 def test_a_campbell_diagram_names_the_bearing_of_a_line():
     """The pair at the nose has 12 balls, the bearing behind 11; the unbalance is one of all."""
     given = read_scene(MOTOR)
@@ -338,6 +339,7 @@ def test_a_campbell_diagram_names_the_bearing_of_a_line():
     assert found.rates.f_o[1] == pytest.approx(first.f_o, rel=1e-3)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("seal", [{}, {"kind": "RSH"}])
 def test_a_deep_groove_bearing_floats_behind(seal):
     """Its spring presses it; each fidelity has the torque of `full`, with seals on this bearing alone."""

@@ -16,6 +16,7 @@ import pytest
 from fmu_bearing.fmi.package import build
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
+from tests.native.toy import HOST
 
 ROOT = Path(__file__).parents[2]
 EXACT_STEP = 2.0**-9  # s: masters that count in ns and those that add up doubles agree on its multiples
@@ -30,16 +31,16 @@ needs_linux64 = pytest.mark.skipif(
 )
 
 
-def alone(model, steps, **inputs):
-    """Array of ``WATCHED``, one row at the start and one after each step, without any FMU."""
+def alone(model, steps, names=WATCHED, **inputs):
+    """Array of the named outputs, one row at the start and one after each step, without any FMU."""
     instance = Instance(model)
     for name, value in inputs.items():
         instance.set(name, value)
     instance.initialise(0.0)
-    rows = [[instance.get(name) for name in WATCHED]]
+    rows = [[instance.get(name) for name in names]]
     for _ in range(steps):
         instance.step(EXACT_STEP)
-        rows.append([instance.get(name) for name in WATCHED])
+        rows.append([instance.get(name) for name in names])
     return np.array(rows)
 
 
@@ -92,10 +93,7 @@ def native(fmus):
 
 @pytest.fixture(scope="session")
 def unpacked(native, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("unpacked native")
-    with zipfile.ZipFile(native) as archive:
-        archive.extractall(folder)
-    return folder
+    return extracted(native, tmp_path_factory.mktemp("unpacked native"))
 
 
 @pytest.fixture(scope="session")
@@ -143,6 +141,13 @@ def ecos(clean_environment, tmp_path_factory):
     return run
 
 
+def extracted(fmu, folder):
+    """Unpack an FMU into a folder, which is returned."""
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    return folder
+
+
 @pytest.fixture(scope="session")
 def compiler():
     found = shutil.which("cc") or shutil.which("gcc")
@@ -155,6 +160,15 @@ def compiler():
 def headers():
     """Folder of the FMI headers in the installed FMPy."""
     return Path(importlib.util.find_spec("fmpy").origin).parent / "c-code"
+
+
+@pytest.fixture(scope="session")
+def host(compiler, headers, tmp_path_factory):
+    """The host program in C; it links nothing but the C library."""
+    program = tmp_path_factory.mktemp("host") / "host"
+    command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
+    subprocess.run(command, check=True, timeout=600)
+    return program
 
 
 @pytest.fixture(scope="session")

@@ -7,18 +7,11 @@ import numpy as np
 import pytest
 
 from .conftest import EXACT_STEP, STEPS, WATCHED, alone, needs_linux64
+from .masters import in_ecospy, in_fmpy, in_libcosim
 
 
 def test_fmpy(fmu, expected):
-    found = fmpy.simulate_fmu(
-        str(fmu),
-        validate=True,
-        stop_time=STEPS * EXACT_STEP,
-        output_interval=EXACT_STEP,
-        output=WATCHED,
-    )
-    assert found["time"].tolist() == [k * EXACT_STEP for k in range(STEPS + 1)]
-    assert np.array_equal(np.transpose([found[name] for name in WATCHED]), expected)
+    assert np.array_equal(in_fmpy(fmu, WATCHED), expected)
 
 
 def test_fmpy_with_start_values_and_inputs(fmu, model):
@@ -45,20 +38,7 @@ def test_fmpy_with_start_values_and_inputs(fmu, model):
 
 @needs_linux64
 def test_ecospy(fmu, expected):
-    from run import load_ecos
-
-    ecospy = load_ecos()
-    with ecospy.EcosSimulationStructure() as structure:
-        structure.add_model("bearing", str(fmu))
-        with ecospy.EcosSimulation(structure=structure, step_size=EXACT_STEP) as run:
-            assert run.init()
-            rows = []
-            for k in range(STEPS + 1):
-                assert run.get_time() == k * EXACT_STEP
-                rows.append([run.get_real(f"bearing::{name}") for name in WATCHED])
-                run.step()
-            run.terminate()
-    assert np.array_equal(rows, expected)
+    assert np.array_equal(in_ecospy(fmu, WATCHED), expected)
 
 
 @needs_linux64
@@ -81,25 +61,7 @@ def test_one_instance_of_ecospy_after_the_other(fmu, expected):
 
 @needs_linux64
 def test_libcosimpy(fmu, expected):
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
-    from libcosimpy.CosimObserver import CosimObserver
-    from libcosimpy.CosimSlave import CosimLocalSlave
-
-    log_output_level(CosimLogLevel.ERROR)
-    run = CosimExecution.from_step_size(EXACT_STEP * 1e9)
-    slave = run.add_local_slave(CosimLocalSlave(str(fmu), "bearing"))
-    observer = CosimObserver.create_last_value()
-    run.add_observer(observer)
-    variables = run.slave_variables(slave)
-    names = {variable.name.decode(): variable.reference for variable in variables}
-    assert set(WATCHED) <= names.keys()
-    references = [names[name] for name in WATCHED]
-    rows = []
-    for _ in range(STEPS):
-        assert run.step()
-        rows.append(observer.last_real_values(slave, references))
-    assert np.array_equal(rows, expected[1:])
+    assert np.array_equal(in_libcosim(fmu, WATCHED), expected[1:])
 
 
 @pytest.fixture(scope="module")

@@ -10,41 +10,18 @@ import fmpy
 import numpy as np
 import pytest
 
-from tests.native.toy import HOST
-
+from . import masters
 from .conftest import CSV_ERROR, EXACT_STEP, STEPS, WATCHED, alone, csv_config, needs_linux64, read_csv
-
-
-@pytest.fixture(scope="session")
-def host(compiler, headers, tmp_path_factory):
-    """The host program; it links nothing but the C library."""
-    program = tmp_path_factory.mktemp("host") / "host"
-    command = [compiler, "-std=c99", f"-I{headers}", *HOST, "-o", str(program), "-ldl", "-lpthread", "-lm"]
-    subprocess.run(command, check=True, timeout=600)
-    return program
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="watches the loader of glibc")
 def test_c_host(host, unpacked, clean_environment, expected):
-    description = fmpy.read_model_description(str(unpacked))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    library = next(unpacked.glob("binaries/*linux*/*.so"))
-    get = "get:" + ",".join(str(references[name]) for name in WATCHED)
-    commands = ["start:0", get, *[f"step:{EXACT_STEP!r}", get] * STEPS, "terminate"]
-    ran = subprocess.run(
-        [str(host), str(library), description.guid, (unpacked / "resources").as_uri(), *commands],
-        env=clean_environment | {"LD_DEBUG": "files"},
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
-    assert ran.returncode == 0, ran.stdout + ran.stderr[-2000:]
-    rows = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
+    rows, loaded = masters.in_c(host, unpacked, WATCHED, clean_environment | {"LD_DEBUG": "files"})
     assert np.array_equal(rows, expected)
-    loaded = set(re.findall(r"calling init: (.+)$", ran.stderr, flags=re.MULTILINE))
-    assert str(library) in loaded
+    (library,) = map(str, unpacked.glob("binaries/*linux*/*.so"))
+    assert library in loaded
     # With it only what every C program has: no Python, no NumPy, no compiler's run-time library.
-    others = {name.rpartition("/")[2].partition(".")[0].partition("-")[0] for name in loaded - {str(library)}}
+    others = {name.rpartition("/")[2].partition(".")[0].partition("-")[0] for name in loaded - {library}}
     assert others <= {"libc", "libm", "libdl", "libpthread", "ld"}
 
 
@@ -120,15 +97,7 @@ def test_c_host_that_sets_zeros_while_it_loads(in_c):
 
 @needs_linux64
 def test_ecos_simulate(ecos, native, expected, tmp_path):
-    ran = ecos(
-        "simulate", "--path", native, "--stepSize", EXACT_STEP, "--stopTime", STEPS * EXACT_STEP, cwd=tmp_path
-    )
-    assert ran.returncode == 0, ran.stdout + ran.stderr
-    assert "[error]" not in ran.stdout + ran.stderr
-    found = read_csv(tmp_path / f"{native.stem}.csv")
-    assert found["time"] == pytest.approx(np.arange(STEPS + 1) * EXACT_STEP, abs=CSV_ERROR)
-    for name, values in zip(WATCHED, expected.T, strict=True):
-        assert found[name] == pytest.approx(values, abs=CSV_ERROR), name
+    assert masters.in_ecos(ecos, native, WATCHED, tmp_path) == pytest.approx(expected, abs=CSV_ERROR)
 
 
 @pytest.fixture

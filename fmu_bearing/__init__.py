@@ -1,4 +1,4 @@
-"""Angular contact ball bearings of steel and ceramics, with their sound, as FMI 2.0 co-simulation FMUs.
+"""Ball bearings of steel and ceramics, with their sound, as FMI 2.0 co-simulation FMUs.
 
 Data flow in one direction::
 

@@ -76,7 +76,7 @@ def _one_line() -> Iterator[None]:
 
 app = typer.Typer(
     cls=Commands,
-    help="Angular contact ball bearings and their sound: scenes, runs, FMUs, studies, reports.",
+    help="Ball bearings and their sound: scenes, runs, FMUs, studies, reports.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     epilog="Exit codes: 0 done; 1 a check found something; 2 refused; 3 ended early and 130 interrupted, "

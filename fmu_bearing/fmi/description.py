@@ -21,7 +21,7 @@ from fmu_bearing.interface import Variable
 from fmu_bearing.interface.inputs import led_inputs
 from fmu_bearing.interface.parameters import RADIATORS
 from fmu_bearing.scene.designation import ascii_word
-from fmu_bearing.scene.words import designation_words
+from fmu_bearing.scene.words import designation_words, type_words
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -208,16 +208,12 @@ def _root(model: "Model", flavour: str, guid: str) -> Element:
 
 def _about(scene: "Scene") -> str:
     designation, assembly = designation_words(scene), scene.assembly
-    if not assembly.joined:
-        return (
-            f"Angular contact ball bearing {designation} on its mounting: "
-            "vibration, friction torque, heat and sound"
-        )
-    count = len(assembly.members)
-    bearings = (
-        f"{count} angular contact ball bearing{'s' * (count > 1)} {designation}, {assembly.arrangement}"
-    )
+    kind = type_words(scene)
     more = "friction torque, heat and sound" if scene.sound is not None else "friction torque and heat"
+    if not assembly.joined:
+        return f"{kind.capitalize()} {designation} on its mounting: vibration, {more}"
+    count = len(assembly.members)
+    bearings = f"{count} {kind}{'s' * (count > 1)} {designation}, {assembly.arrangement}"
     if scene.on_other_shaft:
         return f"{bearings}, for a shaft of another model: vibration, {more}"
     return f"Shaft on {bearings}: vibration, {more}"

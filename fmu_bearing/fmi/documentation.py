@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from fmu_bearing.fmi.description import FLAVOURS, interface_guid, items
 from fmu_bearing.fmi.units import UNITS
 from fmu_bearing.interface import Variable
-from fmu_bearing.scene.words import designation_words
+from fmu_bearing.scene.words import designation_words, type_words
 
 if TYPE_CHECKING:
     from fmu_bearing.prepare.model import Model
@@ -22,8 +22,7 @@ __all__ = ["pages", "templates"]
 _BEARING = """\
 The bearing sits between a shaft, which the importer turns, and a pedestal. Its inputs are speed, preload,
 radial load, pedestal stiffness and temperatures. It computes the motion of its {balls} balls, rings and
-cage, the friction torque on the shaft, the heat it gives off, and the sound pressure at the microphones
-around it."""
+cage, the friction torque on the shaft, {sound}and the heat it gives off."""
 _OF_BEARING = """\
 X is the bearing axis, Y horizontal, Z vertical up; gravity acts along -Z. Positive speed is right-handed
 about +X; the preload pushes the inner ring towards +X."""
@@ -109,10 +108,12 @@ def _fields(model: "Model", flavour: str) -> dict[str, str]:
 def _subject(scene: "Scene") -> dict[str, str]:
     """Return what is modelled: heading, a paragraph about it, and its axes."""
     designation, balls = escape(designation_words(scene)), str(scene.bearing.ball_count)
+    sound = "" if scene.sound is None else "the sound at the microphones "
     assembly = scene.assembly
     if not assembly.joined:
-        about = _BEARING.format(balls=balls)
-        return {"heading": f"Angular contact ball bearing {designation}", "about": about, "axes": _OF_BEARING}
+        about = _BEARING.format(balls=balls, sound=sound)
+        heading = f"{type_words(scene).capitalize()} {designation}"
+        return {"heading": heading, "about": about, "axes": _OF_BEARING}
     count = len(assembly.members)
     places = ", ".join(f"{member.position_mm:g} mm ({member.carries})" for member in assembly.members)
     arrangement = escape(assembly.arrangement)
@@ -122,7 +123,7 @@ def _subject(scene: "Scene") -> dict[str, str]:
     if scene.on_other_shaft:
         heading = f"{count} x {designation} at a mechanical port"
         return {"heading": heading, "about": _AT_PORT.format(**words), "axes": _OF_SET}
-    about = _SET.format(**words, sound="" if scene.sound is None else "the sound at the microphones ")
+    about = _SET.format(**words, sound=sound)
     return {"heading": f"Shaft on {count} x {designation}", "about": about, "axes": _OF_SET}
 
 

@@ -56,6 +56,12 @@ def designation_words(scene: Scene) -> str:
     return " and ".join(dict.fromkeys(designations(scene)))
 
 
+def type_words(scene: Scene) -> str:
+    """Return the type of the bearings, as ``deep groove ball bearing``; of a set of both ``ball bearing``."""
+    kinds = {one.kind for one in scene.geometries}
+    return "ball bearing" if len(kinds) > 1 else f"{kinds.pop().replace('-', ' ')} ball bearing"
+
+
 def materials_words(scene: Scene) -> str:
     """Return kind and materials: ``hybrid: rings GCr15, balls Si3N4, cage bakelite``.
 

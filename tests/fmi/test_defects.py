@@ -9,6 +9,7 @@ from lxml import etree
 
 from fmu_bearing.compiled.errors import BuildError
 from fmu_bearing.fmi.description import FLAVOURS, description_xml
+from fmu_bearing.fmi.documentation import pages
 from fmu_bearing.fmi.package import build
 from fmu_bearing.instance import Instance
 from fmu_bearing.prepare.model import prepare
@@ -32,6 +33,16 @@ def model():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("fmu_bearing.prepare.defect_blocks.defect_table", table)
         yield prepare(deep_groove(300.0, 1797.0, 12.0, {"imperfections": NONE | {"defect": [SPALL]}}))
+
+
+def test_description_and_page_name_the_type_of_the_bearing(model):
+    """A 6205 without microphones is no angular contact bearing, and has no sound."""
+    root = etree.fromstring(description_xml(model, "native"))
+    words = "Deep groove ball bearing 6205 on its mounting: vibration, friction torque and heat"
+    assert root.get("description") == words
+    page = pages(model)["index.html"].decode("utf-8")
+    assert "<h1>Deep groove ball bearing 6205</h1>" in page and "angular contact" not in page
+    assert "no sound is computed" in page and "the sound at the microphones" not in page
 
 
 def scale_at(k):

@@ -100,7 +100,7 @@ def test_three_pages_lead_each_reader_to_a_decision():
     part = text(FIRST).split("## From question to decision")[1].split("\n## ")[0]
     places = dict(re.findall(r"^\[(\w+)\]: (\S+)", part, flags=re.MULTILINE))
     readers = [line for line in part.splitlines() if line.startswith("|")][2:]
-    assert len(readers) == 3
+    assert len(readers) == 4
     for line in readers:
         path = [direct or places[name] for direct, name in re.findall(r"\](?:\(([^)]+)\)|\[(\w+)\])", line)]
         assert len(path) == 3 == len({one.split("#")[0] for one in path}), line

@@ -17,7 +17,7 @@ from fmu_bearing.acoustics.analysis.directivity import (
     directivity,
     plane_points,
 )
-from fmu_bearing.acoustics.analysis.lines import kinematic_lines, strongest_lines
+from fmu_bearing.acoustics.analysis.lines import kinematic_lines, strongest_lines, told_apart
 from fmu_bearing.acoustics.analysis.order import on_angle, order_map, order_spectrum, waterfall
 from fmu_bearing.acoustics.analysis.power import (
     dipoles,
@@ -27,7 +27,11 @@ from fmu_bearing.acoustics.analysis.power import (
     power_level,
     sphere_points,
 )
-from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, level_spectrum
+from fmu_bearing.acoustics.analysis.spectrum import (
+    KinematicFrequencies,
+    kinematic_frequencies,
+    level_spectrum,
+)
 from fmu_bearing.acoustics.analysis.third_octave import (
     OCTAVE,
     band_filters,
@@ -136,6 +140,24 @@ def test_lines_of_two_tones():
     assert all(abs(line.off) < 1.0 for line in found)
     unexplained = strongest_lines(f, levels, 1, kinematic_lines(k, 500.0))[0]
     assert unexplained.name == "" and np.isnan(unexplained.off)
+
+
+def test_multiples_have_names_to_the_end_of_the_band_and_come_before_sums():
+    """A 7003C with ceramic balls at 15,000 r/min: 14 f_o is 0.2 Hz from 10 f_i + f_c, 15 f_o above 12 f_o."""
+    k = KinematicFrequencies(250.0, 104.5304, 703.8667, 1745.6352, 1254.3648)
+    known = kinematic_lines(k, 20_000.0)
+    tones = {13 * k.f_o: "13 f_o", 14 * k.f_o: "14 f_o", 15 * k.f_o: "15 f_o", 9 * k.f_i - k.f_r: "9 f_i - f_r",
+             22 * k.f_b - k.f_c: "22 f_b - f_c", 24 * k.f_b: "24 f_b", k.f_i - k.f_r: "f_i - f_r"}  # fmt: skip
+    t = time(1.0)
+    signal = sum(np.sin(2 * np.pi * f * t) for f in tones)
+    found = strongest_lines(*level_spectrum(signal, RATE, 5.0), len(tones), known, 3e-4)
+    assert {line.name for line in found} == set(tones.values())
+    (blamed,) = (line for line in found if line.name == "14 f_o")
+    assert blamed.words == "14 f_o, one of 2 that fit" and abs(blamed.off) < 0.1
+    # a slow shaft has a multiple of f_o every 7 Hz: those of high order would fit anything within 4 Hz
+    slow = KinematicFrequencies(2.0, 0.8, 4.7, 10.8, 7.2)
+    high = [line for line in kinematic_lines(slow, 20_000.0) if line.frequency > 250.0]
+    assert high and not told_apart(high, 3.75) and told_apart(high, 0.1)
 
 
 def run_up(seconds=2.0):

@@ -13,10 +13,17 @@ from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
 _LOBE = 5  # bins: a line under a flat-top window is that wide
 _ABOVE = 6.0  # dB over what surrounds it makes a peak a line
 _AROUND = 25  # bins to either side that surround a peak
+_PASSING = ("f_i", "f_o", "f_b")
+#: Side bands to either side of multiples of high order: the inner race's waves turn with the shaft, the balls'
+#: form with the cage.
+_HIGH: dict[str, dict[str, int]] = {"f_i": {"f_r": 2}, "f_b": {"f_c": 1}}
 _FEW = 3  # frequencies that a line may add up and be named without those that fit as well
 _WHIRL = 4  # multiples of a whirl's frequency: it varies, and with it many times as much
 _WIDE = 3  # bins to either side: the lobe of a flat-top window
 _NEAR = 0.75  # bins by which noise and neighbours move a line
+_LATER = 1000  # added to the rank of sums: multiples that are as near come first
+_ALONE = 20.0  # tolerances between multiples of high order: closer ones fit one line in ten by chance
+_MOST = 400  # multiples of the passing of balls
 
 
 @dataclass(frozen=True)
@@ -24,13 +31,15 @@ class KinematicLine:
     """A frequency (Hz) that a turning bearing produces.
 
     ``name`` reads like ``2 f_o + f_c``; ``rank`` grows with harmonics and sidebands: the simpler explains.
-    ``terms``: how many frequencies are added up, 3 for ``2 f_o + f_c``.
+    ``terms``: how many frequencies are added up, 3 for ``2 f_o + f_c``. ``apart``: Hz between this multiple of
+    high order and the next; infinite for all others.
     """
 
     frequency: float
     name: str
     rank: int
     terms: int = 1
+    apart: float = math.inf
 
 
 @dataclass(frozen=True)
@@ -77,9 +86,12 @@ def kinematic_lines(
     """Lines up to ``highest`` (Hz), in order of frequency.
 
     Harmonics of the shaft f_r, the cage f_c, the balls (f_b and, a defect touching both races, 2 f_b) and of
-    the passing of balls at the races f_i and f_o; with sidebands by what modulates them: the inner race's
-    harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by f_r, as waviness
-    and unbalance of the turning ring make, and two by f_c: more would explain anything.
+    the passing of balls at the races f_i and f_o. Those of f_i, f_o and f_b go on to ``highest``, as waves of
+    any order are on the surfaces. Up to the number ``harmonics`` they have sidebands by what modulates them:
+    the inner race's harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by
+    f_r, as waviness and unbalance of the turning ring make, and two by f_c: more would explain anything. Above
+    that number f_i has two by f_r, 2 f_b one by f_c, f_o none. Multiples of f_i, f_o and 2 f_b are simpler
+    than any sum, and so are up to three times f_r, f_c and f_b.
     ``whirl``: f_w (Hz), at which the cage goes round off its middle; NaN: it does not. ``defects``: which
     local defects make the lines at multiples of ``f_o``, ``f_i`` and ``2 f_b``, by these names, with what
     modulates each: f_r, of a ball f_c. Their lines are named after them, and count as simpler than others.
@@ -93,19 +105,29 @@ def kinematic_lines(
     def add(n: int, carrier: str, frequency: float, m: int = 0, modulator: str = "") -> None:
         name, beside = combination(n, carrier, m, modulator), abs(m)
         pair = carrier == "f_b"
+        # even orders of a ball act on both races; higher odd ones rank as sums do
+        simple = n <= _FEW or carrier in ("f_i", "f_o") or (pair and n % 2 == 0)
+        base = float(getattr(frequencies, carrier)) * (2.0 if pair else 1.0)
+        shares = 1 + 2 * _HIGH.get(carrier, {}).get(modulator, 0)  # lines for each multiple
+        apart = base / shares if n > harmonics and carrier in _PASSING else math.inf
         source = defects.get(f"2 {carrier}" if pair else carrier, "")
         if source and not (pair and n % 2) and modulator in ("", "f_c" if pair else "f_r"):
-            lines.append(KinematicLine(frequency, f"{name} ({source})", n - 1 + beside, n + beside))
+            lines.append(KinematicLine(frequency, f"{name} ({source})", n - 1 + beside, n + beside, apart))
         else:
             rank = n + 2 * beside + 1 if beside else n - 1
-            lines.append(KinematicLine(frequency, name, rank, n + beside))
+            rank += 0 if simple and not beside else _LATER
+            lines.append(KinematicLine(frequency, name, rank, n + beside, apart))
 
     for carrier, by in modulators.items():
         base = float(getattr(frequencies, carrier))
         # the shaft's own go on: f_i + f_o alone is as many times f_r as there are balls
-        for n in range(1, (2 * harmonics if carrier == "f_r" else harmonics) + 1):
+        last = 2 * harmonics if carrier == "f_r" else harmonics
+        if carrier in _PASSING and base > 0.0:
+            last = max(last, min(int(highest / base) + 1, _MOST))
+        for n in range(1, last + 1):
             add(n, carrier, n * base)
-            for modulator, sidebands in by.items():
+            high = _HIGH.get(carrier, {}) if carrier != "f_b" or n % 2 == 0 else {}
+            for modulator, sidebands in (by if n <= harmonics else high).items():
                 step = float(getattr(frequencies, modulator))
                 for m in range(1, sidebands + 1):
                     for sign in (1, -1):
@@ -137,6 +159,12 @@ def explain(
     near = [line for line in lines if abs(line.frequency - frequency) <= tolerance]
     best = min(near, key=lambda line: (line.rank, abs(line.frequency - frequency)), default=None)
     return best, len(near)
+
+
+def told_apart(lines: Sequence[KinematicLine], tolerance: float) -> list[KinematicLine]:
+    """Return the lines but multiples of high order that are too close for a tolerance (Hz) to mean anything.
+    """
+    return [line for line in lines if line.apart >= _ALONE * tolerance]
 
 
 def nearest_line(frequency: float, lines: Sequence[KinematicLine]) -> KinematicLine | None:
@@ -189,6 +217,7 @@ def strongest_lines(
 
 def _explained(line: Line, kinematic: Sequence[KinematicLine], tolerance: float) -> Line:
     """Return a line with what explains it within ``tolerance`` (Hz), else with what is nearest."""
+    kinematic = told_apart(kinematic, tolerance)
     best, fits = explain(line.frequency, kinematic, tolerance)
     if best is not None:
         off = line.frequency - best.frequency

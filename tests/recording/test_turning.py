@@ -139,8 +139,8 @@ def test_the_simplest_of_those_that_fit_is_named_with_their_number():
     levels = {"total": np.array([50.0])}
     at = NoiseAt(9898.0, 10_000.0, ("P1",), levels, line, near[1], None)
     assert at.sentences()[-1] == (
-        "the simplest of 3 sums of kinematic frequencies that fit is 5 f_o: waves of the outer race, and the "
-        "balls passing"
+        "the simplest of 3 multiples and sums of kinematic frequencies that fit is 5 f_o: waves of the outer "
+        "race, and the balls passing"
     )
     assert at.summary()["line"]["fits"] == 3
 

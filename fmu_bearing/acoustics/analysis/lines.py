@@ -167,6 +167,11 @@ def told_apart(lines: Sequence[KinematicLine], tolerance: float) -> list[Kinemat
     return [line for line in lines if line.apart >= _ALONE * tolerance]
 
 
+def tolerance(frequency: float, bin_width: float, slip: float = 0.0) -> float:
+    """Return how far (Hz) a line may be from the one that explains it, in a spectrum with these bins (Hz)."""
+    return max(_NEAR * bin_width, slip * frequency)
+
+
 def nearest_line(frequency: float, lines: Sequence[KinematicLine]) -> KinematicLine | None:
     """Return the line nearest to a frequency (Hz), the simplest of equally near ones; None without lines."""
     return min(lines, key=lambda one: (abs(one.frequency - frequency), one.rank), default=None)
@@ -212,13 +217,13 @@ def strongest_lines(
         energy = 10.0 ** (0.1 * (value[about] - value[i]))
         peaks.append(Line(float(f[about] @ energy / energy.sum()), float(value[i])))
     peaks = sorted(peaks, key=lambda line: -line.level)[:count]
-    return [_explained(line, kinematic, max(_NEAR * bin_width, slip * line.frequency)) for line in peaks]
+    return [_explained(line, kinematic, tolerance(line.frequency, bin_width, slip)) for line in peaks]
 
 
-def _explained(line: Line, kinematic: Sequence[KinematicLine], tolerance: float) -> Line:
-    """Return a line with what explains it within ``tolerance`` (Hz), else with what is nearest."""
-    kinematic = told_apart(kinematic, tolerance)
-    best, fits = explain(line.frequency, kinematic, tolerance)
+def _explained(line: Line, kinematic: Sequence[KinematicLine], within: float) -> Line:
+    """Return a line with what explains it ``within`` some Hz, else with what is nearest."""
+    kinematic = told_apart(kinematic, within)
+    best, fits = explain(line.frequency, kinematic, within)
     if best is not None:
         off = line.frequency - best.frequency
         return replace(line, name=best.name, off=off, fits=fits, terms=best.terms)

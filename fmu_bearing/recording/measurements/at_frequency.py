@@ -1,11 +1,11 @@
-"""Which source makes the noise at a frequency: by component, and by the line that is strongest round it."""
+"""Which source makes the noise at a frequency: by component, and by the line that is nearest to it."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line, tolerance, told_apart
 from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.measurements.measure import known_lines, strongest
@@ -32,10 +32,8 @@ class NoiseAt(Result):
         "frequency_Hz", "third_octave_Hz = band", Quantity("levels_dB", of=lambda one: {
             name: {source: row[k] for source, row in one.levels.items()} for k, name in enumerate(one.names)
         }),
-        Quantity("line [Hz, dB]", of=lambda one: None if one.line is None else {
-            "frequency_Hz": one.line.frequency, "level_dB": one.line.level,
-            "explained_by": one.line.name, "fits": one.line.fits,
-        }),
+        Quantity("line [Hz, dB]", of=lambda one: _values(one.line)),
+        Quantity("strongest [Hz, dB]", of=lambda one: _values(one.strongest)),
         Quantity("nearest [Hz]", of=lambda one: None if one.nearest is None else {
             "frequency_Hz": one.nearest.frequency, "name": one.nearest.name,
         }),
@@ -50,12 +48,15 @@ class NoiseAt(Result):
     levels: dict[str, NDArray[np.float64]]
     """Level (dB) in the third octave, in total and of each component alone. Shape (mics,)."""
     line: Line | None
-    """The strongest line in the band at the microphone that is loudest there; None where none stands out."""
+    """The line in the band that is nearest to the frequency, at the microphone that is loudest in the band;
+    None where none stands out."""
     nearest: KinematicLine | None
     """The kinematic frequency nearest to that line, or to the frequency; None where the bearing is unknown.
     """
     excitation_end: float | None
     """Hz: above it no surface of the scene excites the bearing."""
+    strongest: Line | None = None
+    """The strongest line in the band at that microphone."""
 
     @property
     def loudest(self) -> int:
@@ -85,27 +86,35 @@ class NoiseAt(Result):
         if self.line is None and self.nearest is None:
             return said  # neither bearing nor speed is known, or the speed changes
         if self.line is None:
-            said.append("no line stands out in the band")
-            place = self.frequency
+            return [*said, "no line stands out in the band", self._unexplained(self.frequency)]
+        said.append(f"the nearest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
+        if not self.line.name:
+            said.append(self._unexplained(self.line.frequency))
+        elif self.line.words == self.line.name:
+            said.append(f"it is {self.line.name}: {_source(self.line.name)}")
         else:
-            said.append(f"the strongest line is at {self.line.frequency:.1f} Hz, {self.line.level:.1f} dB")
-            place = self.line.frequency
-        if self.line is not None and self.line.name:
-            source = _source(self.line.name)
-            if self.line.words == self.line.name:
-                said.append(f"it is {self.line.name}: {source}")
-            else:
-                said.append(
-                    f"the simplest of {self.line.fits} sums of kinematic frequencies that fit is "
-                    f"{self.line.name}: {source}"
-                )
-        elif self.nearest is not None:
-            away = place - self.nearest.frequency
             said.append(
-                f"no kinematic frequency fits; the nearest is {self.nearest.name}, {abs(away):.1f} Hz "
-                f"{'below' if away > 0.0 else 'above'}: {_source(self.nearest.name)}"
+                f"the simplest of {self.line.fits} multiples and sums of kinematic frequencies that fit is "
+                f"{self.line.name}: {_source(self.line.name)}"
+            )
+        most = self.strongest
+        if most is not None and most.frequency != self.line.frequency:
+            words = f": {most.words}" if most.name else ""
+            said.append(
+                f"the strongest line of the third octave is at {most.frequency:.1f} Hz, {most.level:.1f} dB"
+                + words
             )
         return said
+
+    def _unexplained(self, place: float) -> str:
+        """Return what is nearest to a place (Hz) that no kinematic frequency explains."""
+        if self.nearest is None:
+            return "no kinematic frequency fits"
+        away = place - self.nearest.frequency
+        return (
+            f"no kinematic frequency fits; the nearest is {self.nearest.name}, {abs(away):.1f} Hz "
+            f"{'below' if away > 0.0 else 'above'}: {_source(self.nearest.name)}"
+        )
 
 
 def noise_at(recording: ChannelHistory, analysis: SoundAnalysis, frequency: float) -> NoiseAt:
@@ -130,16 +139,30 @@ def noise_at(recording: ChannelHistory, analysis: SoundAnalysis, frequency: floa
     centre = float(analysis.bands[place])
     levels = {"total": analysis.third_octaves[:, place]}
     levels |= {name: values[:, place] for name, values in analysis.third_octave_parts.items()}
-    line, nearest = None, None
+    line, most, nearest = None, None, None
     if recording.scene is not None and not recording.changes_speed:
         spectrum = analysis.spectra["total"][int(np.argmax(levels["total"]))]
         lines = strongest(recording, analysis.frequency, spectrum, len(analysis.frequency))
-        line = next((one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE), None)
+        inside = [one for one in lines if centre / EDGE <= one.frequency <= centre * EDGE]
+        most = inside[0] if inside else None
+        line = min(inside, key=lambda one: abs(one.frequency - frequency), default=None)
         about = frequency if line is None else line.frequency
-        nearest = nearest_line(about, known_lines(recording, float(analysis.frequency[-1])))
+        known = known_lines(recording, float(analysis.frequency[-1]))
+        within = tolerance(about, float(analysis.frequency[1]))
+        nearest = nearest_line(about, told_apart(known, within))
     return NoiseAt(
-        frequency, nominal_frequency(centre), analysis.names, levels, line, nearest, recording.excitation_end
-    )
+        frequency, nominal_frequency(centre), analysis.names, levels, line, nearest,
+        recording.excitation_end, most,
+    )  # fmt: skip
+
+
+def _values(line: Line | None) -> dict[str, float | int | str] | None:
+    """Return a line's values for JSON; None where there is none."""
+    if line is None:
+        return None
+    return {
+        "frequency_Hz": line.frequency, "level_dB": line.level, "explained_by": line.name, "fits": line.fits,
+    }  # fmt: skip
 
 
 def _source(name: str) -> str:

@@ -135,8 +135,8 @@ def _ends(band: str | None) -> tuple[float, float] | None:
 
 def _show(found: "Envelope") -> None:
     """Print the lines of one signal that are far over the median."""
-    from fmu_bearing.recording.measurements.envelope import FAR
     from fmu_bearing.recording.measurements.envelope_files import lines_table
+    from fmu_bearing.recording.measurements.envelope_lines import FAR
 
     kurtogram = found.kurtogram
     how = "" if kurtogram is None else f" by the kurtogram ({kurtogram.best.kurtosis:.2g})"

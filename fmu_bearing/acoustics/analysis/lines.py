@@ -14,8 +14,8 @@ _LOBE = 5  # bins: a line under a flat-top window is that wide
 _ABOVE = 6.0  # dB over what surrounds it makes a peak a line
 _AROUND = 25  # bins to either side that surround a peak
 _PASSING = ("f_i", "f_o", "f_b")
-#: Side bands to either side of multiples of high order: the inner race's waves turn with the shaft, the balls'
-#: form with the cage.
+#: Side bands to either side of multiples of high order: the inner race's waves turn with the shaft, the form
+#: of the balls with the cage.
 _HIGH: dict[str, dict[str, int]] = {"f_i": {"f_r": 2}, "f_b": {"f_c": 1}}
 _FEW = 3  # frequencies that a line may add up and be named without those that fit as well
 _WHIRL = 4  # multiples of a whirl's frequency: it varies, and with it many times as much
@@ -31,8 +31,8 @@ class KinematicLine:
     """A frequency (Hz) that a turning bearing produces.
 
     ``name`` reads like ``2 f_o + f_c``; ``rank`` grows with harmonics and sidebands: the simpler explains.
-    ``terms``: how many frequencies are added up, 3 for ``2 f_o + f_c``. ``apart``: Hz between this multiple of
-    high order and the next; infinite for all others.
+    ``terms``: how many frequencies are added up, 3 for ``2 f_o + f_c``. ``apart``: Hz between this line of a
+    high order and its neighbour of the same kind; infinite for all others.
     """
 
     frequency: float
@@ -89,9 +89,9 @@ def kinematic_lines(
     the passing of balls at the races f_i and f_o. Those of f_i, f_o and f_b go on to ``highest``, as waves of
     any order are on the surfaces. Up to the number ``harmonics`` they have sidebands by what modulates them:
     the inner race's harmonics and f_r, the balls' and f_c, the outer race's and both. Up to four sidebands by
-    f_r, as waviness and unbalance of the turning ring make, and two by f_c: more would explain anything. Above
-    that number f_i has two by f_r, 2 f_b one by f_c, f_o none. Multiples of f_i, f_o and 2 f_b are simpler
-    than any sum, and so are up to three times f_r, f_c and f_b.
+    f_r, as waviness and unbalance of the turning ring make, and two by f_c: more would explain anything.
+    Above that number f_i has two by f_r, 2 f_b one by f_c, f_o none. Multiples of f_i, f_o and 2 f_b are
+    simpler than any sum, and so are up to three times f_r, f_c and f_b.
     ``whirl``: f_w (Hz), at which the cage goes round off its middle; NaN: it does not. ``defects``: which
     local defects make the lines at multiples of ``f_o``, ``f_i`` and ``2 f_b``, by these names, with what
     modulates each: f_r, of a ball f_c. Their lines are named after them, and count as simpler than others.
@@ -161,10 +161,9 @@ def explain(
     return best, len(near)
 
 
-def told_apart(lines: Sequence[KinematicLine], tolerance: float) -> list[KinematicLine]:
-    """Return the lines but multiples of high order that are too close for a tolerance (Hz) to mean anything.
-    """
-    return [line for line in lines if line.apart >= _ALONE * tolerance]
+def told_apart(lines: Sequence[KinematicLine], within: float) -> list[KinematicLine]:
+    """Return the lines but those of high orders that are too close to mean anything ``within`` some Hz."""
+    return [line for line in lines if line.apart >= _ALONE * within]
 
 
 def tolerance(frequency: float, bin_width: float, slip: float = 0.0) -> float:

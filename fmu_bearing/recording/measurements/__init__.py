@@ -4,6 +4,7 @@
 ``signals``            pressures in all and by component, their levels, spectra, third octaves
 ``kurtogram``          kurtosis of envelopes in bands: where strokes show best
 ``envelope``           envelope spectra of any signal, with the lines of the bearing
+``envelope_lines``     where such a spectrum has the lines of a bearing
 ``measure``            spectra by component, circles, planes, power, run-ups
 ``tables``             such measurements as tables
 ``pictures``           such measurements as pictures

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line, tolerance, told_apart
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line, told_apart, tolerance
 from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.measurements.measure import known_lines, strongest

@@ -6,7 +6,7 @@ bearing and what modulates them are lines.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -14,20 +14,18 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from fmu_bearing.acoustics.analysis.lines import Line, combination
-from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
+from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import RecordedSignal, recorded_signal
+from fmu_bearing.recording.channels.recorded_signals import recorded_signal
+from fmu_bearing.recording.measurements.envelope_lines import FAR, EnvelopeLine, lines_of, turning_of
 from fmu_bearing.recording.measurements.kurtogram import Kurtogram, checked, kurtogram
 from fmu_bearing.results.base import Quantity, Result
-from fmu_bearing.results.levels import decibels
 from fmu_bearing.results.picture_parts import BEHIND, OTHERS, label, name_lines, single
 from fmu_bearing.results.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FAR = 10.0  # dB over the median, from which a line is named
 SIMPLE = ("f_r", "f_c", "f_o", "f_i", "2 f_b")
 _ROOM = 1.4  # of the highest point of a picture: above it are names
 _ORDER = 4  # of the band-pass, which is run forwards and backwards
@@ -36,38 +34,10 @@ _FINER = 4  # bins in place of one: a line between two of them then reads low by
 _AROUND = 25.0  # resolutions to either side, whose median is what a line is held against
 _LOBE, _SKIRT = 2.0, 4.0  # resolutions: of a line under Hann's window, and of one whose frequency trembles
 _BESIDE = 0.1  # of a line, which its skirt may have
-_HARMONICS, _SIDES = 3, 2  # of each line, and side bands to either side
 _SLIDING = 0.015  # of a frequency that is not known from the run: rolling at one contact angle
 _SLIP = 3e-4  # of one that is: balls of a bearing spin as fast within that
 _LOWEST = 200.0  # Hz: below it is the shaft's own motion
 _BANDS = 3.0  # times the fastest passing of balls: the width of a band that shows it three times
-#: What modulates the strokes: with the shaft a defect passes the load, on a ball with the cage.
-_FAMILIES = (("outer race", 1, "f_o", "f_r"), ("inner race", 1, "f_i", "f_r"), ("ball", 2, "f_b", "f_c"))
-
-
-@dataclass(frozen=True)
-class EnvelopeLine(Result):
-    """A line that the bearing's frequencies lead to expect."""
-
-    quantities = (
-        Quantity("name", "line"), Quantity("of", "of"), Quantity("frequency_Hz", "Hz", ".1f"),
-        Quantity("found_Hz", "found at, Hz", ".1f"), Quantity("depth [1]", "of the mean, %", ".3g", 100.0),
-        Quantity("over_median_dB", "over the median, dB", decibels),
-    )  # fmt: skip
-
-    name: str
-    """As ``2 f_o + f_r``."""
-    of: str
-    """What strikes: ``outer race``, ``inner race``, ``ball``, ``shaft``, ``cage``; of a set whose, and the
-    local defects there: ``outer race (defect 1)``."""
-    frequency: float
-    """Hz, as cage and balls turned."""
-    found: float
-    """Hz: the highest point within a resolution, or within how far the frequency is known."""
-    depth: float
-    """Amplitude of the line over the mean of the squared envelope."""
-    over_median: float
-    """dB: twenty times the logarithm of the amplitude over the median about it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,22 +127,35 @@ class Envelope(Result):
         """Return the lines 10 dB over the median, farthest first: of those at one peak the nearest.
 
         Within two resolutions of a higher one, and within four of one ten times as high, a line may be the
-        skirt of that one: it is left out.
+        skirt of that one: it is left out. A side band needs its carrier, a multiple of f_r or f_c above the
+        second its first line.
         """
         taken: dict[int, EnvelopeLine] = {}
-        for line in sorted(self.lines, key=self._fit):
-            if line.over_median >= FAR and not self._on_a_skirt(line):
+        over = {(line.name, line.of): line.over_median for line in self.lines}
+        first: dict[str, float] = {}
+        for line in self.lines:
+            first.setdefault(line.of, line.over_median)
+        for line in sorted(self.lines, key=lambda line: self._fit(line, first[line.of])):
+            needed = over.get((line.needs, line.of), math.inf)
+            if min(line.over_median, needed) >= FAR and not self._on_a_skirt(line):
                 taken.setdefault(round(line.found / self.resolution), line)
         return sorted(taken.values(), key=lambda line: -line.over_median)
 
-    def _fit(self, line: EnvelopeLine) -> tuple[float, bool, int, str]:
-        """How far a line is from its peak, in quarters of a resolution, and which of two names is likelier.
+    def _fit(self, line: EnvelopeLine, first: float) -> tuple[float, bool, float, bool, float, int, str]:
+        """Rank a name for a peak: near ones first, of those multiples, then the nearest.
 
-        Where the cage turns at 0.4 of the shaft, 3 f_o is 2 f_i: a defect that is there has its own first.
+        Where the cage turns at 0.4 of the shaft, 3 f_o is 2 f_i: a defect that is there has its own before
+        others, then the one whose first line, ``first`` dB, is farther over the median.
         """
-        off = abs(line.found - line.frequency) / self.resolution
-        known = line.of.endswith(")") and not {"+", "-"} & set(line.name.split())
-        return (math.inf if math.isnan(off) else round(4.0 * off)), not known, len(line.name), line.name
+        miss = line.miss
+        if math.isnan(miss):
+            miss = abs(line.found - line.frequency) / self.resolution
+        if math.isnan(miss):
+            miss = math.inf
+        known = line.of.endswith(")") and not line.is_sum
+        # peaks lie within half of a resolution; a quarter is what noise moves them by
+        near, quarters = (miss, miss) if math.isinf(miss) else (round(miss), round(4.0 * miss))
+        return near, line.is_sum, quarters, not known, -first, len(line.name), line.name
 
     def _on_a_skirt(self, line: EnvelopeLine) -> bool:
         """Whether a line is lower than what is within a lobe of the window, or far lower a little farther."""
@@ -337,7 +320,7 @@ def envelope_of(
             f"the speed changes between {signal.start:g} and {signal.time[-1]:g} s, and the lines of an "
             "envelope spread with it: record at one speed"
         )
-    turning = [] if recording.scene is None else _turning(recording, signal)
+    turning = [] if recording.scene is None else turning_of(recording, signal)
     fastest = max((max(one.f_i, one.f_o, 2.0 * one.f_b) for one, _, _ in turning), default=0.0)
     reach = 0.5 * (signal.highest - _LOWEST)
     try:
@@ -348,57 +331,9 @@ def envelope_of(
     except ValueError as problem:
         raise ValueError(f"{name}: {problem}") from None
     slip = _SLIP if recording.turning_known else _SLIDING
-    read = [_read(found, *line, slip) for place in turning for line in _expected(*place)]
+    read = [line for place in turning for line in lines_of(found, *place, slip)]
     once = {(line.name, line.of): line for line in read}  # the shaft's own are those of every bearing
     return replace(found, lines=tuple(once.values()))
-
-
-def _turning(
-    recording: ChannelHistory, signal: RecordedSignal
-) -> list[tuple[KinematicFrequencies, str, dict[str, str]]]:
-    """Return frequencies that may show in a signal, whose they are, and the defects at each carrier.
-
-    Those of its bearing, of a signal of no single one those of all.
-    """
-    every = recording.bearing_kinematics()
-    lines = recording.defect_lines()
-    found = []
-    for number, one in enumerate(every, start=1):
-        if signal.bearing in (None, number):
-            struck: dict[str, str] = {}
-            for line in lines:
-                if line.bearing == number - 1:
-                    more = f"{struck[line.carrier]}, " if line.carrier in struck else ""
-                    struck[line.carrier] = more + line.defect
-            found.append((one, f"bearing {number}" if len(every) > 1 else "", struck))
-    return found
-
-
-def _expected(
-    one: KinematicFrequencies, whose: str, struck: Mapping[str, str]
-) -> Iterator[tuple[str, str, float]]:
-    """Yield names, of what, and frequencies (Hz) of the lines of a bearing."""
-    for kind, name in (("shaft", "f_r"), ("cage", "f_c")):
-        of = f"{kind} of {whose}" if whose and kind != "shaft" else kind
-        for n in range(1, _HARMONICS + 1):
-            yield combination(n, name), of, n * getattr(one, name)
-    for kind, per, name, side in _FAMILIES:
-        of = f"{kind} of {whose}" if whose else kind
-        of += f" ({struck[name]})" if name in struck else ""
-        for n in range(1, _HARMONICS + 1):
-            carrier, step = n * per * getattr(one, name), getattr(one, side)
-            yield combination(n * per, name), of, carrier
-            for m in range(1, _SIDES + 1):
-                for sign in (-1, 1):
-                    if carrier + sign * m * step > 0.0:
-                        yield combination(n * per, name, sign * m, side), of, carrier + sign * m * step
-
-
-def _read(found: Envelope, name: str, of: str, frequency: float, slip: float) -> EnvelopeLine:
-    """Return a line as the spectrum has it; NaN where the spectrum does not reach so far."""
-    at, amplitude, ratio = found.at(frequency, slip * frequency)
-    over = 20.0 * math.log10(ratio) if ratio > 0.0 else math.nan
-    return EnvelopeLine(name, of, frequency, at, amplitude / found.mean, over)
 
 
 def _summit(values: NDArray[np.float64], k: int) -> tuple[float, float]:

@@ -10,7 +10,8 @@ from fmu_bearing.extras import available
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.recorded_signals import recorded_signal, signal_names
-from fmu_bearing.recording.measurements.envelope import Envelope, EnvelopeLine
+from fmu_bearing.recording.measurements.envelope import Envelope
+from fmu_bearing.recording.measurements.envelope_lines import EnvelopeLine
 from fmu_bearing.recording.measurements.kurtogram import Band
 from fmu_bearing.recording.measurements.sound_analysis import stems
 from fmu_bearing.recording.measurements.uff_files import write_signals

@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
-from fmu_bearing.recording.measurements.envelope import FAR, Envelope, envelope_of
+from fmu_bearing.recording.measurements.envelope import Envelope, envelope_of
 from fmu_bearing.recording.measurements.envelope_files import lines_table, usual_signals
+from fmu_bearing.recording.measurements.envelope_lines import FAR
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small

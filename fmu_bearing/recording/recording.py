@@ -25,11 +25,13 @@ from fmu_bearing.recording.channels.recorded_signals import (
     even_step,
     recorded_signal,
     signal_names,
+    why_uneven,
 )
 from fmu_bearing.recording.measurements import measure
 from fmu_bearing.recording.measurements.signals import Signals
 from fmu_bearing.recording.measurements.uff_files import write_signals
 from fmu_bearing.results.defect_lines import defect_labels
+from fmu_bearing.results.even_steps import spacing
 from fmu_bearing.results.result import Run, read_table
 from fmu_bearing.results.spectra import MICROPHONE, Spectrum
 from fmu_bearing.results.table import html_table, number
@@ -100,12 +102,10 @@ class Recording(ChannelHistory):
                 f"{where}the result must hold time and mic[1].pressure; ask for them as outputs of the run"
             )
         time = np.asarray(table["time"], dtype=float)
-        gaps = np.diff(time)
-        rate = 1.0 / float(np.mean(gaps))
-        if np.max(np.abs(gaps * rate - 1.0)) > 1e-3:
-            raise ValueError(
-                f"times are {gaps.min():.3g} to {gaps.max():.3g} s apart: pressures must be evenly spaced"
-            )
+        found = spacing(time)
+        if not found.even:
+            raise ValueError(f"times are {found.words('s')}: pressures must be evenly spaced")
+        rate = 1.0 / found.step
         if abs(rate / SD.RATE - 1.0) < 1e-6:
             rate = SD.RATE
         if rate < _ENOUGH:
@@ -153,7 +153,8 @@ class Recording(ChannelHistory):
         ResultError
             For a file that is no result.
         ValueError
-            For uneven times, and where nothing is left after ``settle``.
+            For times that rounding does not explain (3 % of a step), and where too little is left after
+            ``settle``.
         """
         run = result if isinstance(result, Run) else Run.load(result)
         known = run.scene if scene is None else scene_of(scene)
@@ -161,10 +162,7 @@ class Recording(ChannelHistory):
         after = time[time >= start - 1e-9]
         step = even_step(after)
         if not step:
-            raise ValueError(
-                f"{run.name}: the {len(after)} points after settle = {settle:g} s are uneven or too few: run "
-                "with a step that divides the time, and longer"
-            )
+            raise ValueError(f"{run.name}: the times after settle = {settle:g} s are {why_uneven(after)}")
         speed = run["shaft_speed"] if "shaft_speed" in run.names else _speed_of(known, len(time))
         columns = {name: run[name] for name in run.names}
         return cls(known, "recorded", 1.0 / step, float(after[0]), len(after), time, speed, columns)

@@ -6,6 +6,7 @@
 ``table``           tables to terminal, Markdown, CSV; the machine they were made on
 ``column_units``    units of columns as people write them
 ``rows``            rows and columns of CSV files: separators, decimal commas, titles with units
+``even_steps``      whether times and frequencies are evenly spaced
 ``levels``          sound levels as they are drawn: absent before metering begins
 ``picture_parts``   colours, labels and files of all pictures
 ``spectra``         spectra of variables and of microphones, with names and units

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum
 from fmu_bearing.extras import need
+from fmu_bearing.results.even_steps import spacing
 from fmu_bearing.results.picture_parts import coincident, empty, label, legend_beside, mark_excitation, series
 from fmu_bearing.results.table import html_table, number
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 #: What the rows of a spectrum are.
 VARIABLE, MICROPHONE = "variable", "microphone"
 LEVEL = {"units": "dB", "long_name": "level re 20 uPa"}
-_EVEN = 1e-3  # of a step: times of an FMU run are rounded
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -131,13 +131,13 @@ def of_variables(
     """
     if len(time) < 8:
         raise ValueError(f"{len(time)} points are too few for a spectrum: take a step that gives 8 or more")
-    gaps = np.diff(time)
-    if gaps.min() <= 0.0 or np.ptp(gaps) > _EVEN * gaps.mean():
+    found = spacing(time)
+    if not found.even:
         raise ValueError(
-            f"times are {gaps.min():.3g} to {gaps.max():.3g} s apart, and a spectrum needs even steps: take "
-            "a step that divides the time, and inputs without jumps between"
+            f"times are {found.words('s')}, and a spectrum needs even steps: take a step that divides the time, "
+            "and inputs without jumps between"
         )
-    rate = float(1.0 / gaps.mean())
+    rate = 1.0 / found.step
     spectra = [amplitude_spectrum(values, rate, resolution) for values in columns.values()]
     rows = np.array([rms for _, rms in spectra])
     return Spectrum(tuple(columns), spectra[0][0], rows, tuple(units[name] for name in columns),

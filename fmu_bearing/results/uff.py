@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing import __version__
 from fmu_bearing.files import check_file, write_whole
+from fmu_bearing.results.even_steps import spacing
 
-_EVEN = 1e-3  # of a step: times of an FMU run are rounded
 _TYPES = {"m": 8, "rad": 8, "m/s": 11, "rad/s": 11, "m/s2": 12, "rad/s2": 12, "N": 13, "N.m": 13, "Pa": 15}
 _POWERS = {8: (1, 0), 11: (1, 0), 12: (1, 0), 13: (0, 1), 15: (-2, 1)}  # of length and force; of turns below
 _DIRECTIONS = ("", "x", "y", "z", "tx", "ty", "tz")
@@ -99,11 +99,12 @@ def write_uff(
 
 
 def _even(axis: ArrayLike, what: str, unit: str) -> tuple[float, float]:
-    gaps = np.diff(values := np.ravel(np.asarray(axis, dtype=float)))
-    if not gaps.size or gaps.min() <= 0.0 or np.ptp(gaps) > _EVEN * gaps.mean():
-        words = f"{gaps.min():.4g} to {gaps.max():.4g} {unit} apart" if gaps.size else "fewer than two"
-        raise ValueError(f"the {what} are {words}: a universal file (.uff) takes two or more, evenly spaced")
-    return float(values[0]), float(values[-1] - values[0]) / gaps.size
+    found = spacing(axis)
+    if not found.even:
+        raise ValueError(
+            f"the {what} are {found.words(unit)}: a universal file (.uff) takes two or more, evenly spaced"
+        )
+    return float(np.ravel(np.asarray(axis, dtype=float))[0]), found.step
 
 
 def _row(values: Iterable[Any], form: str = "13.5e") -> str:

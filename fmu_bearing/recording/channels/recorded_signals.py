@@ -11,12 +11,13 @@ from fmu_bearing.elastic.modes import ring_modes
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.interface.names import known
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
+from fmu_bearing.results.even_steps import ALLOWED, spacing
 from fmu_bearing.results.variable_names import unit_of
 from fmu_bearing.scene.member import radiating
 
 ACCELERATION = "m/s2"
 _BODIES = ("inner_ring", "outer_ring", "cage")
-_EVEN = 1e-3  # of a step: times of an FMU run are rounded
+FEWEST = 3  # points of variables over time that have a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,10 +118,21 @@ def _accelerations(recording: ChannelHistory) -> dict[str, tuple[int, float]]:
 
 def even_step(times: NDArray[np.float64]) -> float:
     """Return the step (s) of evenly spaced times; 0 for others and for fewer than three."""
-    gaps = np.diff(times)
-    if gaps.size < 2 or gaps.min() <= 0.0 or np.ptp(gaps) > _EVEN * gaps.mean():
-        return 0.0
-    return float(times[-1] - times[0]) / gaps.size
+    found = spacing(times)
+    return found.step if times.size >= FEWEST and found.even else 0.0
+
+
+def why_uneven(times: NDArray[np.float64]) -> str:
+    """Say what times without a step (`even_step`) are, too few or how uneven and where; and the way out."""
+    if times.size < FEWEST:
+        return f"too few: {times.size}, and {FEWEST} or more are needed: take less settle, or a longer record"
+    found = spacing(times)
+    gap, middle = found.gaps[found.worst], float(np.median(found.gaps))
+    far = "repeat or fall" if found.off == np.inf else f"lie up to {100.0 * found.off:.3g} % of a step off it"
+    return (
+        f"uneven: rounded to an even grid within {100.0 * ALLOWED:g} % of a step they are taken, and they {far}; "
+        f"at {times[found.worst]:.6g} s the step is {gap:.4g} s, the middle one {middle:.4g} s: resample them"
+    )
 
 
 def _step(recording: ChannelHistory) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.scene.units import UNITS, scaled, symbol
 
-__all__ = ["Title", "Unit", "is_units", "suffixed", "unit_of_suffix", "written_unit"]
+__all__ = ["Title", "Unit", "is_units", "suffixed", "unit_of_suffix", "unit_of_title", "written_unit"]
 
 
 class Unit(NamedTuple):
@@ -44,7 +44,7 @@ _WRITTEN: dict[str, tuple[tuple[float, float, str], ...]] = {
     "N/m": ((1.0, 0.0, "N/m"), (1e6, 0.0, "N/um"), (1e3, 0.0, "N/mm")),
     "m": ((1.0, 0.0, "m"), (1e-3, 0.0, "mm"), (1e-6, 0.0, "um"), (1e-9, 0.0, "nm")),
     "m/s": ((1.0, 0.0, "m/s m.s-1 m*s^-1"), (1e-3, 0.0, "mm/s"), (1e-6, 0.0, "um/s")),
-    "m/s2": ((1.0, 0.0, "m/s2 m/s^2"),),
+    "m/s2": ((1.0, 0.0, "m/s2 m/s^2 m.s-2 m*s^-2"), (1e-3, 0.0, "mm/s2 mm/s^2")),
     "Pa": ((1.0, 0.0, "Pa"), (1e3, 0.0, "kPa"), (1e6, 0.0, "MPa N/mm2 N/mm^2"), (1e9, 0.0, "GPa")),
     "Pa.s": ((1.0, 0.0, "Pa.s Pas Pa*s"), (1e-3, 0.0, "mPa.s mPas mPa*s")),
     "rad": ((1.0, 0.0, "rad"), (_DEG, 0.0, "deg"), (1e-3, 0.0, "mrad")),
@@ -60,6 +60,10 @@ _UNITS = {
     for factor, offset, spellings in rows
     for spelling in spellings.split()
 }
+#: Standard acceleration of free fall, as ISO 80000-3 gives it, which sensors are calibrated in; the title of
+#: a mass, where ``g`` is a gram, names it.
+_FREE_FALL = Unit(9.80665, 0.0, "m/s2", "g")
+_MASSES = ("mass", "weight", "gewicht")
 #: Name and unit: ``time [s]``, ``time (s)``, ``time{s}``, ``time, s`` as pandas writes ours, ``time/s``.
 _TITLE = re.compile(
     r"(?P<name>.*?)(?P<room>\s*)(?:\[(?P<a>[^\[\]]*)\]|\((?P<b>[^()]*(?:\([AZ]\))?)\)|\{(?P<c>[^{}]*)\}"
@@ -105,6 +109,17 @@ def written_unit(text: str) -> Unit | None:
     plain = text.translate(_MARKS)
     same = {unit for spelling, unit in _UNITS.items() if spelling.lower() == plain.lower()}
     return _UNITS.get(plain) or (same.pop() if len(same) == 1 else None)
+
+
+def unit_of_title(title: Title) -> Unit | None:
+    """Return the unit of a column; None for a title without one that is known.
+
+    ``g`` is that of an acceleration, 9.80665 m/s2, but for a column that says mass or weight.
+    """
+    unit = written_unit(title.unit) if title.unit else None
+    if unit is not None and unit.shown == "g" and not any(word in title.casefold() for word in _MASSES):
+        return _FREE_FALL
+    return unit
 
 
 def is_units(cells: Sequence[str]) -> bool:

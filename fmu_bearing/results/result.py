@@ -21,7 +21,7 @@ from fmu_bearing.files import check_file, plain_file, write_whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.results import uff
 from fmu_bearing.results.base import Result, write_netcdf, written
-from fmu_bearing.results.column_units import unit_of_suffix, written_unit
+from fmu_bearing.results.column_units import unit_of_suffix, unit_of_title
 from fmu_bearing.results.defect_lines import defect_labels
 from fmu_bearing.results.levels import present, shown
 from fmu_bearing.results.rows import read_columns
@@ -343,7 +343,7 @@ def _read(path: str | os.PathLike[str]) -> tuple[NDArray[Any], dict[str, str]]:
     columns: dict[str, NDArray[np.float64]] = {}
     units = {}
     for place, title in enumerate(titles):
-        unit = written_unit(title.unit) if title.unit else None
+        unit = unit_of_title(title)
         base, suffix = split_unit(title)
         # a name with the suffix of its unit, as speed_rpm: SI values have the name without
         same = unit is not None and suffix and unit_of_suffix(suffix, unit.si)[:2] == unit[:2]

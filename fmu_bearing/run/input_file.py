@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.interface.names import known
-from fmu_bearing.results.column_units import Title, Unit, unit_of_suffix, written_unit
+from fmu_bearing.results.column_units import Title, Unit, unit_of_suffix, unit_of_title
 from fmu_bearing.results.result import ResultError
 from fmu_bearing.results.rows import read_columns
 from fmu_bearing.results.series import structured
@@ -86,7 +86,7 @@ def read_inputs(path: str | os.PathLike[str], inputs: Mapping[str, Bounded]) -> 
 
 def _column(path: pathlib.Path, title: Title, inputs: Mapping[str, Bounded]) -> Column:
     """Return what a column of this title gives."""
-    given = written_unit(title.unit) if title.unit else None
+    given = unit_of_title(title)
     name, suffix = (str(title), "") if title in inputs else split_unit(title)
     if name in inputs:
         si = inputs[name].unit

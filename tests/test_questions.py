@@ -39,6 +39,8 @@ QUESTIONS = (
      "A jump of an input is followed 5 to 30 ms late"),
     ("How do I see a damaged race, and how long is the spall?", "learn/spall.md",
      "The time gives its 1 mm within a tenth"),
+    ("I have a CSV of an accelerometer. Which race is damaged?", "analysis.md",
+     "here strokes at 104.6 Hz in a logger's place"),
     # the author of a test harness
     ("Does the FMU need Python?", "fmu.md", "the C library of the system"),
     ("Which sign has the torque, and who owns the inertia?", "coupling.md", "which **the drive owns**"),

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.pages
 @pytest.mark.heavy  # circles, planes and spheres by boundary elements: 45 s
 def test_the_page_runs(tmp_path, monkeypatch):
     page = DOCS / "analysis.md"
-    assert sum(language == "python" for language, _, _ in blocks(page)) == 13
+    assert sum(language == "python" for language, _, _ in blocks(page)) == 14
     names = run_page(page, tmp_path, monkeypatch)
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written >= set(re.findall(r'out / "([^"]+)"', page.read_text(encoding="utf-8")))

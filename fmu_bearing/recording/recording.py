@@ -3,7 +3,6 @@
 import json
 import math
 import os
-import pathlib
 import re
 import warnings
 from collections.abc import Sequence
@@ -16,7 +15,7 @@ from fmu_bearing.cautions import largest_of
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, instead, trouble
-from fmu_bearing.files import read_arrays, whole
+from fmu_bearing.files import check_file, read_arrays, whole
 from fmu_bearing.interface.names import chosen_names
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.microphone_places import Places
@@ -359,10 +358,12 @@ class Recording(ChannelHistory):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one ``.npz`` file; to ``.uff`` microphones and accelerations over time.
 
-        A universal file is read by programs of modal analysis, and not by `load`.
+        A universal file is read by programs of modal analysis, and not by `load`. Errors are those of
+        `check_file`; other endings are refused.
         """
-        if pathlib.Path(path).suffix == ".uff":
-            write_signals(self, path)
+        target = check_file(path, (".npz", ".uff"), "a recording")
+        if target.suffix == ".uff":
+            write_signals(self, target)
             return
         head = {
             "version": _VERSION,
@@ -375,7 +376,7 @@ class Recording(ChannelHistory):
             "harmonics": self.harmonics,
         }
         arrays: dict[str, Any] = {f"output:{name}": values for name, values in self.outputs.items()}
-        with whole(pathlib.Path(path)) as file:
+        with whole(target) as file:
             np.savez(
                 file, head=np.array(json.dumps(head)), output_time=self.output_time,
                 speed_points=self.speed_points, history=self.history, recorded=self.recorded,

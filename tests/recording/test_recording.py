@@ -63,6 +63,10 @@ def test_save_and_load(own, tmp_path):
     assert np.array_equal(back.pressure(), own.pressure())
     assert back.scene == own.scene and back.microphones == own.microphones
     assert np.array_equal(back.outputs["mic[1].leq"], own.outputs["mic[1].leq"])
+    for name in ("run.mat", "run", "run.NPZ"):
+        with pytest.raises(ValueError, match="a recording is written as .npz or .uff"):
+            own.save(tmp_path / name)
+    assert [file.name for file in tmp_path.iterdir()] == ["run.npz"]
     np.savez(tmp_path / "other.npz", x=np.zeros(3))
     with pytest.raises(ValueError, match="not a recording"):
         Recording.load(tmp_path / "other.npz")

@@ -13,6 +13,7 @@ from fmu_bearing.acoustics.analysis.field import Position
 from fmu_bearing.identification.errors import IdentifyError
 from fmu_bearing.identification.quantities import Quantity, parse_quantity
 from fmu_bearing.interface.names import UnknownName, known
+from fmu_bearing.recording.channels.microphone_places import place_name
 from fmu_bearing.results.column_units import suffixed
 from fmu_bearing.results.rows import read_rows
 from fmu_bearing.run.figures import A_LEVEL, LEVEL
@@ -291,7 +292,7 @@ class _Reader:
             if len(given) < 3:
                 raise IdentifyError(f"{', '.join(given)} alone is not a place: give {', '.join(PLACE)}")
             x, y, z = (1e-3 * _number(row, axis) for axis in PLACE)
-            return f"({1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}) mm", (x, y, z)
+            return place_name((x, y, z)), (x, y, z)
         if name not in self.places:
             there = ", ".join(self.places) or "none"
             lost = f"there is no microphone '{name}'" if name else "a sound level needs its microphone"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import Recording, audio, measure, record, spread, with_fidelity
-from fmu_bearing.recording.channels.microphone_places import named_places
-from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, write_all
+from fmu_bearing.recording.channels.microphone_places import named_places, place_name
+from fmu_bearing.recording.measurements.sound_analysis import analyse_sound, stems, write_all
 
 ELSEWHERE = (0.0, 0.3, 0.0)
 
@@ -58,10 +58,20 @@ def test_spread_and_listen_take_places_and_name_them(recorded, tmp_path):
     assert found.names == ("P2", "(0, 300, 0) mm")
     assert found.levels[:, 0].tolist() == recorded.levels(["P2", ELSEWHERE]).tolist()
     files = write_all(recorded, found, tmp_path, directivity=False)
-    assert {"P2.wav", "-0--300--0--mm.wav"} <= {file.name for file in files}
+    assert {"P2.wav", "at-0-300-0-mm.wav"} <= {file.name for file in files}
     sure = spread(recorded, [ELSEWHERE, "P2"], seeds=1)
     assert sure.names == ("(0, 300, 0) mm", "P2")
     assert sure.levels.tolist() == recorded.levels([ELSEWHERE, "P2"], weighting="A").tolist()
+
+
+def test_names_of_places_are_short_and_their_files_no_options():
+    turned = 0.3 * np.array([np.cos(0.5 * np.pi), np.sin(0.5 * np.pi), -1e-17])
+    places = [tuple(turned), (-0.005, 0.0, 0.0), (0.005, 0.0, 0.0), (0.0123456, -0.1, 0.0)]
+    names = [place_name(place) for place in places]
+    assert names == ["(0, 300, 0) mm", "(-5, 0, 0) mm", "(5, 0, 0) mm", "(12.346, -100, 0) mm"]
+    assert stems([*names, ".1", "-x"]) == [
+        "at-0-300-0-mm", "at--5-0-0-mm", "at-5-0-0-mm", "at-12.346--100-0-mm", "at-1", "at-x",
+    ]  # fmt: skip
 
 
 @pytest.mark.heavy

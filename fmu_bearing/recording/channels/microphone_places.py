@@ -42,4 +42,10 @@ def _place(given: ArrayLike) -> tuple[str, Position]:
             f"positions must be finite (x, y, z) in m or names of microphones, not of shape {point.shape}"
         )
     x, y, z = map(float, point)
-    return f"({1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}) mm", (x, y, z)
+    return place_name((x, y, z)), (x, y, z)
+
+
+def place_name(place: Position) -> str:
+    """Return the name of a place (m): its coordinates in mm, to a micrometre, as ``(0, 300, 0) mm``."""
+    x, y, z = (f"{round(1e3 * one, 3) + 0.0:g}" for one in place)  # + 0.0: without the sign of -0
+    return f"({x}, {y}, {z}) mm"

@@ -311,11 +311,16 @@ def _orders(made: _Made) -> None:
 
 
 def stems(names: Sequence[str]) -> list[str]:
-    """Names of signals as names of files, each its own, also where large and small letters are one."""
+    """Names of signals as names of files, each its own, also where large and small letters are one.
+
+    A place, ``(0, -300, 0) mm``, is ``at-0--300-0-mm``: programs take a name that begins with a dash for an
+    option, and one that begins with a point is hidden.
+    """
     taken: set[str] = set()
     files = []
     for name in names:
-        plain = re.sub(r"[^\w.]|^\.", "-", name)
+        plain = re.sub(r"[^\w.-]+|^\.", "-", name)
+        plain = f"at{plain}" if plain.startswith("-") else plain
         candidates = itertools.chain([plain], (f"{plain}-{number}" for number in itertools.count(2)))
         files.append(next(stem for stem in candidates if stem.casefold() not in taken))
         taken.add(files[-1].casefold())

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from typer.core import TyperGroup
 
 from fmu_bearing.engine.constants import RPM
@@ -37,6 +38,10 @@ _Usage: Any = typer.BadParameter.__base__
 class Commands(TyperGroup):
     """The commands."""
 
+    def __init__(self, **more: Any) -> None:
+        super().__init__(**more)
+        _keep_brackets(self)
+
     def make_context(self, *arguments: Any, **more: Any) -> Any:
         """Read the words before the command; what cannot be read is refused in one line."""
         with _one_line():
@@ -54,6 +59,19 @@ class Commands(TyperGroup):
             # who reads has read enough, as `head` does: what is left in the buffer goes nowhere
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             raise typer.Exit() from None
+
+
+def _keep_brackets(command: Any) -> None:
+    """Escape square brackets in the help of a command and all below it: Rich would take ``[tool]`` as markup.
+
+    Typer builds the commands once per call, so no text is escaped twice.
+    """
+    for one in (command, *command.params):
+        for name in ("help", "short_help", "epilog"):
+            if text := getattr(one, name, None):
+                setattr(one, name, escape(text))
+    for below in getattr(command, "commands", {}).values():
+        _keep_brackets(below)
 
 
 @contextmanager

@@ -187,3 +187,19 @@ def test_the_page_lists_the_commands(name):
     text = (DOCS / "cli.md").read_text("utf-8")
     (row,) = [line for line in text.splitlines() if line.startswith(f"| `{name} ")]
     assert set(re.findall(r"`([a-z -]+)`", row.split("|")[3])) == HAVE[name]
+
+
+@pytest.mark.parametrize("name", [name for name, _ in commands()])
+def test_help_shows_every_word_in_square_brackets(name, run):
+    """Rich takes words such as [tool] as markup and leaves them out, unless they are escaped."""
+    command = dict(commands())[name]
+    shown = re.sub(r"[\s│]", "", run(*name.split(), "--help").stdout)
+    text = inspect.getdoc(command.callback)
+    assert re.sub(r"\s", "", text) in shown
+    of_options = " ".join(one.help or "" for one in command.params).replace("\\", "")
+    for word in re.findall(r"\[[^\]]*\]", of_options):
+        assert re.sub(r"\s", "", word) in shown
+
+
+def test_list_of_commands_shows_words_in_square_brackets(run):
+    assert "the scene's [milling] may cut" in run("--help").stdout

@@ -83,12 +83,24 @@ def materials_words(scene: Scene) -> str:
 
 
 def conditions_words(scene: Scene) -> str:
-    """Return supply and temperatures: ``supply oil-air; oil 40, inner ring 40, outer ring 40 degC``."""
-    at = scene.operation
-    return (
-        f"supply {scene.lubricant.supply}; oil {at.oil_temperature_degC:.4g}, inner ring "
-        f"{at.inner_ring_temperature_degC:.4g}, outer ring {at.outer_ring_temperature_degC:.4g} degC"
-    )
+    """Return supply and temperatures: ``supply oil-air; oil 40, inner ring 40, outer ring 40 degC``.
+
+    Of bearings whose rings differ each: ``inner rings 49.3 / 48.1``.
+    """
+    return f"supply {scene.lubricant.supply}; {temperature_words(scene)}"
+
+
+def temperature_words(scene: Scene) -> str:
+    """Return the temperatures: ``oil 40, inner ring 40, outer ring 40 degC``."""
+    words = [f"oil {scene.operation.oil_temperature_degC:.4g}"]
+    members = scene.assembly.members or (None,)
+    for ring in ("inner", "outer"):
+        key = f"{ring}_ring_temperature_degC"
+        own = [getattr(member, key, None) for member in members]
+        each = [f"{getattr(scene.operation, key) if one is None else one:.4g}" for one in own]
+        equal = len(set(each)) == 1
+        words.append(f"{ring} ring {each[0]}" if equal else f"{ring} rings {' / '.join(each)}")
+    return f"{', '.join(words)} degC"
 
 
 def is_loose(scene: Scene) -> bool:

@@ -4,6 +4,7 @@ import pytest
 
 from fmu_bearing.design.temperatures import temperatures
 from fmu_bearing.scene import read_scene
+from fmu_bearing.scene.words import conditions_words
 from tests.conftest import EXAMPLES
 
 
@@ -26,3 +27,21 @@ def test_cooling_and_ambient_are_taken(run):
     ):
         refused = run("info", path, *words)
         assert refused.exit_code == 2 and reason in refused.stderr and refused.stderr.count("\n") == 1
+
+
+def test_the_header_has_the_settled_temperatures_of_each_ring(run):
+    path = EXAMPLES.parent / "spindle_set" / "7003C-DB.toml"
+    places = temperatures(read_scene(path)).places
+    header = " ".join(run("info", path, "--temperatures").stdout.partition("┏")[0].split())
+    for ring in ("inner", "outer"):
+        each = [f"{places[number, f'{ring}_ring']:.4g}" for number in (1, 2)]
+        words = f"ring {each[0]}" if len(set(each)) == 1 else f"rings {' / '.join(each)}"
+        assert f"{ring} {words}" in header
+
+
+def test_rings_of_one_temperature_are_one_figure():
+    scene = read_scene(EXAMPLES.parent / "spindle_set" / "7003C-DB.toml")
+    one, other = ("spindle.bearing[1].inner_ring_temperature_degC",
+                  "spindle.bearing[2].inner_ring_temperature_degC")  # fmt: skip
+    assert "inner rings 50 / 42, outer ring 37 degC" in conditions_words(scene.replace({one: 50.0}))
+    assert "inner ring 50, outer ring 37 degC" in conditions_words(scene.replace({one: 50.0, other: 50.0}))

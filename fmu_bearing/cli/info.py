@@ -10,7 +10,7 @@ import typer
 from fmu_bearing.cli.base import Refusal, app, print_json, refusals, show, tell
 from fmu_bearing.cli.options import Catalogues, Json, SceneFile, Settings, Speed
 from fmu_bearing.cli.settings import at_speed, source_of
-from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words
+from fmu_bearing.scene.words import bearings_words, conditions_words, materials_words, temperature_words
 
 if TYPE_CHECKING:
     from fmu_bearing.design.fits import Column
@@ -25,6 +25,7 @@ _FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
 _OF_LOADS = (
     "bearing", "at, mm", "axial, N", "y, N", "z, N", "ball, N", "angle, deg", "inner, GPa", "outer, GPa",
 )  # fmt: skip
+_DEGC = ("oil_temperature_degC", "inner_ring_temperature_degC", "outer_ring_temperature_degC")
 _PLACES = 3  # of them are displacements
 _WIDTH = 80
 _WORDS = {
@@ -75,6 +76,8 @@ def info(
         defects = defect_lines(scene_of(given), [one.frequencies for one in point.bearings])
     judgements = verdicts(point)
     lines = cautions(point, judgements)
+    if warm is None:
+        lines += _assumed(scene, settings, point)
     if as_json:
         judged = {"verdicts": judgements, "cautions": lines, "measured_elsewhere": measured_elsewhere()}
         seats = {} if point.scene.fit is None else {"fits": _seats(point)}
@@ -124,6 +127,25 @@ def _warm(
     if cooling is not None and not 0.0 < cooling <= 1e6:
         raise Refusal(f"--cooling {cooling:g} is refused; allowed: above 0 to 1e6 W/K")
     return temperatures(scene_of(given), AMBIENT if ambient is None else ambient, cooling)
+
+
+def _assumed(path: Path, settings: list[str] | None, point: "OperatingPoint") -> list[str]:
+    """Return a caution where temperatures that nobody gave are far below those that the heat makes."""
+    from fmu_bearing.design.temperatures import warmer
+    from fmu_bearing.scene.origins import origins
+
+    if not (heats := [one.heat for one in point.bearings]) or not warmer(point.scene, heats, _DEGC):
+        return []
+    given = " ".join(settings or ())
+    assumed = {one.key.removeprefix("operation.") for one in origins(path) if one.assumed}
+    keys = [key for key in _DEGC if key in assumed and key.removesuffix("_degC") not in given]
+    words = warmer(point.scene, heats, keys)
+    if not words:
+        return []
+    return [
+        f"temperatures are assumed ({temperature_words(point.scene)}), and {words}: `--temperatures` finds "
+        "those that the heat makes, or says that there are none"
+    ]
 
 
 def _show_temperatures(warm: "Temperatures") -> None:

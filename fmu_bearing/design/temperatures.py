@@ -16,13 +16,15 @@ from fmu_bearing.design.heat import Heat, heat_of
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.scene import Scene
-from fmu_bearing.scene.exclusions import require
+from fmu_bearing.scene.exclusions import exclusion, require
 from fmu_bearing.scene.member import still_of
 from fmu_bearing.steady.rest import started
 
 AMBIENT = 22.0  # degC: a laboratory, assumed
 #: degC: beyond it steel loses hardness and oil its film, and no answer is worth more steps.
 HOTTEST = 150.0
+#: K: by so much warmer a spindle oil has about half the viscosity, and film, torque and heat are others.
+HALVES = 20.0
 FACTOR = 2.0  # by which conductances may be off, either way: assumed
 _ENOUGH, _MOST = 1e-3, 60  # K between two rounds, rounds
 _SHARE = 0.6  # of the way to new temperatures: warmer oil makes less heat, so the whole way goes beyond
@@ -128,6 +130,30 @@ def temperatures(scene: Scene, ambient: float = AMBIENT, cooling: float | None =
     except ValueError:
         high = {}
     return Temperatures(at(scene, places), ambient, places, low, high, heats, links)
+
+
+def warmer(scene: Scene, heats: Sequence[Heat], keys: Sequence[str]) -> str:
+    """Return in words what these heats warm by `HALVES` or more above the scene's temperatures; empty: none.
+
+    The first step of `temperatures`: with assumed conductances, and without the thinner oil's smaller heat.
+
+    Parameters
+    ----------
+    scene : Scene
+    heats : sequence of Heat
+        Of each bearing at the scene's temperatures.
+    keys : sequence of str
+        Temperatures of ``[operation]`` that are looked at, such as ``oil_temperature_degC``.
+    """
+    if exclusion(scene, "temperatures") is not None:
+        return ""
+    beyond: dict[str, float] = {}
+    for (number, node), value in network(heats, conductances(scene), AMBIENT).items():
+        key = f"{node}_temperature_degC"
+        if number and key in keys and value >= getattr(scene.operation, key) + HALVES:
+            beyond[node] = max(value, beyond.get(node, value))
+    each = ", ".join(f"{node.replace('_', ' ')} to {value:.0f}" for node, value in beyond.items())
+    return f"{sum(one.total for one in heats):.3g} W would bring {each} degC" if each else ""
 
 
 def conductances(scene: Scene, cooling: float | None = None) -> tuple[Conductance, ...]:

@@ -2,7 +2,8 @@
 
 import pytest
 
-from fmu_bearing.design.temperatures import temperatures
+from fmu_bearing.design.operating_point import operating_point
+from fmu_bearing.design.temperatures import HALVES, temperatures
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.words import conditions_words
 from tests.conftest import EXAMPLES
@@ -45,3 +46,22 @@ def test_rings_of_one_temperature_are_one_figure():
                   "spindle.bearing[2].inner_ring_temperature_degC")  # fmt: skip
     assert "inner rings 50 / 42, outer ring 37 degC" in conditions_words(scene.replace({one: 50.0}))
     assert "inner ring 50, outer ring 37 degC" in conditions_words(scene.replace({one: 50.0, other: 50.0}))
+
+
+def test_assumed_temperatures_far_below_those_of_the_heat_are_said_once(run):
+    path, words = EXAMPLES / "7009C-spindle.toml", "temperatures are assumed (oil 40"
+    said = run("info", path).stderr
+    # 196 W, into oil that the supply hardly cools: 63 degC by the network, 23 K above what is assumed
+    assert said.count(words) == 1 and "would bring oil to 6" in said and "`--temperatures` finds" in said
+    assert any(words in line for line in run("info", path, "--json").data["cautions"])
+    for given in (("--set", "operation.oil_temperature_degC=40"), ("--temperatures",)):
+        assert words not in run("info", path, *given).stderr
+    # 42 and 43 degC: within the 20 K by which oil has about half the viscosity
+    assert words not in run("info", EXAMPLES / "7003C-spindle.toml").stderr
+
+
+def test_oil_has_half_the_viscosity_20_K_above():
+    scene = read_scene(EXAMPLES / "7003C-spindle.toml")
+    warm = scene.replace({"operation.oil_temperature_degC": 40.0 + HALVES})
+    cold, hot = (operating_point(one).bearings[0].viscosity for one in (scene, warm))
+    assert 0.4 < hot / cold < 0.6  # "about half": 11.1 and 4.8 mm2/s

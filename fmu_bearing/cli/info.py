@@ -21,9 +21,11 @@ if TYPE_CHECKING:
     from fmu_bearing.steady.statics import Statics
 
 _FREEDOMS = ("axial", "radial y", "radial z", "tilt y", "tilt z")
-#: Columns that a terminal has room for.
-_OF_LOADS = (
-    "bearing", "at, mm", "axial, N", "y, N", "z, N", "ball, N", "angle, deg", "inner, GPa", "outer, GPa",
+#: Columns that a terminal has room for: of the bearings, and by race.
+_OF_LOADS = ("bearing", "at, mm", "axial, N", "y, N", "z, N")
+_OF_RACES = (
+    "bearing", "ball inner, N", "ball outer, N", "angle inner, deg", "angle outer, deg", "inner, GPa",
+    "outer, GPa",
 )  # fmt: skip
 _DEGC = ("oil_temperature_degC", "inner_ring_temperature_degC", "outer_ring_temperature_degC")
 _PLACES = 3  # of them are displacements
@@ -190,9 +192,9 @@ def _show_set(statics: "Statics") -> None:
         f"{scene.operation.speed_rpm:g} r/min; {conditions_words(scene)}; statics, "
         f"{'shaft that bends' if scene.spindle and scene.spindle.shaft.flexible else 'rigid shaft'}"
     )
-    show(
-        "bearings: load; largest ball load, angle, pressure", *table(BearingLoad, statics.bearings, _OF_LOADS)
-    )
+    show("load of the bearings", *table(BearingLoad, statics.bearings, _OF_LOADS))
+    title = "largest ball load, contact angle and pressure, by race"
+    show(title, *table(BearingLoad, statics.bearings, _OF_RACES))
     show("shaft", ("", "value"), _shaft(statics))
 
 

@@ -53,12 +53,12 @@ class BearingLoad(Result):
         Quantity("force_z_N", "z, N", tenths, of=lambda one: one.force[2]),
         Quantity("moment_y_N_m [N m]", of=lambda one: one.moment[0]),
         Quantity("moment_z_N_m [N m]", of=lambda one: one.moment[1]),
-        Quantity("ball_load_max_N = ball_loads.max", "ball, N", ".1f"),
+        "ball_load_max_N = ball_loads.max",
+        Quantity("ball_load_inner_max_N", "ball inner, N", ".1f", of=lambda one: one.ball_loads[0].max()),
+        Quantity("ball_load_outer_max_N", "ball outer, N", ".1f", of=lambda one: one.ball_loads[1].max()),
         Quantity("balls_unloaded [1] = unloaded", "unloaded balls"),
-        Quantity(
-            "angle_inner_max_deg", "angle, deg", ".2f",
-            of=lambda one: math.degrees(one.contact_angles[0].max()),
-        ),
+        Quantity("angle_inner_max_deg", "angle inner, deg", ".2f", of=lambda one: one.largest_angle(0)),
+        Quantity("angle_outer_max_deg", "angle outer, deg", ".2f", of=lambda one: one.largest_angle(1)),
         Quantity("pressure_inner_GPa", "inner, GPa", ".3f", of=lambda one: 1e-9 * one.pressures[0].max()),
         Quantity("pressure_outer_GPa", "outer, GPa", ".3f", of=lambda one: 1e-9 * one.pressures[1].max()),
     )  # fmt: skip
@@ -101,6 +101,10 @@ class BearingLoad(Result):
     def label(self) -> str:
         """Number and direction."""
         return f"{self.number}, {self.carries}"
+
+    def largest_angle(self, race: int) -> float:
+        """Return the largest contact angle (deg) at the inner (0) or outer (1) race."""
+        return math.degrees(self.contact_angles[race].max())
 
     @property
     def unloaded(self) -> int:

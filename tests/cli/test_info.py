@@ -160,6 +160,18 @@ def test_info_of_a_set_tells_what_each_bearing_carries(run):
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
+def test_load_and_angle_of_a_ball_are_of_one_race(run):
+    shown = run("info", SET, "--set", "spindle.load.force_x_N=0", "--set", "spindle.load.force_z_N=0").stdout
+    table = shown.partition("by race")[2]
+    cells = [part.strip() for part in next(line for line in table.splitlines() if "1, +x" in line).split("│")]
+    inner, outer, at_inner, at_outer = map(float, cells[2:6])
+    axial = float(next(line for line in shown.splitlines() if "1, +x" in line).split("│")[3])
+    # each race carries the axial load; friction against the gyroscopic moment and weights take below 5 %
+    for load, angle in ((inner, at_inner), (outer, at_outer)):
+        assert 12 * load * math.sin(math.radians(angle)) == pytest.approx(axial, rel=0.05)
+    assert outer > inner and at_inner > at_outer
+
+
 @pytest.mark.heavy
 def test_a_set_is_checked_shown_and_run(run, tmp_path):
     result = run("scene", "check", SET)

@@ -63,6 +63,11 @@ class LobesTable(Result):
         return min(self.limits, key=lambda one: one.depth)
 
     @property
+    def best(self) -> Limit:
+        """The largest limit."""
+        return max(self.limits, key=lambda one: one.depth)
+
+    @property
     def depth(self) -> float:
         """Axial depth of the scene (m); NaN: none is given."""
         cut = self.scene.milling
@@ -85,18 +90,23 @@ class LobesTable(Result):
         return tuple(sorted(found, key=lambda one: -one.depth))
 
     def verdict(self) -> str:
-        """Return in a sentence whether the scene's cut is stable, and the nearest way out where it is not."""
+        """Return in a sentence whether the scene's cut is stable, and the nearest way out where it is not.
+
+        Last comes the speed of the largest limit, with the depth up to which one stays within `MARGIN` of it.
+        """
         own, least = self.own, self.least
         beyond = f"the limit at {own.speed:,.0f} r/min is {_mm(own.depth)}"
         if math.isfinite(own.depth):
             beyond += f", where it chatters at {own.frequency:,.0f} Hz"
         always = f"{_mm(least.depth)} is stable at all of these speeds"
+        if len(self.limits) > 1:
+            always += f"; {self._best()}"
         if math.isnan(self.depth):
             return f"{_begin(beyond)}; {always}."
         words = {"good": "is stable", "watch": "is stable with little left", "change": "chatters"}
         sentence = f"{_mm(self.depth)} {words[self.judgement]}: {beyond}"
         way_out = self._way_out() if self.judgement != "good" else ""
-        return f"{sentence}; {always}{way_out}."
+        return f"{sentence}{way_out}; {always}."
 
     def _way_out(self) -> str:
         """Return the nearest speed at which the depth is within the margin, in words; empty: none."""
@@ -106,6 +116,14 @@ class LobesTable(Result):
         near = min(good, key=lambda one: abs(one.speed - self.own.speed))
         there = f"{near.speed:,.0f} r/min, with a limit of {_mm(near.depth)}"
         return f"; the nearest speed for this depth is {there}"
+
+    def _best(self) -> str:
+        """Return the speed of the largest limit, in words."""
+        best, ends = self.best, (self.limits[0].speed, self.limits[-1].speed)
+        words = f"the best of {ends[0]:,.0f} to {ends[1]:,.0f} r/min is {best.speed:,.0f}, with "
+        if not math.isfinite(best.depth):
+            return f"{words}no limit below the highest frequency"
+        return f"{words}a limit of {_mm(best.depth)}: stay below {_mm(MARGIN * best.depth)}, {MARGIN:g} of it"
 
     def records(self) -> tuple[Limit, ...]:
         """Return `limits`."""

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from fmu_bearing import lobes, new_scene, read_scene, receptance
+from fmu_bearing.machining.lobes_result import MARGIN, Limit
+from fmu_bearing.machining.stability import Lobes
 from fmu_bearing.machining.zero_order import Cut, angles, branches, depths, in_the_cut
 from fmu_bearing.modal.equations.linearised import linearised
 from fmu_bearing.modal.receptance import transfer
@@ -88,6 +90,9 @@ def test_verdict_and_the_way_out():
     assert found.place == "tip" and found.judgement == "change"
     assert "chatters: the limit at 18,000 r/min" in found.verdict()
     assert "the nearest speed for this depth is" in found.verdict()
+    best = found.pockets()[0]
+    words = f"is {best.speed:,.0f}, with a limit of {1e3 * best.depth:.3g} mm: stay below "
+    assert f"{words}{1e3 * MARGIN * best.depth:.3g} mm, 0.7 of it" in found.verdict()
     assert found.least.depth < found.own.depth < found.pockets()[0].depth
     easy, close = (
         lobes(read_scene(END_MILL).replace({"milling.depth_mm": 1e3 * share * found.own.depth}), [18e3])
@@ -157,6 +162,29 @@ def test_files_and_picture(tmp_path):
     assert (tmp_path / "l.png").stat().st_size > 20_000
     with pytest.raises(ValueError, match="a table of lobes is written as"):
         found.save(tmp_path / "l.txt")
+
+
+def limits_of(*millimetres):
+    """Lobes with these limits at 1,000, 2,000, ... r/min; the scene's own speed is the first."""
+    limits = tuple(Limit(1e3 * k, 1e-3 * depth, 500.0) for k, depth in enumerate(millimetres, start=1))
+    return Lobes(cutting(), "nose", limits, limits[0], (1e3,))
+
+
+def test_the_picture_shows_the_best_speed_and_its_legend_covers_no_curve():
+    """The best lobe has 40 times the least limit; the axis once ended at 4 times."""
+    figure = limits_of(0.5, 0.3, 12.0, 0.4).picture()
+    axes = figure.axes[0]
+    low, high = axes.get_ylim()
+    assert low < 0.3 and high > 12.0
+    figure.draw_without_rendering()
+    assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0
+
+
+def test_speeds_without_a_limit_are_said_and_drawn():
+    inf = math.inf
+    assert "is 2,000, with no limit below the highest frequency." in limits_of(0.5, inf, 2.0).verdict()
+    for depths_mm in ((0.5, inf, 2.0), (inf, inf)):
+        limits_of(*depths_mm).picture().draw_without_rendering()
 
 
 def test_a_tip_needs_a_tool():

@@ -261,6 +261,8 @@ def bridged(length):
 
 SOFT = {"spindle__preload__preload_N": 60.0}
 STIFF = {"spindle__preload__preload_N": 240.0}
+#: Its inner rings have 44 degC.
+WARM, COOL = ({"operation__inner_ring_temperature_degC": degC} for degC in (54.0, 34.0))
 
 #: Figures of each page in words, and where they come from.
 FIGURES = {
@@ -402,6 +404,9 @@ FIGURES = {
         "0.65 mm at": lambda: deepest(18e3, **SOFT),
         "0.045 and": lambda: floor(**STIFF),
         "0.12 mm.": lambda: deepest(18e3, **STIFF),
+        "0.120 mm in": lambda: deepest(18e3, **WARM),
+        "1520 Hz in": lambda: milled(**WARM).own.frequency,
+        "1.78 mm, because": lambda: deepest(18e3, **COOL),
         "0.4 of the limit": lambda: 0.5 / deepest(20_250.0),
         "7 % less": lambda: (
             100.0 * (1.0 - deepest(20_250.0, bearing__contact_damping_us=1.25) / deepest(20_250.0))

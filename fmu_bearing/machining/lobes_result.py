@@ -12,6 +12,9 @@ from fmu_bearing.scene import Scene
 
 #: Of the limit: assumed damping and cutting coefficients move it by more than what is left (chosen).
 MARGIN = 0.7
+#: K: so much warmer inner rings are tried, as the growth of rings changes a preload by spacers (chosen).
+WARMER = 10.0
+_MOVES = 0.05  # of the limit: less is within what assumed damping makes of it
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,8 @@ class LobesTable(Result):
     """At the scene's speed."""
     coarse: tuple[float, ...]
     """r/min: where the receptance was computed; between them its inverse is interpolated."""
+    warm: Limit | None = None
+    """At the scene's speed with inner rings that are `WARMER`; None: there is no equilibrium then."""
     remarks: tuple[str, ...] = ()
 
     @property
@@ -132,11 +137,26 @@ class LobesTable(Result):
     def cautions(self) -> list[str]:
         """Return what limits these numbers, in sentences."""
         sentences = list(self.remarks)
+        if self.warm is None or abs(_ratio(self.warm.depth, self.own.depth) - 1.0) > _MOVES:
+            sentences.append(self._of_warmth())
         if self.place == "nose":
             sentences.append(
                 "the cut is at the nose itself: a tool is softer than that, give [tool] with its sections"
             )
         return sentences
+
+    def _of_warmth(self) -> str:
+        """Return in words what warmer inner rings make of the limit at the scene's speed."""
+        there = f"with inner rings {WARMER:g} K warmer, which changes the preload, "
+        at, own = f"{self.own.speed:,.0f} r/min", _mm(self.own.depth)
+        if self.warm is None:
+            return f"{there}nothing holds at {at}: the limit of {own} is of the scene's temperatures"
+        return f"{there}the limit at {at} is {_mm(self.warm.depth)} in place of {own}"
+
+
+def _ratio(one: float, other: float) -> float:
+    """Return one limit over another; 1 where both are infinite."""
+    return 1.0 if one == other else one / other
 
 
 def _mm(depth: float) -> str:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fmu_bearing.files import check_file
 from fmu_bearing.machining.lobes_picture import picture
-from fmu_bearing.machining.lobes_result import Limit, LobesTable
+from fmu_bearing.machining.lobes_result import WARMER, Limit, LobesTable
 from fmu_bearing.machining.zero_order import Cut, angles, branches, in_the_cut, limit_at
 from fmu_bearing.modal.receptance.receptance_table import Place, ReceptanceTable
 from fmu_bearing.modal.receptance.scene_receptance import receptance
@@ -45,7 +45,7 @@ class Lobes(LobesTable):
 
     quantities = (
         "scene = scene.name", "place", Quantity("speed_rpm = own.speed"),
-        Quantity("depth_mm [mm] = depth", factor=1e3), "judgement", "verdict", "own", "least",
+        Quantity("depth_mm [mm] = depth", factor=1e3), "judgement", "verdict", "own", "warm", "least",
         Quantity("limits"), Quantity("coarse_rpm [r/min] = coarse"), "cautions",
     )  # fmt: skip
 
@@ -138,8 +138,27 @@ def lobes(
     stiff = _stiffness(table, values.feed_angle)
     found = [_limit(cut, table, stiff, float(speed)) for speed in (*rpm, own)]
     return Lobes(
-        scene, place, tuple(found[:-1]), found[-1], tuple(map(float, table.speeds)), tuple(table.cautions())
-    )
+        scene, place, tuple(found[:-1]), found[-1], tuple(map(float, table.speeds)),
+        _warmed(scene, cut, frequencies, inputs), tuple(table.cautions()),
+    )  # fmt: skip
+
+
+def _warmed(
+    scene: Scene, cut: Cut, frequencies: Sequence[float] | None, inputs: Mapping[str, float] | None
+) -> Limit | None:
+    """Return the limit at the scene's own speed with inner rings that are `WARMER`; None: no equilibrium."""
+    key = "inner_ring_temperature_degC"
+    values = {f"operation.{key}": getattr(scene.operation, key) + WARMER}
+    for number, member in enumerate(scene.assembly.members, start=1):
+        if (own := getattr(member, key)) is not None:
+            values[f"{scene.assembly.temperature_table(number)}.{key}"] = own + WARMER
+    try:
+        warm = scene.replace(values)
+        table = receptance(warm, frequencies, inputs=inputs, at="nose" if scene.tool is None else "tip")
+    except ValueError:  # hotter than a scene may be, or pressed together until nothing holds
+        return None
+    stiff = _stiffness(table, si(_milling(scene)).feed_angle)
+    return _limit(cut, table, stiff, scene.operation.speed_rpm)
 
 
 def _milling(scene: Scene) -> Milling:

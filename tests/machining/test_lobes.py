@@ -164,6 +164,30 @@ def test_files_and_picture(tmp_path):
         found.save(tmp_path / "l.txt")
 
 
+def test_a_warmer_ring_is_said_where_it_moves_the_limit():
+    """Of spacers; springs hold their force, and the limit stays within the 5 %."""
+    found = lobes(END_MILL, [18e3])
+    key = "operation.inner_ring_temperature_degC"
+    scene = read_scene(END_MILL)
+    warm = lobes(scene.replace({key: scene.operation.inner_ring_temperature_degC + 10.0}), [18e3])
+    assert found.warm == warm.own
+    words = f"{1e3 * warm.own.depth:.3g} mm in place of {1e3 * found.own.depth:.3g} mm"
+    (line,) = [line for line in found.cautions() if "10 K warmer" in line]
+    assert words in line
+    tool = {"sections_mm": [[20.0, 9.0, 0.0]], "material": "tungsten-carbide"}
+    sprung = read_scene(EXAMPLES / "7003C-spindle.toml").replace({"milling": CUT, "tool": tool})
+    held = lobes(sprung, [20e3])
+    assert held.warm.depth == pytest.approx(held.own.depth, rel=0.05)
+    assert not any("10 K warmer" in line for line in held.cautions())
+
+
+def test_rings_that_may_not_be_warmer_are_said():
+    """199 degC is the highest that a scene takes."""
+    key = "operation.inner_ring_temperature_degC"
+    found = lobes(read_scene(EXAMPLES / "7003C-spindle.toml").replace({"milling": CUT, key: 195.0}), [20e3])
+    assert found.warm is None and any("nothing holds at 20,000 r/min" in one for one in found.cautions())
+
+
 def limits_of(*millimetres):
     """Lobes with these limits at 1,000, 2,000, ... r/min; the scene's own speed is the first."""
     limits = tuple(Limit(1e3 * k, 1e-3 * depth, 500.0) for k, depth in enumerate(millimetres, start=1))

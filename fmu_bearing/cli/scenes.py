@@ -18,6 +18,7 @@ from fmu_bearing.scene import Scene, SceneError, deep_groove, read_scene
 from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import Entry, entries, entry_text
 from fmu_bearing.scene.exclusions import Exclusion, exclusion, exclusions_of
+from fmu_bearing.scene.lubricant import SUPPLIES
 from fmu_bearing.scene.nsk import PREFIX, sizes
 from fmu_bearing.scene.origins import Origin, origins
 from fmu_bearing.scene.own_bearing import Dimensions, balls_of
@@ -35,8 +36,8 @@ KINDS = ("bearings", "materials", "lubricants", "grades")
 #: What of the assumed values `new` prints: those that decide most, and what radiates.
 _SAID = (
     "mounting.preload_N", "spindle.preload.preload_N", "spindle.load.force_x_N", "spindle.shaft.sections_mm",
-    "operation.speed_rpm", "sound.radiator", "materials.balls", "bearing.contact_angle_deg",
-    "mounting.radial_load_z_N",
+    "operation.speed_rpm", "lubricant.supply", "sound.radiator", "materials.balls",
+    "bearing.contact_angle_deg", "mounting.radial_load_z_N",
 )  # fmt: skip
 
 
@@ -74,7 +75,7 @@ def new(
         ),
     ] = None,
     speed: Annotated[
-        float | None, typer.Option(help="r/min; default: half of the limit with oil, assumed.")
+        float | None, typer.Option(help="r/min; default: half of the limit with oil or grease, assumed.")
     ] = None,
     preload: Annotated[
         float | None,
@@ -128,6 +129,13 @@ def new(
         typer.Option(help="Length of a spall of the outer race at 6 o'clock, mm; default: none."),
     ] = None,
     lubricant: Annotated[str, typer.Option(help="Oil of the catalogue.")] = "spindle-oil",
+    supply: Annotated[
+        str | None,
+        typer.Option(
+            metavar="|".join(SUPPLIES),
+            help="How oil comes to the contacts, as grease or a bath; default: oil-air, assumed.",
+        ),
+    ] = None,
     sound: Annotated[bool, typer.Option(help="With four microphones.")] = True,
     catalogue: Catalogues = None,
     force: Force = False,
@@ -179,9 +187,9 @@ def new(
         check_new(force, path)
         text = new_scene(
             scene_name(path.stem), chosen, kind=kind, speed_rpm=speed, grade=grade, lubricant=lubricant,
-            sound=sound, designation=designation, preload_N=preload, preload_class=preload_class,
-            preload_offset_um=preload_offset, folder=path.parent, arrangement=arrangement,
-            distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
+            supply=supply, sound=sound, designation=designation, preload_N=preload,
+            preload_class=preload_class, preload_offset_um=preload_offset, folder=path.parent,
+            arrangement=arrangement, distance_mm=distance, spring_N=spring, stiffness_N_um=stiffness,
             stiffness_preload_N=stiffness_preload, stiffness_of=stiffness_of, tell=tell,
             clearance=clearance, spall_mm=spall,
             **({} if radial_load is None else {"radial_load_N": radial_load}),

@@ -39,11 +39,12 @@ def new_scene(
 ) -> str:
     """Return the text of a new scene file; what is not given is assumed, marked, with its rule.
 
-    The speed is half of the maker's limit with oil, else of the one by n d_m; it is lower where no preload
-    would keep all verdicts good. The preload is the light class or 1.2 times the least one against skidding,
-    whichever is larger, and more where the balls would slip by their gyroscopic moment or a mode of the rings
-    would grow by itself. At a speed that is given the preload stays below what makers would caution of.
-    Sets follow the same rules: the class is that of a pair, of which the load of each bearing follows.
+    The speed is half of the maker's limit with oil, or with grease where that is the supply, else of the one
+    by n d_m; it is lower where no preload would keep all verdicts good. The preload is the light class or 1.2
+    times the least one against skidding, whichever is larger, and more where the balls would slip by their
+    gyroscopic moment or a mode of the rings would grow by itself. At a speed that is given the preload stays
+    below what makers would caution of. Sets follow the same rules: the class is that of a pair, of which the
+    load of each bearing follows.
 
     A deep groove bearing has no preload unless one is given, but a radial load: 0.05 C where none is given.
 
@@ -57,10 +58,10 @@ def new_scene(
     tell : callable
         Takes a line where the preload of a set is searched for, which may take a minute.
     **given
-        As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``sound``, ``designation``,
-        ``preload_class``, ``preload_offset_um``, ``folder``, ``radial_load_N``, ``clearance``;
-        ``stiffness_N_um``, ``stiffness_preload_N``, ``stiffness_of``; for a set ``arrangement``,
-        ``distance_mm``, ``spring_N``; ``spall_mm``.
+        As of `scene.template.new_scene`: ``kind``, ``grade``, ``lubricant``, ``supply``, ``sound``,
+        ``designation``, ``preload_class``, ``preload_offset_um``, ``folder``, ``radial_load_N``,
+        ``clearance``; ``stiffness_N_um``, ``stiffness_preload_N``, ``stiffness_of``; for a set
+        ``arrangement``, ``distance_mm``, ``spring_N``; ``spall_mm``.
 
     Raises
     ------
@@ -140,11 +141,14 @@ def _speed(scene: Scene, bearing: str | Dimensions) -> tuple[float, str]:
     """Return the assumed speed (r/min) of a bearing, and its rule."""
     size = sizes().get(bearing) if isinstance(bearing, str) else None
     pitch, limit = scene.bearing.pitch_diameter_mm, speed_limit(scene)
-    if size is not None and math.isfinite(size.oil_speed):
-        speed, rule = _SPEED_SHARE * size.oil_speed, "half of NSK's limiting speed with oil"
+    greased = scene.lubricant.greased
+    printed = math.inf if size is None else size.grease_speed if greased else size.oil_speed
+    supply = "grease" if greased else "oil"
+    if math.isfinite(printed):
+        speed, rule = _SPEED_SHARE * printed, f"half of NSK's limiting speed with {supply}"
     elif limit is not None:
         speed = _SPEED_SHARE * limit / pitch
-        rule = f"half of makers' n d_m with oil, {1e-6 * limit:.3g}e6 mm r/min"
+        rule = f"half of makers' n d_m with {supply}, {1e-6 * limit:.3g}e6 mm r/min"
     else:
         speed, rule = _SPEED_NUMBER / pitch, f"n d_m of {1e-6 * _SPEED_NUMBER:g}e6 mm r/min, no maker's limit"
     return min(_rounded(speed), scene.bearing.most_speed), rule

@@ -1,6 +1,6 @@
 """Oil: viscosity, traction, films, drag."""
 
-from typing import Literal
+from typing import Literal, get_args
 
 from pydantic import Field
 
@@ -13,6 +13,7 @@ Cleanliness = Literal["extreme", "high", "normal", "slight", "typical", "severe"
 
 #: How oil comes to the contacts.
 Supply = Literal["oil-air", "grease", "jet", "bath"]
+SUPPLIES: tuple[Supply, ...] = get_args(Supply)
 # Few drops and close conformity: a meniscus at the contact (Balan, Houpert, Tufescu and Olaru 2015); jet and
 # bath flood it. Replenishment constants of SKF's friction model.
 _ROLLING_LAWS: dict[Supply, RollingLaw] = {
@@ -31,6 +32,16 @@ _REPLENISHMENT: dict[Supply, float] = {"oil-air": 6e-8, "grease": 6e-8, "jet": 3
 BaseOil = Literal["mineral", "synthetic", "traction fluid"]
 # Friction coefficient of full films in SKF's friction model (SKF general catalogue, p. 101).
 _TRACTION: dict[BaseOil, float] = {"mineral": 0.05, "synthetic": 0.04, "traction fluid": 0.1}
+
+
+def meant_supply(name: object) -> str:
+    """Return what a message adds where a supply is given in the place of an oil, as "grease"; else ""."""
+    if name not in SUPPLIES:
+        return ""
+    return (
+        f"; '{name}' is how the oil comes to the contacts: keep the oil, and give lubricant.supply = "
+        f'"{name}" (`scene new --supply {name}`)'
+    )
 
 
 class Lubricant(Part):

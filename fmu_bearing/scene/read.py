@@ -18,6 +18,7 @@ from fmu_bearing.scene.designation import suggestion
 from fmu_bearing.scene.entries import KEY as CATALOGUES, Entry, catalogue, entries, named, named_files
 from fmu_bearing.scene.exclusions import conflicts_of
 from fmu_bearing.scene.imperfections import RACES
+from fmu_bearing.scene.lubricant import meant_supply
 from fmu_bearing.scene.material import Materials
 from fmu_bearing.scene.member import SceneBearing, bearings_of
 from fmu_bearing.scene.preload import (
@@ -422,6 +423,7 @@ def _fill(
     if not isinstance(wanted, str) or wanted not in known:
         where = dotted(path) + ("" if is_material(path) else f".{key}")
         others = f"{suggestion(str(wanted), known)}known: {named(known)}"
+        others += meant_supply(wanted) if path == ("lubricant",) else ""
         lines.append(f"{where} = {shown(wanted)} is not in the catalogue; {others}")
         unresolved.append(path)
         return

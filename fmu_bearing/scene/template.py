@@ -9,9 +9,10 @@ from typing import Any
 from fmu_bearing.scene import deep_groove
 from fmu_bearing.scene.base import SceneError
 from fmu_bearing.scene.conformity import conformity_from_stiffness
-from fmu_bearing.scene.designation import Designation
+from fmu_bearing.scene.designation import Designation, suggestion
 from fmu_bearing.scene.entries import KEY as CATALOGUES, entries
 from fmu_bearing.scene.estimate import Estimate, cage_estimates, estimates
+from fmu_bearing.scene.lubricant import SUPPLIES
 from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.own_bearing import (
     Dimensions,
@@ -57,6 +58,7 @@ def new_scene(
     clearance: str | None = None,
     grade: str | None = None,
     lubricant: str = "spindle-oil",
+    supply: str | None = None,
     sound: bool = True,
     designation: str | None = None,
     preload_class: str | None = None,
@@ -96,6 +98,8 @@ def new_scene(
         Name in the catalogue; default: what the designation says, else P4.
     lubricant : str
         Name in the catalogue.
+    supply : str, optional
+        How oil comes to the contacts, a value of ``lubricant.supply``; default: ``oil-air``, assumed.
     sound : bool
         With four microphones around the bare bearing, or without sound.
     designation : str, optional
@@ -135,6 +139,9 @@ def new_scene(
     """
     if kind is not None and kind not in MATERIALS:
         raise SceneError(f"there is no kind of bearing '{kind}': choose from {', '.join(MATERIALS)}")
+    if supply is not None and supply not in SUPPLIES:
+        near = suggestion(supply, SUPPLIES)
+        raise SceneError(f"there is no supply '{supply}': {near}choose from {', '.join(SUPPLIES)}")
     if sum(value is not None for value in (preload_class, preload_offset_um, spring_N)) > 1:
         raise SceneError("give one of preload_class, preload_offset_um and spring_N: each is the preload")
     if arrangement is None and (distance_mm is not None or spring_N is not None):
@@ -196,7 +203,8 @@ def new_scene(
         f'name = "{name}"{_catalogues(bearing, folder or Path())}',
         *tables,
         "[materials]\n" + "\n".join(materials),
-        f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue',
+        f'[lubricant]\ncatalogue = "{lubricant}" # assumed; keys given here win over the catalogue\n'
+        + _supply(supply),
         *mounted,
         f'[imperfections] # assumed, by tolerance class\ngrade = "{tolerance}"\nseed = 1\n'
         "highest_frequency_kHz = 20.0 # assumed: the audible range",
@@ -209,11 +217,20 @@ def new_scene(
     return text
 
 
+def _supply(supply: str | None) -> str:
+    """Return the line of how oil comes to the contacts."""
+    if supply is not None:
+        return f'supply = "{supply}"'
+    first, *others = SUPPLIES
+    return f'supply = "{first}" # assumed: others are {", ".join(others)}'
+
+
 def _spall(length: float, in_set: bool) -> str:
     """Return the table of a spall that the load presses the balls into."""
     whose = "bearing = 1 # assumed\n" if in_set else ""
     return (
         f'[[imperfections.defect]]\n{whose}on = "outer"\nshape = "spall"\nlength_mm = {float(length)}\n'
+        f"width_mm = {float(length)} # assumed: as long as it is; one as wide as the track is louder\n"
         "depth_um = 100.0 # assumed\nangle_deg = 180.0 # assumed: 6 o'clock"
     )
 

@@ -8,6 +8,7 @@ import pytest
 from fmu_bearing import operating_point
 from fmu_bearing.scene import read_scene
 from fmu_bearing.scene.entries import entries, entry_text
+from fmu_bearing.scene.nsk import sizes
 from fmu_bearing.scene.origins import origins
 from fmu_bearing.scene.template import MATERIALS, new_scene
 from tests.marks import heavy_but
@@ -75,6 +76,8 @@ def test_new_from_dimensions_estimates_the_rest_and_says_so(run, tmp_path):
         ((*KNOWN, "--arrangement", "db"), "there is no arrangement 'db': choose from DB, DF, DT, TBT"),
         ((*KNOWN, "--arrangement", "DB", "--distance", 5), "allowed: 10 (the width of a bearing) to 1000 mm"),
         ((*KNOWN, "--lubricant", "honey"), "spindle-oil"),
+        ((*KNOWN, "--lubricant", "grease"), 'keep the oil, and give lubricant.supply = "grease" (`scene new'),
+        ((*KNOWN, "--supply", "oil bath"), "there is no supply 'oil bath': did you mean"),
     ],
 )
 def test_new_refuses_in_a_line(run, tmp_path, arguments, reason):
@@ -309,6 +312,31 @@ def test_new_writes_a_deep_groove_bearing(run, tmp_path):
     ):
         refused = run("scene", "new", tmp_path / "other.toml", *given)
         assert refused.exit_code == 2 and words in refused.stderr
+
+
+def test_new_writes_the_supply(run, tmp_path):
+    """NSK prints limits of a 7010C with grease and with oil: half of each is the assumed speed."""
+    printed = sizes()["NSK-7010C"]
+    for given, supply, limit in (
+        ((), "oil-air", printed.oil_speed),
+        (("grease",), "grease", printed.grease_speed),
+    ):
+        path = tmp_path / f"{supply}.toml"
+        made = run(
+            "scene",
+            "new",
+            path,
+            "--bearing",
+            "NSK-7010C",
+            "--no-sound",
+            *(("--supply", *given) if given else ()),
+        )
+        assert made.exit_code == 0
+        assert ("assumed: lubricant.supply = oil-air" in made.stdout) == (not given)
+        values = {one["key"]: one for one in run("scene", "show", path, "--json").data["values"]}
+        assert values["lubricant.supply"]["value"] == supply
+        assert values["lubricant.supply"]["assumed"] == (not given)
+        assert values["operation.speed_rpm"]["value"] == pytest.approx(0.5 * limit, rel=5e-3)
 
 
 def test_catalogue_suggests_the_nearest(run):

@@ -152,7 +152,7 @@ def test_a_new_scene_may_have_a_spall(arrangement):
     (spall,) = scene.imperfections.defect
     assert (spall.on, spall.shape, spall.length_mm, spall.angle_deg) == ("outer", "spall", 1.2, 180.0)
     assert spall.bearing == (None if arrangement is None else 1)
-    assert "depth_um = 100.0 # assumed" in text
+    assert "depth_um = 100.0 # assumed" in text and "width_mm = 1.2 # assumed: as long as it is" in text
     assert not read_scene_text(new_scene("a", "7003C", sound=False)).imperfections.defect
     with pytest.raises(SceneError, match="length_mm takes 9 mm along rolling; allowed: up to"):
         new_scene("a", "7003C", sound=False, spall_mm=9.0)

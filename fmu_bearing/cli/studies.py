@@ -45,6 +45,7 @@ def choose(
     else:
         where = " / ".join(choice.probed)
         base.show(f"{choice.scene}: errors against fidelity full at {where}", *choice.table())
+        typer.echo(choosing.LEGEND)
         if choice.chosen != choosing.NONE:
             typer.echo(choice.words())
     base.end(code)

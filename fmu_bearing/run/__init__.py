@@ -8,6 +8,7 @@
 ``figures``       figures of a run: the table of their names, units and how they are read
 ``metrics``       figures that compare runs
 ``paces``         the speed of a run, with constant inputs and with inputs that move
+``conditions``    speeds under which candidates of fidelity ``auto`` are compared
 ``choose``        fidelity ``auto``: the cheapest within the scene's accuracy, found by running it
 ``simulate_fmu``  a run of an FMU, by FMPy
 ``simulate``      `simulate`: a run over given inputs

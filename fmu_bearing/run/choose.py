@@ -2,8 +2,9 @@
 
 A scene is probed once, when its model is built. Every candidate, and fidelity ``full`` with the settings of
 ``FINEST``, runs at the scene's loads and temperatures under each of `conditions`: at the scene's speed, at
-half of it or at its ``operation.lowest_speed_rpm``, and while the speed rises to the scene's. A candidate is
-accurate where in each of them
+half of it or at its ``operation.lowest_speed_rpm``, and while the speed rises to the scene's; where the
+lowest speed is the scene's own, that is held and nothing else is probed. A candidate is accurate where in
+each of them
 
 * the rms velocity of each ring, of all bearings, in dB, and with sound the A-weighted equivalent level at
   each microphone differ by no more than ``fidelity.accuracy.level_dB``;
@@ -26,7 +27,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fmu_bearing.arrays import EngineError
-from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.sources import source_hash
 from fmu_bearing.files import cache_root, write_whole
 from fmu_bearing.modal.campbell import doubts
@@ -34,18 +34,20 @@ from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.progress import Stopped, keeping
 from fmu_bearing.results.base import Quantity, Result, table
 from fmu_bearing.results.table import Table, number
+from fmu_bearing.run.conditions import RATE, WINDOW, Condition, conditions, without_others
 from fmu_bearing.run.metrics import SILENT, SILENT_RAMP, Errors, Figures, errors, measure, measure_between
 from fmu_bearing.run.settings import Setting
 from fmu_bearing.scene import Scene
 from fmu_bearing.scene.read import with_fidelity
 
 WARM_UP = 0.03  # s
-WINDOW = 0.06  # s: twenty turns at 20,000 r/min
 BUDGET = 0.05  # s of each of two timed runs, of which there are four pairs
 CLEARLY = 1.5
-#: 1/s: by this share of its own the speed rises in a second. A motor spindle takes longer to full speed, and
-#: a drive that does it in a tenth accelerates the balls by friction, 10 % of the torque of the 7003C.
-RATE = 1.0
+#: What "sim/CPU" of the table is.
+LEGEND = (
+    "sim/CPU: simulated s per s of the processor, without sound: the slowest of constant inputs, a speed "
+    "that changes or ripples, and temperatures that rise"
+)
 NOT_PROBED = "other loads, preloads and temperatures, jumps of inputs, faster changes of speed"
 
 
@@ -70,34 +72,6 @@ FINEST = Setting("full", "esdirk4", 1e-5, 2e-6)
 NONE = -1
 
 _LEFT_OUT = "left out: "
-
-
-@dataclass(frozen=True)
-class Condition:
-    """What candidates are compared under: speed (rad/s) at the beginning and at the end of a window (s)."""
-
-    first: float
-    last: float
-    window: float
-
-    @property
-    def name(self) -> str:
-        """Speed, or speeds and the time between them."""
-        last = f"{self.last / RPM:,.0f} r/min"
-        if self.first == self.last:
-            return last
-        return f"{self.first / RPM:,.0f} to {last} in {1e3 * self.window:g} ms"
-
-
-def conditions(scene: Scene, window: float = WINDOW) -> tuple[Condition, ...]:
-    """Return the scene's own speed, a second one, and a rise to the first; at standstill the first alone."""
-    own = scene.operation.speed_rpm * RPM
-    if own == 0.0:
-        return (Condition(own, own, window),)
-    lowest = (scene.operation.lowest_speed_rpm or 0.0) * RPM
-    second = 0.5 * own if lowest in (0.0, abs(own)) else math.copysign(lowest, own)
-    pairs = (own, own), (second, second), ((1.0 - RATE * window) * own, own)
-    return tuple(Condition(first, last, window) for first, last in pairs)
 
 
 @dataclass(frozen=True)
@@ -316,7 +290,7 @@ def choose(
     finest = bounded(FINEST, scene)
     first = measure(finest, sounds.at(finest.fidelity.model), warm_up, window, budget=budget)
     truth: dict[Condition, Figures] = {planned[0]: first.figures}
-    missing = "" if len(planned) > 1 else "another speed and a rise of speed, as the shaft does not turn"
+    missing = without_others(scene)
     for one in planned[1:]:
         try:
             truth[one] = measure_between(
@@ -387,7 +361,7 @@ def _cheapest(probes: Sequence[Probe]) -> int:
 
 def cache_file(scene: Scene) -> pathlib.Path:
     """Cache file of a scene's choice, named by a hash of scene, engine and candidates."""
-    way = repr((CANDIDATES, FINEST, WARM_UP, WINDOW, CLEARLY, RATE))
+    way = repr((CANDIDATES, FINEST, WARM_UP, CLEARLY, RATE, conditions(scene)))
     key = hashlib.sha256("\0".join((scene.to_toml(), source_hash(), way)).encode()).hexdigest()
     return cache_root() / "choices" / f"{key}.json"
 

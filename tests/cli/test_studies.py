@@ -62,6 +62,7 @@ def test_choose_prints_table_and_reason(run, auto_file):
     result = run("choose", auto_file)
     assert result.exit_code == 0, result.output
     assert "chosen" in result.output and "fidelity auto: full / esdirk4" in result.output
+    assert choosing.LEGEND in result.output
     data = run("choose", auto_file, "--json").data
     assert data["chosen"].startswith("fidelity auto: full / esdirk4") and len(data["candidates"]) == 2
 

@@ -117,13 +117,26 @@ def test_conditions_follow_the_scene(automatic):
     """Half the speed or the lowest of a run-up; the last 60 ms of a rise that takes a second from rest."""
     scene = automatic(1.0, 0.1)
     assert [rpm(one) for one in conditions(scene)] == [(20000, 20000), (10000, 10000), (18800, 20000)]
-    for speed, lowest, wanted in ((20e3, 3e3, 3000), (-20e3, 3e3, -3000), (-20e3, 20e3, -10000)):
+    for speed, lowest, wanted in ((20e3, 3e3, 3000), (-20e3, 3e3, -3000), (20e3, 2e4 - 1, 19999)):
         keys = {"operation.speed_rpm": speed, "operation.lowest_speed_rpm": lowest}
         own, second, rise = conditions(scene.replace(keys))
         assert rpm(own) == (speed, speed) and rpm(second) == (wanted, wanted)
         assert rpm(rise) == (0.94 * speed, speed)
     at_rest = {"operation.speed_rpm": 0.0, "operation.lowest_speed_rpm": 1e3}
     assert [rpm(one) for one in conditions(scene.replace(at_rest))] == [(0, 0)]
+    for speed in (2e4, -2e4):
+        held = {"operation.speed_rpm": speed, "operation.lowest_speed_rpm": 2e4}
+        assert [rpm(one) for one in conditions(scene.replace(held))] == [(speed, speed)]
+
+
+def test_a_held_speed_is_probed_alone(automatic):
+    """Its lowest speed is its own; what is kept for the scene with a run-up is no choice for it."""
+    scene = automatic(6.0, 0.5)
+    held = scene.replace({"operation.lowest_speed_rpm": 2e4})
+    found = choose(held, FEW[:1], warm_up=2e-3, window=2e-3, budget=1e-3)
+    assert found.probed == ("20,000 r/min",) and len(found.probes[0].errors) == 1
+    words = "not probed: another speed and a rise of speed, as 20,000 r/min are held (operation.lowest_speed"
+    assert words in found.words()
 
 
 def test_at_standstill_it_says_what_it_left_out(automatic):

@@ -90,9 +90,17 @@ class _Cost:
         """Fidelity and sound in words."""
         return name_of(*self.case)
 
-    def longer(self, step: float) -> float:
-        """Return the shortest multiple of ``step`` (s) that so many steps in a row keep; infinite: none."""
-        sums = [np.concatenate(([0.0], np.cumsum(cpu))) for cpu in self.phases.values()]
+    @property
+    def held(self) -> NDArray[np.float64]:
+        """Times of the steps at the held speed (s)."""
+        return self.phases[HELD]
+
+    def longer(self, step: float, phases: Sequence[str] = ()) -> float:
+        """Return the shortest multiple of ``step`` (s) that so many steps in a row keep; infinite: none.
+
+        ``phases``: in which; default: in all.
+        """
+        sums = [np.concatenate(([0.0], np.cumsum(self.phases[one]))) for one in phases or self.phases]
         for count in range(2, min(one.size for one in sums) // 2):
             if all((one[count:] - one[:-count]).max() <= count * step for one in sums):
                 return count * step
@@ -152,17 +160,33 @@ class Realtime(Result):
 
     def _none(self, costs: list[_Cost]) -> str:
         """Advice where nothing keeps the step."""
-        near = min(costs, key=lambda one: one.worst)
-        words = [
-            f"No fidelity keeps the step of {_time(self.step)}: {near.name} takes up to {_time(near.worst)}."
-        ]
-        kept = [cost for cost in costs if cost.phases[HELD].max() <= self.step]
-        if kept:
-            words.append(
-                f"At the held speed {kept[0].name} does: {self._share(float(kept[0].phases[HELD].max()))}."
-            )
-        words.append(f"To change: {self._change(costs)}.")
-        return " ".join(words)
+        none = f"No fidelity keeps the step of {_time(self.step)}"
+        buffered = [cost for cost in costs if cost.longer(self.step) < math.inf]
+        # a single long step says little of a fidelity: with a buffer, or else on average, is what counts
+        near = min(buffered, key=lambda one: one.worst) if buffered else min(costs, key=lambda one: one.mean)
+        took = f"takes up to {_time(near.worst)}"
+        if not buffered:
+            took = f"takes {_time(near.mean)} on average, which is least, and up to {_time(near.worst)}"
+        words = [f"{none}: {near.name} {took}.", self._at_held(costs)]
+        change = self._change(costs)
+        if not buffered and near.mean > near.held.mean() and near.case[0] != FIDELITIES[0]:
+            change = f"let the run-up take longer, so that less is renewed in a second; {change}"
+        return " ".join([*filter(None, words), f"To change: {change}."])
+
+    def _at_held(self, costs: list[_Cost]) -> str:
+        """Return what keeps the step at the held speed, in every step or on average; "": none does."""
+        if kept := [cost for cost in costs if cost.held.max() <= self.step]:
+            return f"At the held speed {kept[0].name} does: {self._share(float(kept[0].held.max()))}."
+        usual = [cost for cost in costs if cost.held.mean() <= self.step]
+        if not usual:
+            return ""
+        first, fastest = usual[0], min(usual, key=lambda one: one.held.mean())
+        words = f"At the held speed {first.name} keeps it on average, by {_time(first.held.mean())}"
+        if (longer := first.longer(self.step, [HELD])) < math.inf:
+            words += f", and with a buffer of {_time(longer)}"
+        if fastest is not first:
+            words += f"; {fastest.name} takes {_time(fastest.held.mean())}"
+        return f"{words}."
 
     def _costs(self) -> list[_Cost]:
         """Costs with sound, the most complete fidelity first, then without."""
@@ -184,12 +208,12 @@ class Realtime(Result):
         for cost in costs:
             if (longer := cost.longer(self.step)) < math.inf:
                 return f"{who or cost.name} would keep a step of {_time(longer)}, or a buffer as long"
-        first = costs[0]
+        first = min(costs, key=lambda one: one.mean)
         if self.step < _SHORT:
             return f"give a longer step; below {_time(_SHORT)} the cost of a step falls less than its length"
         steps = "its steps" if who else f"steps of {first.name}"
         reason = f"{steps} take {_time(first.mean)} on average, so that a longer one helps little"
-        return f"{reason}; take {', '.join([*self._less(first), 'or a faster machine'])}"
+        return f"{reason}; take {_either(self._less(first), 'a faster machine')}"
 
     def _less(self, cost: _Cost) -> list[str]:
         """Name what the scene could leave out."""
@@ -207,6 +231,10 @@ def name_of(fidelity: str, microphones: int) -> str:
     """Return a fidelity and its sound in words."""
     sound = f"with {microphones} microphone{'s' * (microphones > 1)}" if microphones else "without sound"
     return f"{fidelity} {sound}"
+
+
+def _either(ways: Sequence[str], last: str) -> str:
+    return ", ".join([*ways, f"or {last}"]) if ways else last
 
 
 def _capital(words: str) -> str:

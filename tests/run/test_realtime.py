@@ -75,6 +75,28 @@ def test_none_keeps_but_at_a_held_speed_or_in_longer_steps(scene):
     )
 
 
+def test_where_none_keeps_the_fastest_on_average_is_named_not_the_one_of_the_shortest_long_step(scene):
+    """Full never takes above 9.6 ms, rings and response have steps of 34 and 44 ms, and are far cheaper."""
+    timed = []
+    for fidelity, run_up, worst, held in (
+        ("full", 5e-3, 9.6e-3, 5e-3), ("rings", 1.1e-3, 34e-3, 0.61e-3), ("response", 0.8e-3, 44e-3, 0.13e-3)
+    ):  # fmt: skip
+        rising, late = np.full(100, run_up), np.full(100, held)
+        rising[::50], late[10] = worst, 1.5e-3
+        for phase, cpu in (("run-up", rising), ("held", np.maximum(late, held))):
+            timed.append(Timed(fidelity, 0, phase, cpu, cpu, 1e-3))
+    found = Realtime(scene("7003C-spindle"), 1e-3, tuple(timed), {}, "a machine")
+    # response: (98 x 0.8 + 2 x 44) / 100; 1.5 and 0.61 ms do not fit into two steps, 1.5 and twice 0.61 do
+    # into three
+    assert says(
+        found.advice(),
+        "No fidelity keeps the step of 1 ms: response without sound takes 1.66 ms on average, which is "
+        "least, and up to 44 ms. At the held speed rings without sound keeps it on average, by 619 us, and "
+        "with a buffer of 3 ms; response without sound takes 144 us. To change: let the run-up take longer ... steps "
+        "of response without sound take 1.66 ms on average ... take a faster machine",
+    )
+
+
 def test_a_run_up_and_a_held_speed_are_timed_in_every_fidelity(scene):
     found = realtime(scene("7003C-bare"), 1e-3, duration=0.01, microphones=1)
     assert [one.case for one in found.timed] == [

@@ -92,8 +92,8 @@ def test_where_none_keeps_the_fastest_on_average_is_named_not_the_one_of_the_sho
         found.advice(),
         "No fidelity keeps the step of 1 ms: response without sound takes 1.66 ms on average, which is "
         "least, and up to 44 ms. At the held speed rings without sound keeps it on average, by 619 us, and "
-        "with a buffer of 3 ms; response without sound takes 144 us. To change: let the run-up take longer ... steps "
-        "of response without sound take 1.66 ms on average ... take a faster machine",
+        "with a buffer of 3 ms; response without sound takes 144 us. To change: let the run-up take longer "
+        "... steps of response without sound take 1.66 ms on average ... take a faster machine",
     )
 
 

@@ -69,7 +69,8 @@ Settings = Annotated[
         "-s",
         metavar="KEY=VALUE",
         help="Key of the scene (mounting.preload_N=300) or input of the model, in SI units or with a unit "
-        "(preload=300, oil_temperature_degC=50), speeds in r/min (shaft_speed_rpm=9000); once per key.",
+        "(preload=300, oil_temperature_degC=50), speeds in r/min (shaft_speed_rpm=9000); "
+        "a list as in the file, in single quotes ('fmu.outputs=[\"friction_torque\"]'); once per key.",
     ),
 ]
 Fidelity = Annotated[

@@ -64,7 +64,7 @@ def changed(
             inputs[name] = value
         else:
             _check_key(scene, setting, key, named, units)
-            keys[key] = plain_value(text.strip("\"'"))
+            keys[key] = _list(setting, text) if text[0] == "[" else plain_value(text.strip("\"'"))
     return (scene.replace(keys) if keys else scene), inputs
 
 
@@ -139,6 +139,20 @@ def number(setting: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise Refusal(f"--set {setting}: write a number, as preload=300") from None
+
+
+def _list(setting: str, text: str) -> Any:
+    """Return the value of a key that is a list, written as in a scene file; `Refusal` for what is none."""
+    from fmu_bearing.scene.toml_text import parse
+
+    try:
+        return parse(f"value = {text}")["value"]
+    except ValueError:
+        key, _ = pair(setting)
+        raise Refusal(
+            f"--set {setting}: write a list as in a scene file, in single quotes for the shell: "
+            f'--set \'{key}=["first", "second"]\', numbers as [1.0, 2.0]'
+        ) from None
 
 
 def numbers(name: str, text: str | None) -> list[float] | None:

@@ -82,6 +82,7 @@ def test_without_any_the_file_is_taken_as_it_is():
         ("xyz=3", "keys have their table, as mounting.preload_N"),
         ("preload=much", "write a number, as preload=300"),
         ("preload", "write KEY=VALUE"),
+        ("fmu.outputs=[torque]", '--set \'fmu.outputs=["first", "second"]\', numbers as [1.0, 2.0]'),
         ("=3", "write KEY=VALUE"),
     ],
 )
@@ -107,6 +108,15 @@ def test_an_fmu_takes_the_names_that_its_scene_takes():
         start_of(["shaft_speed=9000"], units, [])
     with pytest.raises(ValueError, match="did you mean 'shaft_speed_rpm'"):
         start_of(["shaft_spede=9000"], units, [])
+
+
+def test_a_list_is_written_as_in_a_file():
+    scene = source_of(FILES["one"], ['fmu.outputs=["friction_torque", "mic[1].leq"]'])
+    assert scene.fmu.outputs == ("friction_torque", "mic[1].leq")
+    sections = source_of(
+        FILES["set"], ["spindle.shaft.sections_mm=[[300, 40.0, 0.0]]"]
+    ).spindle.shaft.sections_mm
+    assert [list(one) for one in sections] == [[300.0, 40.0, 0.0]]
 
 
 def test_a_key_that_is_none_is_refused_by_the_scene():

@@ -301,6 +301,12 @@ def show_estimate(found: dict[str, Any], what: str, as_json: bool) -> None:
         f"{found['points']} {what}, {found['kept']} kept; one took {found['probe_s']:.3g} s "
         f"(the first {found['first_s']:.3g} s, with loading and sound): about "
         f"{duration(found['estimate_s'])} on {found['workers']} processes"
+        + (
+            f", of which {duration(found['tables_s'])} for {found['tables']} tables of the contact over a "
+            f"defect, {found['table_s']:.3g} s each, which are kept for later"
+            if found["tables"]
+            else ""
+        )
         + (f"; the probe was refused: {found['reason']}" if found["reason"] else "")
     )
 

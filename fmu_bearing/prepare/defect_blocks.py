@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.engine.layout import DE
+from fmu_bearing.prepare import fits
 from fmu_bearing.prepare.contacts import race_contacts, surfaces
 from fmu_bearing.prepare.defect_shapes import Shape
-from fmu_bearing.prepare.defects import Table, defect_table
+from fmu_bearing.prepare.defects import Table, defect_table, table_file
 from fmu_bearing.prepare.surfaces import Patch, frequencies, mean_patches
 from fmu_bearing.scene import Scene, SceneError, si
 from fmu_bearing.scene.defect import Defect
@@ -65,10 +66,28 @@ def of_scene(scene: Scene, numbers: Sequence[int]) -> list[Placed]:
     return [_placed(scene, number, defect, patches) for number, defect in given]
 
 
+def missing_tables(scene: Scene) -> dict[str, tuple[Shape, float, float, float]]:
+    """Return what tables a scene needs that are not kept: arguments of `defect_table` by the file's name."""
+    missing = {}
+    for bearing in scene.bearings():
+        one = fits.loose(bearing.scene)
+        for defect in () if one.imperfections is None else one.imperfections.defect:
+            for race in _met(defect):
+                given = shape(defect), *surfaces(one, race)
+                if not (file := table_file(*given)).exists():
+                    missing[file.name] = given
+    return missing
+
+
+def _met(defect: Defect) -> list[int]:
+    """Return the races whose contacts meet a defect: 0 inner, 1 outer, of a ball's both."""
+    return [race for race in (0, 1) if _ON[defect.on] in (race, DE.BALL)]
+
+
 def _placed(scene: Scene, number: int, defect: Defect, patches: tuple[Patch, Patch]) -> Placed:
     on, ball = _ON[defect.on], 0.5 * si(scene.bearing).ball_diameter
     own = shape(defect)
-    met = [race for race in (0, 1) if on in (race, DE.BALL)]
+    met = _met(defect)
     tables = [defect_table(own, *surfaces(scene, race)) if race in met else None for race in (0, 1)]
     radii = (ball, ball) if on == DE.BALL else (patches[0].radius, patches[1].radius)
     turn = _WHOLE_BALL if on == DE.BALL else math.pi

@@ -93,16 +93,22 @@ def defect_table(shape: Shape, radius_x: float, radius_y: float, modulus: float)
         For a shape that there is not.
     """
     shape.check()
-    path = cache_root() / "defects" / f"{_key(shape, radius_x, radius_y, modulus)}.npz"
+    path = table_file(shape, radius_x, radius_y, modulus)
     kept = _load(path)
     if kept is not None:
         return kept
     across = "the track's width" if math.isinf(shape.width) else f"{1e3 * shape.width:.3g} mm"
-    what = f"contact over a defect of {1e3 * shape.length:.3g} mm by {across}, once for it"
-    with work(what, unit="places") as one:
+    what = f"table of the contact over a defect of {1e3 * shape.length:.3g} mm by {across}, kept for later"
+    # how many there will be is not known before
+    with work(what, unit="places of some 20 to 50") as one:
         found = computed(shape, radius_x, radius_y, modulus, said=lambda places: one.at(float(places)))
     _save(path, found)
     return found
+
+
+def table_file(shape: Shape, radius_x: float, radius_y: float, modulus: float) -> pathlib.Path:
+    """Return where the table of these numbers is kept, or will be; see `defect_table`."""
+    return cache_root() / "defects" / f"{_key(shape, radius_x, radius_y, modulus)}.npz"
 
 
 def _key(shape: Shape, *numbers: float) -> str:

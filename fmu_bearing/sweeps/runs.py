@@ -5,6 +5,8 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from typing import Any, Protocol
 
+from fmu_bearing.prepare.defect_blocks import missing_tables
+from fmu_bearing.prepare.defects import defect_table
 from fmu_bearing.progress import Stopped, work
 from fmu_bearing.scene import Scene
 from fmu_bearing.sweeps.local import here, processes
@@ -90,17 +92,42 @@ def crew_size(tasks: int, workers: int | None) -> int:
 def estimate(
     plan: Planned, store: Keeps | None, workers: int | None, run: Run = run_point
 ) -> dict[str, Any]:  # fmt: skip
-    """Time one point, twice: the first run also loads kernels and prepares the sound; return what is left."""
-    kept = len(finished(plan, store))
+    """Time one point, twice, and one table of a defect's contact; return what is left.
+
+    The first run also loads kernels and prepares the sound. ``estimate_s`` is the time of all that is left,
+    of which ``tables_s`` is for tables that are not kept.
+    """
+    done = finished(plan, store)
+    kept = len(done)
     task = plan.tasks[len(plan.tasks) // 2]
-    first, second = run(task), run(task)
     left = len({one.key for one in plan.tasks}) - kept
     crew = crew_size(left, workers)
+    tables, table_s = _tables([one.scene for one in plan.tasks if one.key not in done], task.scene, crew)
+    first, second = run(task), run(task)
     return {
         "points": len(plan.tasks), "kept": kept, "sounds": len(plan.sounds), "probe_s": second.wall,
-        "first_s": first.wall, "workers": crew, "estimate_s": left * second.wall / crew,
+        "first_s": first.wall, "workers": crew, "tables": tables, "table_s": table_s,
+        "tables_s": tables * table_s, "estimate_s": left * second.wall / crew + tables * table_s,
         "reason": second.reason,
     }  # fmt: skip
+
+
+def _tables(scenes: Sequence[Scene], probe: Scene, crew: int) -> tuple[int, float]:
+    """Return how many tables of defects scenes lack beside those made now, and the time (s) of each.
+
+    Those of ``probe``, which its run needs, are made and kept, else one of another scene. A table takes all
+    cores as far as it can: several processes that make tables share them, and gain what one leaves idle.
+    """
+    own = missing_tables(probe)
+    others = {name: given for one in scenes for name, given in missing_tables(one).items()}
+    now = own or dict([*others.items()][:1])
+    if not now:
+        return 0, 0.0
+    begun, used = clock.perf_counter(), clock.process_time()
+    for given in now.values():
+        defect_table(*given)
+    wall, busy = clock.perf_counter() - begun, clock.process_time() - used
+    return len(others.keys() - now.keys()), max(wall / crew, min(wall, busy / cores())) / len(now)
 
 
 def _ends(

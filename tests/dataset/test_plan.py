@@ -6,13 +6,54 @@ import pytest
 from fmu_bearing.dataset import lay_out, read_plan
 from fmu_bearing.dataset.draw import drawn, latin
 from fmu_bearing.interface.names import UnknownName
+from fmu_bearing.prepare import defects
 from fmu_bearing.sweeps import SweepError
+from fmu_bearing.sweeps.point import nothing
+from fmu_bearing.sweeps.runs import estimate
 from tests.dataset import plans
 
 
 @pytest.fixture(scope="module")
 def bare(scene):
     return scene("7003C-bare")
+
+
+def spalls(folder, scene, sizes, **parts):
+    """Plan of healthy runs and of spalls of so many sizes."""
+    classes = """[[class]]
+name = "healthy"
+share = 0.5
+[[class]]
+name = "outer"
+share = 0.5
+defect = { on = "outer", shape = "spall", length_mm = "0.3:0.6log", width_mm = 0.5, depth_um = 100.0 }
+"""
+    return plans.plan(
+        folder, scene, head=plans.HEAD.replace("seed", f"sizes = {sizes}\nseed"), classes=classes, **parts
+    )
+
+
+def test_the_time_of_a_set_has_that_of_its_tables(bare, tmp_path, monkeypatch):
+    """Six runs of 2 s on two processes and three sizes: one table is made and timed, two are left."""
+    made_of = []
+
+    def coarse(*given, **more):
+        made_of.append(given)
+        return computed(*given, approaches=4, places=9, cells=(16, 16), **more)
+
+    computed = defects.computed
+    monkeypatch.setenv("FMU_BEARING_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(defects, "computed", coarse)
+    defects.defect_table.cache_clear()
+    made = lay_out(spalls(tmp_path, bare, 3))
+    found = estimate(made, None, 2, run=lambda task: nothing(task, "", 2.0))
+    assert len(made_of) == 1 and (found["tables"], found["workers"]) == (2, 2)
+    assert found["table_s"] > 0.0 and found["tables_s"] == pytest.approx(2 * found["table_s"])
+    assert found["estimate_s"] == pytest.approx(6 * 2.0 / 2 + found["tables_s"])
+    # what is kept is not made a second time
+    counts = [estimate(made, None, 2, run=lambda task: nothing(task, "", 2.0))["tables"] for _ in range(3)]
+    assert counts == [1, 0, 0] and len(made_of) == 3
+    defects.defect_table.cache_clear()
 
 
 @pytest.mark.parametrize(("runs", "counts"), [(10, [3, 2, 5]), (11, [3, 3, 5]), (1000, [260, 250, 490])])

@@ -9,6 +9,7 @@ import typer
 
 from fmu_bearing.cli import base, options
 from fmu_bearing.cli.settings import changed, start_of
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.files import rescued
 
 if TYPE_CHECKING:
@@ -64,8 +65,10 @@ def simulate(
             raise base.Refusal(
                 "--input-from-start is refused: it shifts the times of --input, which is not given"
             )
-        chosen, start = _begun(source, settings, fidelity)
-        turning = base.shaft_speed(speed, chosen)
+        chosen, start, whose = _begun(source, settings, fidelity)
+        turning = base.shaft_speed(speed, whose)
+        if (asked := start.get("shaft_speed")) is not None:
+            base.shaft_speed(asked / RPM, whose, "--set shaft_speed_rpm")
         start |= {} if turning is None else {"shaft_speed": turning}
         run = run_it(
             chosen, stop_time, step=step, inputs=inputs, input_from_start=input_from_start,
@@ -150,8 +153,11 @@ def split(options: list[str] | None) -> list[str] | None:
 
 def _begun(
     source: Path, settings: list[str] | None, fidelity: str | None
-) -> tuple["Path | Scene", dict[str, float]]:
-    """Return what is run, with keys and fidelity of the command line, and the values it starts with."""
+) -> tuple["Path | Scene", dict[str, float], "Path | Scene"]:
+    """Return what is run, with keys and fidelity of the command line, the values it starts with, its scene.
+
+    The scene of an FMU is the one inside; of another tool's FMU it is the FMU itself.
+    """
     from fmu_bearing.interface.parameters import parameters
     from fmu_bearing.run.simulate_fmu import open_fmu
     from fmu_bearing.scene.read import read_scene, with_fidelity
@@ -159,13 +165,12 @@ def _begun(
     if source.suffix == ".fmu":
         if fidelity is not None:
             raise base.Refusal(f"--fidelity is refused: that of {source} was settled when it was built")
-        if not settings:
-            return source, {}
         player = open_fmu(source)
         units = {name: one.unit for name, one in player.inputs.items()}
-        return source, start_of(settings, units, player.settable)
+        return source, start_of(settings, units, player.settable), player.scene or source
     if not settings and fidelity is None:
-        return source, {}
+        return source, {}, source
     scene = read_scene(source)
     scene = scene if fidelity is None else with_fidelity(scene, model=fidelity)
-    return changed(scene, settings, [variable.name for variable in parameters(scene)])
+    scene, start = changed(scene, settings, [variable.name for variable in parameters(scene)])
+    return scene, start, scene

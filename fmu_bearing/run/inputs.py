@@ -39,15 +39,23 @@ class Input:
 
     def check(self, name: str, table: NDArray[Any]) -> None:
         """Raise ``ValueError`` for the first value of a table's column that may not be set."""
-        low, high, slack = self.limits()
-        values = table[name]
-        wrong = ~(np.isfinite(values) & (values >= low - slack) & (values <= high + slack))
+        wrong = self._wrong(table[name])
         if wrong.any():
             first = table[int(np.argmax(wrong))]
-            raise ValueError(
-                f"input {name} = {first[name]:g} at t = {first['time']:g} s is refused: allowed are "
-                f"{low:g} to {high:g} {self.unit}".rstrip()
-            )
+            raise ValueError(f"input {name} = {first[name]:g} at t = {first['time']:g} s {self._refused()}")
+
+    def check_start(self, name: str, value: float) -> None:
+        """Raise ``ValueError`` for a value at the start that may not be set."""
+        if self._wrong(np.array(value)):
+            raise ValueError(f"{name} = {value:g} {self._refused()}")
+
+    def _wrong(self, values: NDArray[np.float64]) -> NDArray[np.bool_]:
+        low, high, slack = self.limits()
+        return np.asarray(~(np.isfinite(values) & (values >= low - slack) & (values <= high + slack)))
+
+    def _refused(self) -> str:
+        low, high, _ = self.limits()
+        return f"is refused: allowed are {low:g} to {high:g} {self.unit}".rstrip()
 
 
 def input_table(

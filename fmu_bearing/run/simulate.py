@@ -29,6 +29,7 @@ from fmu_bearing.scene.words import loose_words
 if TYPE_CHECKING:
     from fmu_bearing.run.simulate_fmu import FmuPlayer
 
+_ROUNDING = 1e-9  # of a run, by which its step may seem longer
 _FIRST = 1.0  # s of waiting after which a run is estimated
 _LONG, _MUCH = 3600.0, 4e9  # s, bytes: beyond these a run may be a slip of the keyboard
 
@@ -270,3 +271,9 @@ def _check_times(stop_time: float, step: float) -> None:
         number(name, value)
         if not (math.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} = {value} s: it must be a finite, positive number of seconds")
+    if step > stop_time * (1.0 + _ROUNDING):
+        warnings.warn(
+            f"step = {step:g} s is longer than the run, which takes one step of {stop_time:g} s: give a "
+            "shorter step or a later end",
+            stacklevel=3,
+        )

@@ -35,18 +35,26 @@ class FmuPlayer:
         self.scene = _scene_inside(path)
         self.readable = {v.name: _unit(v) for v in variables}
         self.outputs = [v.name for v in variables if v.causality == "output"]
-        self.inputs = {
-            v.name: Input(float(v.start or 0.0), _bound(v.min), _bound(v.max), _unit(v))
+        own = {
+            v.name: (v.causality, Input(float(v.start or 0.0), _bound(v.min), _bound(v.max), _unit(v)))
             for v in variables
-            if v.causality == "input" and v.type == "Real"
+            if v.causality in ("input", "parameter") and v.type == "Real"
         }
+        self.inputs = {name: one for name, (causality, one) in own.items() if causality == "input"}
+        self.ranges = {name: one for name, (_, one) in own.items()}
         self.settable = [v.name for v in variables if v.causality in ("input", "parameter")]
 
     def run(
         self, stop_time: float, step: float, table: NDArray[Any] | None, start: dict[str, float],
         names: Sequence[str], proceed: Proceed,
     ) -> tuple[NDArray[Any], str, str]:  # fmt: skip
-        """Return the table of results, how the run ended, and why."""
+        """Return the table of results, how the run ended, and why.
+
+        A start value outside its range is refused before: FMPy would run up to the first step with it.
+        """
+        for name, value in start.items():
+            if name in self.ranges:
+                self.ranges[name].check_start(name, value)
         watch = _Watch(proceed, stop_time)
         with tempfile.TemporaryDirectory() as folder:
             self._unpack(folder)

@@ -43,6 +43,32 @@ def test_simulate_scene_and_fmu_write_the_same(run, rings_file, fmu, tmp_path):
     assert found["scene"] == found["fmu"]
 
 
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--set", "preload=-5"), "preload = -5 is refused: allowed are 0 to 10000 N"),
+        (("--set", "preload=nan"), "preload = nan is refused: allowed are 0 to 10000 N"),
+        (("--set", "tolerance=7"), "tolerance = 7 is refused"),
+        (("--speed", 9549297), "--speed 9.5493e+06 r/min is refused: allowed are -100000 to 100000 r/min"),
+        (
+            ("--set", "shaft_speed_rpm=3e6"),
+            "--set shaft_speed_rpm 3e+06 r/min is refused: allowed are -100000",
+        ),
+    ],
+)
+def test_start_values_of_an_fmu_are_refused_before_the_run(run, fmu, tmp_path, options, words):
+    refused = run("simulate", fmu, *options, "-t", 0.01, "-o", tmp_path / "run.csv")
+    assert refused.exit_code == 2 and words in refused.stderr and not (tmp_path / "run.csv").exists()
+
+
+def test_a_step_longer_than_the_run_is_a_caution(run, rings_file, tmp_path):
+    done = run("simulate", rings_file, "--step", 10, "-t", 0.01, "-o", tmp_path / "run.csv")
+    assert done.exit_code == 0 and "2 points to 0.01 s" in done.stdout
+    assert "caution: step = 10 s is longer than the run, which takes one step of 0.01 s" in done.stderr
+    done = run("simulate", rings_file, "--step", 0.01, "-t", 0.01, "-o", tmp_path / "other.csv")
+    assert done.exit_code == 0 and "longer than the run" not in done.stderr
+
+
 @pytest.mark.heavy
 def test_simulate_loads_only_what_a_first_run_needs(rings_file, tmp_path):
     """A first run is mostly loading: SciPy's signal and statistics would take half a second more.

@@ -84,6 +84,7 @@ def realtime(
         f"{found.scene.name}: {count} steps of {1e3 * step:g} ms, us of the processor", *found.table(SHORT)
     )
     typer.echo(found.machine)
+    typer.echo(found.outputs())
     typer.echo(found.advice())
     for name, reason in found.left_out.items():
         base.tell(f"not timed: {name}: {reason}")

@@ -18,7 +18,12 @@ from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.choices import FIDELITIES
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import U
+from fmu_bearing.interface import fmu_variables, variables
+from fmu_bearing.interface.inputs import input_values
+from fmu_bearing.prepare.accelerometers import sensor_blocks
+from fmu_bearing.prepare.model import pack
 from fmu_bearing.prepare.sound_block import sound_blocks
+from fmu_bearing.prepare.unread_outputs import without_unread
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.table import machine
 from fmu_bearing.run.march import at_speeds, march
@@ -66,6 +71,8 @@ def realtime(
 ) -> Realtime:
     """Time the communication steps of a scene: a run-up, then the speed held.
 
+    Where ``fmu.outputs`` of the scene names what its FMU shows, no more is computed than the FMU does.
+
     Parameters
     ----------
     source : Scene or path
@@ -107,6 +114,7 @@ def realtime(
     scene = scene_of(source)
     steps = _steps(step, duration)
     first, last = speeds or _speeds(scene)
+    shown = _shown(scene)
     left_out: dict[str, str] = {}
     cases = list(_cases(scene, _known(fidelities), microphones, left_out))
     timed: list[Timed] = []
@@ -118,7 +126,7 @@ def realtime(
     with keeping(timed, study, lambda: ", ".join(due)):
         for case in track(cases):
             try:
-                timed += [*_timed(case, step, steps, first, last)]
+                timed += [*_timed(case, step, steps, first, last, shown)]
             except ValueError as problem:
                 left_out[case.name] = str(problem)
             due.remove(case.name)
@@ -187,9 +195,25 @@ def _first(scene: Scene, microphones: int) -> Scene:
     return scene.model_copy(update={"sound": sound})
 
 
-def _timed(case: _Case, step: float, steps: int, first: float, last: float) -> Iterator[Timed]:
-    """Run a case; times by phase."""
-    bearing = Arrays.of(case.scene, *sound_blocks(case.scene)).at({U.SPEED: first}).init()
+def _shown(scene: Scene) -> frozenset[str] | None:
+    """Return the names of what a scene's FMU shows, which alone it computes; None: ``fmu`` names none."""
+    if scene.fmu is None or scene.fmu.outputs is None:
+        return None
+    plain = scene.model_copy(update={"fmu": scene.fmu.model_copy(update={"naming": "structured"})})
+    return frozenset(one.name for one in fmu_variables(plain, variables(scene, 0.0)))
+
+
+def _timed(
+    case: _Case, step: float, steps: int, first: float, last: float, shown: frozenset[str] | None
+) -> Iterator[Timed]:  # fmt: skip
+    """Run a case, as its FMU does that shows these names, None: all; times by phase."""
+    scene = case.scene
+    packed = pack(scene, *sound_blocks(scene), sensors=sensor_blocks(scene))
+    if shown is not None:
+        packed = without_unread(packed, [
+            one for one in variables(scene, 0.0) if one.array != "z" or one.name in shown
+        ])  # fmt: skip
+    bearing = Arrays(packed, input_values(scene)).at({U.SPEED: first}).init()
     bearing.run(WARM_UP * step, step)
     rising = first + (last - first) * np.arange(1, steps + 1) / steps
     phases = {} if first == last else {"run-up": rising}

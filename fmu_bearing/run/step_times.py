@@ -18,6 +18,7 @@ __all__ = ["COLUMNS", "HELD", "SHORT", "Realtime", "Timed", "name_of"]
 SHORT = ("fidelity", "microphones", "phase", "mean, us", "p50", "p99", "worst", "late")
 _AMPLE = 0.8  # of the step: what takes more has little margin
 _SHORT = 1e-4  # s: internal steps are some tens of microseconds long, and a call computes one at least
+_NAMES = 5  # of outputs that are printed
 HELD = "held"
 
 
@@ -112,7 +113,7 @@ class Realtime(Result):
     """Times of the steps of a scene."""
 
     quantities = (
-        "scene = scene.name", "step_s", "machine", "steps = timed", "left_out", "advice",
+        "scene = scene.name", "step_s", "machine", "steps = timed", "left_out", "outputs", "advice",
     )  # fmt: skip
 
     scene: Scene
@@ -131,6 +132,17 @@ class Realtime(Result):
     def table(self, columns: Sequence[str] = COLUMNS) -> Table:
         """Return columns, of `COLUMNS`, and rows."""
         return table(Timed, self.timed, columns)
+
+    def outputs(self) -> str:
+        """Return which outputs are computed, as in the FMU of the scene, and what that takes away."""
+        named = None if self.scene.fmu is None else self.scene.fmu.outputs
+        if named is None:
+            return "all outputs are computed; an FMU whose scene names few (fmu.outputs) may be faster"
+        more = f" and {len(named) - _NAMES} more" if len(named) > _NAMES else ""
+        return (
+            f"computed as in the FMU, for fmu.outputs = {', '.join(named[:_NAMES])}{more}: balls, contacts, "
+            "sound and sensors only as far as these show them"
+        )
 
     def advice(self) -> str:
         """Return in two or three sentences which fidelity keeps the step and what to change.

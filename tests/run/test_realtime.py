@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from fmu_bearing import realtime
+from fmu_bearing.arrays import Arrays
 from fmu_bearing.engine.constants import RPM
+from fmu_bearing.engine.layout import P
 from fmu_bearing.run.step_times import COLUMNS, SHORT, Realtime, Timed
 from tests.messages import says
 
@@ -107,6 +109,29 @@ def test_a_run_up_and_a_held_speed_are_timed_in_every_fidelity(scene):
         assert one.cpu.shape == one.clock.shape == (10,)
         assert (one.cpu > 0.0).all() and (one.clock > 0.0).all()
     assert not found.left_out and "Python" in found.machine
+
+
+def test_what_the_fmu_does_not_show_is_not_computed(scene, monkeypatch):
+    """Switches of the engine, with the scene's names and with flat ones."""
+    seen = []
+
+    def kept(p, u):
+        seen.append([bool(p[place]) for place in (P.READ_BALLS, P.READ_SOUND)])
+        return Arrays(p, u)
+
+    monkeypatch.setattr("fmu_bearing.run.realtime.Arrays", kept)
+    bare, held = scene("7003C-bare"), {"duration": 4e-3, "fidelities": ["response"]}
+    for outputs, naming, wanted in (
+        (None, "structured", [[True, True], [True, True]]),
+        (("friction_torque",), "structured", [[False, False], [False, False]]),
+        (("mic[1].leq",), "flat", [[False, False], [False, True]]),
+        (("contact.inner.load_max",), "flat", [[True, False], [True, False]]),
+    ):
+        seen.clear()
+        found = realtime(bare.replace({"fmu.outputs": outputs, "fmu.naming": naming}), 1e-3, **held)
+        assert seen == wanted, outputs
+        assert ("all outputs are computed" in found.outputs()) == (outputs is None)
+    assert "fmu.outputs = contact.inner.load_max: " in found.summary()["outputs"]
 
 
 def test_nobody_keeps_a_tiny_step_and_response_a_long_one(scene):

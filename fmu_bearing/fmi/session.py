@@ -51,6 +51,7 @@ class Session:
     def __init__(self, model: Model, log: Callable[[str, str], None]) -> None:
         self.phase = Phase.INSTANTIATED
         self.time = 0.0
+        self._refused: tuple[str, float] | None = None  # step refused last: why, and its size (s), see `step`
         self._variables = model.variables
         self._instance = Instance(model, lambda text: self._log(WARNING, text))
         self._log = log
@@ -123,10 +124,13 @@ class Session:
             return "" if unchanged else f"{refused}parameters cannot be set {self.phase.value}"
         if self.phase is not Phase.STEPPING:
             self._unsettle()
+        before = self._instance.get(variable.name)
         try:
             self._instance.set(variable.name, value)
         except ValueError as error:
             return str(error)
+        if value != before and not self._wrong:  # a refused value waits for its own true one
+            self._refused = None
         return ""
 
     def _may_wait(self, reference: int, value: Any) -> bool:
@@ -220,7 +224,13 @@ class Session:
             instance.p[_TUNABLES] = tunables
 
     def step(self, time: float, size: float) -> bool:
-        """Advance from ``time`` by ``size`` (s); ``False``, state unchanged, where that is refused."""
+        """Advance from ``time`` by ``size`` (s); ``False``, state unchanged, where that is refused.
+
+        There are masters that repeat a discarded step for ever, so one refused again for the same reason,
+        with nothing changed in between, is logged as an error. A refused value is the same reason at any
+        size.
+        """
+        same = math.inf if self._wrong else size
         problem = self._objection(time, size)
         if not problem:
             try:
@@ -228,9 +238,14 @@ class Session:
             except EngineError as error:
                 problem = str(error)
         if problem:
-            self._log(DISCARD, f"step from {time!r} s by {size!r} s refused: {problem}")
+            text = f"step from {time!r} s by {size!r} s refused: {problem}"
+            if self._refused == (problem, same):
+                self._log(ERROR, f"{text}; again, and nothing was changed")
+            else:
+                self._refused = (problem, same)
+                self._log(DISCARD, text)
             return False
-        self._shown = None
+        self._shown = self._refused = None
         self.time = time + size
         return True
 
@@ -293,4 +308,4 @@ class Session:
         self.phase = _PHASES[state.phase]
         self.time = state.time
         self._wrong = dict(state.wrong)
-        self._shown = None
+        self._shown = self._refused = None

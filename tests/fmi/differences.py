@@ -48,6 +48,8 @@ DIFFERENCES = (
     Difference("tolerance not finite", (ERROR, ERROR), (OK, DISCARD), _NO_STATUS),
     Difference("output without equilibrium", ERROR, OK, _NO_STATUS),
     Difference("damaged state", (ERROR, OK), (OK, DISCARD), _NO_STATUS),
+    Difference("step refused again", ERROR, DISCARD, _NO_STATUS),
+    Difference("asked to end after fmi2Discard", 0, 1, _FIXED),
     Difference("last successful time", "of the engine", "of the master", _FIXED),
     Difference("status before initialisation", ERROR, OK, _FIXED),
     Difference("status of a pending step", DISCARD, ERROR, _FIXED),

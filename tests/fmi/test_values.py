@@ -2,8 +2,12 @@
 
 import ctypes
 import math
+import time
+from contextlib import ExitStack
 
+import fmpy
 import pytest
+from fmpy.fmi1 import FMICallException
 
 from .conftest import DISCARD, ERROR, OK, STEP, WARNING
 
@@ -87,10 +91,70 @@ def test_zeros_of_a_master_that_loads_wait_for_true_values(master):
     assert status == DISCARD and all(f"{name} = 0.0 is refused: allowed are" in late for name in kelvins)
     assert late.endswith("set before the end of initialisation, and no value in the range has come since")
     assert bearing.last_time() == (OK, 0.0)
-    for name in ("pedestal_stiffness", *kelvins):
-        assert bearing.step(0.0) == DISCARD
+    for name in kelvins:  # each step waits for another one
         assert bearing.set(name, untouched.get(name)) == OK
+        assert bearing.step(0.0) == DISCARD
+    assert bearing.set("pedestal_stiffness", untouched.get("pedestal_stiffness")) == OK
     assert bearing.run(2) == untouched.run(2)
+
+
+@pytest.mark.parametrize("size", [STEP, 0.5 * STEP])
+def test_a_step_that_waits_in_vain_is_refused_for_good(master, expected, size):
+    """FMPy repeats a discarded step for ever; others repeat it with half of its size."""
+    bearing = master()
+    assert bearing.set("shaft_speed", 1e6) == bearing.set("oil_temperature", 0.0) == OK
+    bearing.start()
+    assert bearing.step(0.0) == DISCARD
+    assert bearing.set("oil_temperature", 300.0) == OK
+    assert bearing.step(0.0) == DISCARD  # one of the two values came
+    assert bearing.set("preload", 400.0) == OK  # which does not matter
+    assert bearing.step(0.0, size) == expected["step refused again"]
+    (late,) = [text for _, category, text in bearing.log if category == "logStatusError"]
+    assert "shaft_speed = 1000000.0 is refused: allowed are -10472 to 10472 rad/s; set before" in late
+    assert late.startswith(f"step from 0.0 s by {size!r} s refused: ")
+    assert late.endswith("no value in the range has come since; again, and nothing was changed")
+
+
+def test_the_other_refusals_of_a_step_do_not_repeat_for_ever(master, expected):
+    bearing, other = master().start(), master().start()
+    assert [bearing.step(0.0, size) for size in (1e6, 2e6, 1e6)] == [DISCARD] * 3  # each is another request
+    assert bearing.step(0.0, 1e6) == expected["step refused again"]
+    assert other.step(0.0, 1e6) == DISCARD
+    state = other.keep()
+    for change in (lambda: other.set("preload", 450.0), lambda: other.put_back(state)):
+        assert change() == OK
+        assert other.step(0.0, 1e6) == DISCARD
+    other.release(state)
+    assert other.step(0.0) == OK
+    assert other.step(STEP, 1e6) == DISCARD
+
+
+def test_stock_fmpy_ends_at_a_start_value_out_of_range(fmu, flavour, expected):
+    log = []
+    begun = time.perf_counter()
+    with ExitStack() as stack:
+        raised = flavour == "native" and stack.enter_context(
+            pytest.raises(FMICallException, match=r"fmi2DoStep failed with status 3 \(error\)")
+        )
+        found = fmpy.simulate_fmu(
+            str(fmu), stop_time=0.01, output_interval=1e-3, start_values={"preload": -5.0}, timeout=30.0,
+            debug_logging=True, logger=lambda *said: log.append(said[-1].decode()),
+        )  # fmt: skip
+    assert time.perf_counter() - begun < 20.0  # s: it takes a second, and the Python build loads its kernels
+    assert any("preload = -5.0 is refused: allowed are 0 to 10000 N" in said for said in log)
+    if raised:
+        assert log[-1].endswith("; again, and nothing was changed")
+    else:  # pythonfmu asks it to end
+        assert found["time"].tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("goes_on", [False, True])
+def test_whether_a_refused_step_asks_the_host_to_end(master, expected, goes_on):
+    bearing, answer = master().start(), ctypes.c_int(7)
+    assert bearing.step(0.0, 1e6) == DISCARD
+    assert not goes_on or bearing.step(0.0) == OK
+    assert bearing.call("GetBooleanStatus", 3, ctypes.byref(answer)) == OK
+    assert answer.value == expected["asked to end after fmi2Discard"]
 
 
 def test_a_value_that_waits_is_part_of_the_state(master):

@@ -108,6 +108,44 @@ def test_smaller_step_after_a_failure(master):
     assert one.everything() == other.everything()
 
 
+CHANGES = {
+    "an input": lambda one: one.set("load", 60.0),
+    "the rate of an input": lambda one: one.rate("load", 40.0),
+    "a state set": lambda one: one.put_back(one.keep()),
+    "another step": lambda one: one.step(0.0, 0.2) - DISCARD,
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_step_refused_again_is_an_error_unless_something_was_changed(master, change):
+    one = master().start()
+    assert one.set("trouble", 1.0) == OK
+    assert one.step(0.0, 0.1) == DISCARD
+    assert one.set("load", 50.0) == one.rate("load", 0.0) == OK  # what they are already
+    assert one.step(0.0, 0.1) == ERROR
+    first, again = (text for status, _, text in one.log if "0.0 s by 0.1 s refused" in text)
+    assert again == f"{first}; again, and nothing was changed"
+    assert one.step(0.0, 0.05) == ERROR  # nothing leads on but a reset or an earlier state
+    other = master().start()
+    assert other.set("trouble", 1.0) == OK
+    for _ in range(3):
+        assert other.step(0.0, 0.1) == DISCARD
+        assert other.set("trouble", 0.75) == other.set("trouble", 1.0) == OK
+    assert other.step(0.0, 0.1) == DISCARD
+    assert CHANGES[change](other) == OK
+    assert other.step(0.0, 0.1) == DISCARD
+    assert other.step(0.0, 0.1) == ERROR
+
+
+def test_a_ramp_refused_again_is_an_error(master):
+    one = master().start()
+    assert one.rate("load", 1e6) == OK
+    assert one.step(0.0, 0.5) == DISCARD
+    assert one.rate("load", 1e6) == OK  # hosts with rates give them before each step
+    assert one.step(0.0, 0.5) == ERROR
+    assert one.log[-1][2].endswith("10000 N; again, and nothing was changed")
+
+
 def test_failure_can_be_followed_by_an_earlier_state(master):
     one = master().start()
     state = one.keep()
@@ -181,7 +219,7 @@ def test_ramp_out_of_range_is_refused(master, rate):
     assert f"load = {50.0 + 0.5 * rate!r} is refused: allowed are 0 to 10000 N" in one.messages
     assert one.everything() == before
     assert one.last_time() == (OK, 0.0)
-    assert one.step(0.0, 0.5) == DISCARD  # the rate is still there
+    assert one.step(0.0, 0.25) == DISCARD  # the rate is still there
     assert one.rate("load", 0.0) == OK
     assert one.run(2) == other.run(2)
 

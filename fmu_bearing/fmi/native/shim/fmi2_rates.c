@@ -51,7 +51,9 @@ static fmi2Status take_rate(Instance *it, fmi2ValueReference reference, fmi2Inte
     Text text = {0};
     if (status != fmi2OK) return status;
     if (isfinite(rate)) {
-        it->rates[it->model.variables[reference].index] = rate;
+        double *at = &it->rates[it->model.variables[reference].index];
+        if (rate != *at) instance_changed(it);
+        *at = rate;
         it->rated = 1;
         return fmi2OK;
     }

@@ -54,6 +54,18 @@ static fmi2Status coarse_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
+/* Refuse a step. Refused again, with nothing changed, it is an error: there are masters that repeat a discarded
+ * step for ever. `same` is the size at which it would be refused again. */
+static fmi2Status discard(Instance *it, double same, Text *text)
+{
+    if (same == it->refused) {
+        text_add(text, "; again, and nothing was changed", NULL);
+        return instance_fail(it, text);
+    }
+    it->refused = same;
+    return instance_refuse(it, fmi2Discard, text);
+}
+
 /* Refuse a step while an input has had no value in its range. */
 static fmi2Status still_waiting(Instance *it, double time, double size)
 {
@@ -69,7 +81,7 @@ static fmi2Status still_waiting(Instance *it, double time, double size)
     }
     text_add(&text, "set before the end of initialisation, and no value in the range has come since", NULL);
     it->reached = it->time;
-    return instance_refuse(it, fmi2Discard, &text);
+    return discard(it, INFINITY, &text);
 }
 
 /* Copy numbers; a few of them in line, as a call would take longer. */
@@ -141,7 +153,7 @@ static fmi2Status undo(Instance *it, double time, double size, int32_t status)
     model_add_reason(&it->model, status, &text);
     text_add(&text, "; ", NULL);
     instance_add_inputs(it, &text);
-    if (there) return instance_refuse(it, fmi2Discard, &text);
+    if (there) return discard(it, size, &text);
     text_add(&text, "; the state before the step could not be found again", NULL);
     return instance_fail(it, &text);
 }
@@ -160,6 +172,7 @@ static inline fmi2Status advance(Instance *it, double time, double size, const d
         it->kept_z = spare;
     }
     it->last_step = size;
+    it->refused = 0.0;
     it->reached = it->time = time + size;
     instance_warn(it);
     return fmi2OK;
@@ -190,7 +203,7 @@ static fmi2Status ramped(Instance *it, double time, double size)
         text_add(&text, "with its rate an input would leave its range: ", text_string(&why), NULL);
         text_free(&why);
         it->reached = it->time;
-        return instance_refuse(it, fmi2Discard, &text);
+        return discard(it, size, &text);
     }
     for (i = 0; i < head->n_u; i++) {
         double share = i == head->ramped || i - head->led < head->n_led ? 1.0 : 0.5;

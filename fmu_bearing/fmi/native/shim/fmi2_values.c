@@ -187,6 +187,7 @@ static fmi2Status take(Instance *it, fmi2ValueReference reference, unsigned type
         text_free(&text);
         return instance_refuse(it, fmi2Discard, &said);
     }
+    if (value != *slot->at) instance_changed(it);
     *slot->at = value;
     if (it->model.variables[reference].array == ARRAY_P) instance_forget(it); /* see `note`: inputs are kept alone */
     instance_end_waiting(it, reference);

@@ -27,6 +27,12 @@ fmi2Status instance_fail(Instance *it, Text *text)
     return instance_refuse(it, fmi2Error, text);
 }
 
+/* Note a change. A value that waits is no other for it: only its own true value helps. */
+void instance_changed(Instance *it)
+{
+    if (!it->n_waiting) it->refused = 0.0;
+}
+
 /* Next array in the one block of memory, on a cache line of its own; only counted while there is none. */
 static double *carve(double *memory, size_t *used, uint64_t count)
 {
@@ -153,7 +159,7 @@ void instance_reset(Instance *it)
     it->rated = 0;
     it->tracks = it->most_journal > 1; /* then the state before the last step is not at hand */
     instance_forget(it);
-    it->time = it->reached = it->last_step = 0.0;
+    it->time = it->reached = it->last_step = it->refused = 0.0;
     memcpy(it->model.p, it->tunables, (size_t)head->n_tunables * sizeof(double));
     memcpy(it->u, it->model.u, (size_t)head->n_u * sizeof(double));
     memset(it->rates, 0, (size_t)head->n_u * sizeof(double));
@@ -199,6 +205,7 @@ void instance_end_waiting(Instance *it, uint64_t reference)
     if (variable->array != ARRAY_U || isnan(it->waiting[variable->index])) return;
     it->waiting[variable->index] = NAN;
     it->n_waiting--;
+    it->refused = 0.0;
 }
 
 /* Append "inputs were shaft_speed = ...". */

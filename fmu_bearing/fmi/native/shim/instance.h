@@ -26,6 +26,7 @@ typedef struct Instance {
     int settled; /* the engine has been initialised at the present values */
     int rated;   /* some input has a rate */
     uint64_t warned; /* one bit per warning that was given */
+    double refused; /* size of the step refused last, with nothing changed since (s); 0: none; infinite: any size */
     double time; /* reached by the master (s) */
     double reached, last_step; /* time the engine reached; step behind, 0 if there is none to look back on */
     KernelStep *step;
@@ -80,13 +81,16 @@ void instance_add_inputs(const Instance *it, Text *text);
 /* Say why a call is refused, and return its status; the text is given back. */
 fmi2Status instance_refuse(Instance *it, fmi2Status status, Text *text);
 
+/* Note that a value was changed on which the answer to a step may depend. */
+void instance_changed(Instance *it);
+
 /* Say why a call is an error: nothing but reset or an earlier state helps then. Returns fmi2Error. */
 fmi2Status instance_fail(Instance *it, Text *text);
 
 /* Keep a value of an input that is out of its range, which has its start value until one in the range comes. */
 void instance_keep_waiting(Instance *it, uint64_t reference, double value);
 
-/* Note that an input has a value in its range. */
+/* Note that an input has a value in its range: a step that waited for it is another one now. */
 void instance_end_waiting(Instance *it, uint64_t reference);
 
 /* Whether a variable may have a value; appends why not. */

@@ -75,6 +75,7 @@ void state_put_back(Instance *it, const State *state)
     it->time = state->time;
     it->reached = state->reached;
     it->last_step = state->last_step;
+    it->refused = 0.0;
     get(&at, it->rates, head->n_u);
     get(&at, it->waiting, head->n_u);
     get(&at, it->u, head->n_u);

@@ -11,10 +11,10 @@ Check = Callable[[Subject], Iterator[Remark]]
 
 CHECKS: tuple[Check, ...] = (
     life.instantiates, life.versions, life.other_guid, life.start_values, life.finite, life.independent,
-    life.reset, refusals.values_not_finite, refusals.values_out_of_range, refusals.steps_of_no_length,
-    refusals.wrong_time, abilities.variable_steps, abilities.input_derivatives, abilities.output_derivatives,
-    abilities.directional_derivatives, abilities.states, abilities.serialised_states,
-    abilities.reference_results,
+    life.reset, refusals.values_not_finite, refusals.values_out_of_range, refusals.start_value_out_of_range,
+    refusals.steps_of_no_length, refusals.wrong_time, abilities.variable_steps, abilities.input_derivatives,
+    abilities.output_derivatives, abilities.directional_derivatives, abilities.states,
+    abilities.serialised_states, abilities.reference_results,
 )  # fmt: skip
 
 #: An FMU that ends the process in one of these does so in nearly all that follow.

@@ -8,7 +8,10 @@ import math
 from collections.abc import Iterator
 
 from fmu_bearing.validation.remarks import FINDING, NOTE, Remark, Skip
-from fmu_bearing.validation.subject import Instance, Subject, difference, not_finite
+from fmu_bearing.validation.subject import DISCARD, Instance, NoInstance, Subject, difference, not_finite
+
+_REPEATS = 5
+_TERMINATED = 3  # fmi2Terminated, a kind of status
 
 
 def values_not_finite(subject: Subject) -> Iterator[Remark]:
@@ -28,6 +31,35 @@ def values_out_of_range(subject: Subject) -> Iterator[Remark]:
     first = bounded[0]
     above = 2.0 * max(abs(float(first.max)), 1.0)
     yield from _bad_value(subject, first.name, above, float(first.start or 0.0))
+
+
+def start_value_out_of_range(subject: Subject) -> Iterator[Remark]:
+    """Let no host repeat a step for ever that a start value out of its range forbids.
+
+    FMPy repeats a discarded step until the FMU answers another status, or that it wants to end.
+    """
+    bounded = [v for v in subject.real_inputs() if v.max is not None]
+    if not bounded:
+        raise Skip("no Real input declares a largest value")
+    above = 2.0 * max(abs(float(bounded[0].max)), 1.0)
+    with subject.instances() as (one,):
+        try:
+            subject.initialise(one, {bounded[0].name: above})
+        except NoInstance:
+            return
+        for _ in range(_REPEATS):
+            if one.doStep(subject.start, subject.step, False).status != DISCARD:
+                return
+        asks = one.getBooleanStatus(_TERMINATED)
+        if not (asks.good and asks.value):
+            yield Remark(
+                f"{_REPEATS} times the same fmi2DoStep, with {bounded[0].name} = {above!r} set before "
+                "initialisation",
+                "fmi2Discard each time, without fmi2Terminated",
+                "an end: some hosts repeat a discarded step for ever",
+                "4.2.2",
+                NOTE,
+            )
 
 
 def _bad_value(subject: Subject, name: str, value: float, good: float) -> Iterator[Remark]:

@@ -5,7 +5,7 @@
 
 #include "fmi2Functions.h"
 
-enum { NONE, CRASH, KEEPS, HANGS, SHARES, FORGETS, NAN_OUT };
+enum { NONE, CRASH, KEEPS, HANGS, SHARES, FORGETS, NAN_OUT, REPEATS, ENDS };
 
 typedef struct {
     double u, y;
@@ -48,6 +48,8 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean
     if (FAULT == CRASH) abort();
     if (FAULT == HANGS)
         for (;;) sleep(1);
+    if (FAULT == REPEATS && one->u > 10.0) return fmi2Discard;
+    if (FAULT == ENDS && one->u > 10.0) return one->y++ < 1.0 ? fmi2Discard : fmi2Error;
     if (!isfinite(one->u) || !(step > 0.0)) return fmi2Discard;
     one->y += one->u * step;
     if (FAULT == SHARES) one->y = shared += one->u * step;

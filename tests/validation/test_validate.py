@@ -22,7 +22,7 @@ from fmu_bearing.prepare.model import prepare
 from fmu_bearing.results.result import ResultError
 from fmu_bearing.run.simulate_fmu import open_fmu
 from fmu_bearing.scene.read import with_fidelity
-from fmu_bearing.validation import NotAnFmu, Result, abilities, life, tools, validate
+from fmu_bearing.validation import NotAnFmu, Result, abilities, life, refusals, tools, validate
 from fmu_bearing.validation.checks import CHECKS, meaning_of, name_of
 from fmu_bearing.validation.remarks import Skip
 from fmu_bearing.validation.run import _unpack
@@ -129,13 +129,14 @@ def broken(tmp_path_factory):
     headers = Path(importlib.util.find_spec("fmpy").origin).parent / "c-code"
     folder = tmp_path_factory.mktemp("broken")
 
-    def make(fault, more=""):
+    def make(fault, more="", bounds=""):
         library, path = folder / f"{fault}.so", folder / f"{fault}.fmu"
         source = Path(__file__).with_name("broken.c")
         command = [compiler, "-shared", "-fPIC", "-O1", f"-I{headers}", f"-DFAULT={fault}", str(source)]
         subprocess.run([*command, "-o", str(library), "-lm"], check=True, timeout=600)
         with zipfile.ZipFile(path, "w") as archive:
-            archive.writestr("modelDescription.xml", DESCRIPTION.format(more=more))
+            text = DESCRIPTION.format(more=more).replace('start="1"', f'start="1" {bounds}')
+            archive.writestr("modelDescription.xml", text)
             archive.write(library, f"binaries/{host().name}/Broken.so")
         return path
 
@@ -146,8 +147,8 @@ def broken(tmp_path_factory):
 def found(broken, tmp_path):
     """Results of one check in this process, by an FMU that does not end it."""
 
-    def run(check, fault, more=STATES):
-        with zipfile.ZipFile(broken(fault, more)) as archive:
+    def run(check, fault, more=STATES, bounds=""):
+        with zipfile.ZipFile(broken(fault, more, bounds)) as archive:
             archive.extractall(tmp_path)
         return [str(remark) for remark in check(Subject(tmp_path))]
 
@@ -168,6 +169,16 @@ def test_each_fault_is_found(found, fault):
     assert found(check, "NONE") == []
     remarks = found(check, fault)
     assert any(words in remark for remark in remarks), remarks
+
+
+def test_a_host_that_repeats_a_refused_step_for_ever_is_found(found):
+    def seen(fault):
+        return found(refusals.start_value_out_of_range, fault, bounds='max="10"')
+
+    assert seen("NONE") == seen("ENDS") == []  # taken, and an end
+    (remark,) = seen("REPEATS")
+    assert remark.startswith("5 times the same fmi2DoStep, with u = 20.0 set before initialisation")
+    assert "fmi2Discard each time, without fmi2Terminated; expected an end" in remark
 
 
 @pytest.mark.parametrize(

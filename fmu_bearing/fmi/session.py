@@ -56,6 +56,7 @@ class Session:
         self._instance = Instance(model, lambda text: self._log(WARNING, text))
         self._log = log
         self._wrong: dict[int, str] = {}  # by value reference
+        self._early = False  # that outputs were read before initialisation was said
         self._shown: list[Any] | None = None  # all values, until something changes
         self._kinds: dict[str, set[int]] = {}
         self._constants: list[Any] = [0.0] * len(model.variables)
@@ -73,8 +74,11 @@ class Session:
     def get(self, references: Sequence[int], kind: str) -> list[Any]:
         """Return values of variables of one type, ``Real``, ``Integer`` or ``String``.
 
-        Outputs read during initialisation are those at its end.
+        Outputs read during initialisation are those at its end. Before it they are 0, which is said once: FMI
+        does not allow the call, but an error would end a host that shows values while it loads.
         """
+        if self.phase is Phase.INSTANTIATED and not self._early:
+            self._say_if_early(references)
         if self.phase is Phase.INITIALISING and not self._computed.isdisjoint(references):
             self._settle()
         if self._shown is None:
@@ -86,6 +90,17 @@ class Session:
         strange = sorted(set(references) - known)
         self.fail(f"there is no {kind} with value reference {', '.join(map(str, strange))}")
         return ["" if kind == "String" else 0 for _ in references]
+
+    def _say_if_early(self, references: Sequence[int]) -> None:
+        for reference in references:
+            if reference in self._computed:
+                self._early = True
+                self._log(
+                    WARNING,
+                    f"{self._variables[reference].name} is read before initialisation: outputs are 0 until "
+                    "fmi2EnterInitializationMode is called",
+                )
+                return
 
     def _read(self) -> list[Any]:
         shown = self._constants.copy()

@@ -19,6 +19,21 @@ def test_start_values_are_those_of_the_description(master):
             assert bearing.get(variable.name) == float(variable.start), variable.name
 
 
+def test_outputs_read_before_initialisation_are_zero_and_said_once(master):
+    bearing, other = master(), master().start()
+    assert bearing.read("preload", "friction_torque", "heat.oil") == (OK, [500.0, 0.0, 0.0])
+    assert bearing.read("heat.oil") == (OK, [0.0])
+    (said,) = bearing.log
+    assert said[0] == WARNING
+    before, _, after = said[2].partition(": ")
+    assert before == "friction_torque is read before initialisation"
+    assert after == "outputs are 0 until fmi2EnterInitializationMode is called"
+    assert bearing.start().run(2) == other.run(2)
+    assert bearing.reset() == OK
+    assert bearing.read("heat.oil") == (OK, [0.0])
+    assert bearing.log[-1][2].startswith("heat.oil is read before initialisation")
+
+
 def test_outputs_follow_the_inputs_while_initialising(master):
     bearing, other = master(), master()
     assert bearing.setup() == bearing.enter() == OK

@@ -54,8 +54,8 @@ static fmi2Status coarse_time(Instance *it, double time, double size)
     return instance_fail(it, &text);
 }
 
-/* Refuse a step. Refused again, with nothing changed, it is an error: there are masters that repeat a discarded
- * step for ever. `same` is the size at which it would be refused again. */
+/* Refuse a step. Refused again, with nothing changed, it is an error: there are masters that repeat a
+ * discarded step for ever. `same` is the size at which it would be refused again. */
 static fmi2Status discard(Instance *it, double same, Text *text)
 {
     if (same == it->refused) {

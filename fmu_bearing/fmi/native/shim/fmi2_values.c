@@ -32,13 +32,27 @@ static fmi2Status may_get(Instance *it, const void *references, size_t count, co
     return fmi2OK;
 }
 
+/* Say once that an output read before initialisation is not computed yet. FMI does not allow the call, but an
+ * error would end a host that shows values while it loads. */
+static fmi2Status too_early(Instance *it, fmi2ValueReference reference)
+{
+    Text text = {0};
+    it->early = 1;
+    text_add(&text, model_text(&it->model, it->model.variables[reference].name),
+             " is read before initialisation: outputs are 0 until fmi2EnterInitializationMode is called", NULL);
+    instance_refuse(it, fmi2Warning, &text); /* said, not answered: some masters go on after fmi2OK alone */
+    return fmi2OK;
+}
+
 /* In initialisation, outputs asked for are values at its end: settle the engine if one is among them. */
 static fmi2Status settle_for(Instance *it, const fmi2ValueReference *references, size_t count)
 {
     size_t i;
-    if (it->phase != PHASE_INITIALISING || it->settled) return fmi2OK;
+    int before = it->phase == PHASE_INSTANTIATED;
+    if (before ? it->early : it->phase != PHASE_INITIALISING || it->settled) return fmi2OK;
     for (i = 0; i < count; i++) {
         if (references[i] < it->n_variables && it->slots[references[i]].computed) {
+            if (before) return too_early(it, references[i]);
             return instance_settle(it, fmi2Error); /* other inputs may have an equilibrium: it goes on */
         }
     }

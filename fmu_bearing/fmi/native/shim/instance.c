@@ -157,6 +157,7 @@ void instance_reset(Instance *it)
     it->phase = PHASE_INSTANTIATED;
     it->settled = 0;
     it->rated = 0;
+    it->early = 0;
     it->tracks = it->most_journal > 1; /* then the state before the last step is not at hand */
     instance_forget(it);
     it->time = it->reached = it->last_step = it->refused = 0.0;

@@ -25,6 +25,7 @@ typedef struct Instance {
     unsigned phase;
     int settled; /* the engine has been initialised at the present values */
     int rated;   /* some input has a rate */
+    int early;   /* that outputs were read before initialisation was said */
     uint64_t warned; /* one bit per warning that was given */
     double refused; /* size of the step refused last, with nothing changed since (s); 0: none; infinite: any size */
     double time; /* reached by the master (s) */

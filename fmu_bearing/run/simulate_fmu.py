@@ -132,7 +132,7 @@ class _Watch:
             again = _REFUSED_VALUE.search(line)
             if again is None or not any(again[0] in one for one in kept):
                 kept.append(line)
-        self.note = "; ".join([why, *kept])
+        self.note = "; ".join([why.rstrip("."), *kept])  # FMPy ends its sentence
 
 
 def open_fmu(path: pathlib.Path) -> FmuPlayer:

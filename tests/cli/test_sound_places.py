@@ -51,5 +51,6 @@ def test_a_value_is_refused_once():
         "value not taken yet: preload = -1.0 is refused: allowed are 0 to 10000 N",
         "step refused: preload = -1.0 is refused: allowed are 0 to 10000 N", "another line",
     ]  # fmt: skip
-    watch.refused("the step was refused")
+    watch.refused("fmi2SetReal failed with status 2 (discard).")
+    assert watch.note.startswith("fmi2SetReal failed with status 2 (discard); value not taken yet: ")
     assert watch.note.count("preload = -1.0") == 1 and watch.note.endswith("another line")

@@ -44,8 +44,8 @@ def realtime(
 
     Times are the processor's for one thread, in a loop that does not wait for the clock; late are steps that
     take longer on the clock than they simulate. --duration is the simulated time of the run-up, and as long
-    the speed is held; with --speed that speed is held, without a run-up. Nothing is left out: the first steps
-    count as all others, so there is no --settle.
+    the speed is held; with --speed that speed is held, without a run-up. The first ten steps, which touch
+    memory for the first time, are not timed; all others count, so there is no --settle.
     """
     from fmu_bearing.results.table import write_csv
     from fmu_bearing.run.realtime import realtime as time_it

@@ -50,6 +50,19 @@ def test_spectra_are_the_recordings(full, full_page):
         assert trace["x0"] == frequency[keep][0] and trace["dx"] == pytest.approx(frequency[1])
 
 
+def test_pictures_open_with_every_line_that_the_page_names(full_page):
+    """The least of 1, 5, 10 and 20 kHz that has the lines of the table: with 8 and 10 kHz none was seen."""
+    (table,) = [rows for caption, rows in full_page.tables.items() if caption.startswith("Strongest lines")]
+    highest = max(float(row[0]) for row in table[1:])
+    ends = {full_page.figures[key]["layout"]["xaxis"]["range"][1] for key in ("spectrum", "waterfall")}
+    (end,) = ends
+    assert highest < end <= 20e3
+    (trace,) = full_page.figures["waterfall"]["data"][:1]
+    reached = trace["x0"] + trace["dx"] * (len(trace["z"][0]) - 1)
+    assert end - trace["dx"] <= reached <= end
+    assert f'<option value="{end:g}"' in full_page.text.split('data-chart="spectrum" data-key="reach"')[1][:60]
+
+
 def test_orbits_have_the_extent_of_the_motion(full, full_page):
     kept = (full.output_time >= full.start - 1e-9) & (
         full.output_time <= full.time[-1] + 1 / full.rate + 1e-9

@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fmu_bearing.acoustics.analysis.lines import Line, strongest_lines
 from fmu_bearing.acoustics.analysis.third_octave import nominal_frequency
-from fmu_bearing.recording.measurements.measure import fine
+from fmu_bearing.recording.measurements.measure import fine, strongest
 from fmu_bearing.recording.measurements.signals import Levels, Signals, signals_at
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page.blocks import Absent
@@ -15,6 +16,9 @@ from fmu_bearing.results.levels import ROUNDING
 
 #: Microphones with spectra and sound of their own, and those in tables.
 SHOWN, LISTED = 4, 48
+LINES = 12  # strongest lines of a microphone that the page names
+#: Hz: ends of frequency axes that a page can open with; the last is the end of the audible range.
+ENDS = (1000.0, 5000.0, 10_000.0, 20_000.0)
 _SETTLE = 0.25  # of the recording, at most 0.1 s: third-octave filters settle
 
 
@@ -76,6 +80,20 @@ class Microphones:
     def spectra(self) -> tuple[NDArray[np.float64], Levels]:
         """Frequencies (Hz) and levels (dB) by component, shape (shown, bins)."""
         return self._heard.spectra(fine(self.subject.recording), self.shown)
+
+    @cached_property
+    def lines(self) -> list[list[Line]]:
+        """Strongest lines of each spectrum shown, explained where the bearing is known."""
+        recording, (frequency, levels) = self.subject.recording, self.spectra
+        if recording.scene is None:
+            return [strongest_lines(frequency, values, LINES) for values in levels["total"]]
+        return [strongest(recording, frequency, values, LINES) for values in levels["total"]]
+
+    @property
+    def reach(self) -> float:
+        """First of `ENDS` (Hz) below which all strongest lines lie, so that a picture opens with them."""
+        highest = max((line.frequency for lines in self.lines for line in lines), default=0.0)
+        return next((end for end in ENDS if highest < end), ENDS[-1])
 
     @cached_property
     def third_octaves(self) -> tuple[list[float], Levels]:

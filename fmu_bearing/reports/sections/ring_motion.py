@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fmu_bearing.acoustics.analysis.spectrum import amplitude_spectrum, power_spectral_density
 from fmu_bearing.engine.constants import RPM
 from fmu_bearing.reports.data.curves import curve, curve_words, last_turns
+from fmu_bearing.reports.data.microphones import ENDS
 from fmu_bearing.reports.data.subject import Subject
 from fmu_bearing.reports.page import look
 from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Choice, Option, Section, Table, Words, small
@@ -169,7 +170,7 @@ def _over_frequency(subject: Subject, bodies: list[str]) -> Chart:
         "Velocity of the centres over frequency",
         figure,
         f"Spectra of the velocity along three axes of {_listed(bodies)}, kinematic frequencies marked.",
-        (Choice("body", "Body", options), reach(_HIGHEST)),
+        (Choice("body", "Body", options), reach(_HIGHEST, _HIGHEST)),
         note=f"Velocities read {1e-3 * _sampled(subject):.4g} thousand times a second; {resolution:.3g} Hz "
         "between lines, flat-top window: lines read true. Click a legend entry to show or hide it."
         + end_words(subject),
@@ -292,11 +293,11 @@ def _listed(bodies: list[str]) -> str:
     return ", ".join(look.words(body) for body in bodies)
 
 
-def reach(highest: float = 20_000.0) -> Choice:
-    """Choose how far a frequency axis goes, up to ``highest`` (Hz)."""
+def reach(first: float, highest: float = ENDS[-1]) -> Choice:
+    """Choose how far a frequency axis goes: at first to ``first``, else to `ENDS` up to ``highest`` (Hz)."""
     linear = [
         Option(f"{f / 1e3:g} kHz", f"{f:g}", {"xaxis.type": "linear", "xaxis.range": [0.0, f]})
-        for f in (10_000.0, 5000.0, 1000.0, 20_000.0)
+        for f in sorted(ENDS, key=lambda end: (end != first, end))
         if f <= highest
     ]
     whole = {"xaxis.type": "log", "xaxis.range": [float(np.log10(20.0)), float(np.log10(highest))]}

@@ -5,12 +5,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import Line, strongest_lines
+from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.third_octave import spread
 from fmu_bearing.acoustics.filters.weighting import level as level_of
-from fmu_bearing.recording.measurements.measure import BEYOND, strongest
+from fmu_bearing.recording.measurements.measure import BEYOND
 from fmu_bearing.recording.measurements.pictures import band_place
 from fmu_bearing.recording.measurements.tables import lines_table
 from fmu_bearing.reports.data.microphones import Microphones
@@ -33,7 +32,6 @@ from fmu_bearing.results.levels import RANGE, decibels
 from fmu_bearing.results.picture_parts import free_heights
 
 _UNSURE = 2.0  # dB of spread beyond which a third octave is more chance than level
-_LINES = 12
 _ROWS = 8  # microphones of which each has a row of bars
 _WORDS = 0.12  # of the range of third octaves: a row of words
 _ABOVE = 20.0  # dB above the highest line, for names
@@ -157,7 +155,7 @@ def _microphone_choice(microphones: Microphones) -> Choice:
 
 def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     figure = look.figure(height=470)
-    choice = _named(subject, microphones, _microphone_choice(microphones))
+    choice = _named(microphones, _microphone_choice(microphones))
     first = choice.options[0].value
     top = -math.inf
     frequency, levels = microphones.spectra
@@ -176,7 +174,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
             )  # fmt: skip
     mark_kinematics(figure, subject)
     figure.update_layout(
-        xaxis=look.axis("frequency, Hz", range=[0.0, 10_000.0]),
+        xaxis=look.axis("frequency, Hz", range=[0.0, microphones.reach]),
         yaxis=look.axis("level, dB re 20 uPa", range=[top - RANGE, top + _ABOVE]),
         annotations=choice.options[0].layout["annotations"],
         meta={"narrow": {"annotations": []}},  # no room: the table has them
@@ -185,7 +183,7 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
         "spectrum", "Spectrum, whole and by component", figure,
         f"Levels over frequency at {', '.join(microphones.names[k] for k in microphones.shown)}, of all "
         f"components together and of each.",
-        (choice, reach()),
+        (choice, reach(microphones.reach)),
         note=f"{frequency[1]:.3g} Hz between lines, flat-top window: a line's level is right "
         f"within 0.1 dB. Dotted: "
         "kinematic frequencies, as cage and balls turned, and harmonics to the fifth; click a legend entry "
@@ -194,17 +192,15 @@ def _spectrum(subject: Subject, microphones: Microphones) -> Chart:
     )  # fmt: skip
 
 
-def _named(subject: Subject, microphones: Microphones, choice: Choice) -> Choice:
+def _named(microphones: Microphones, choice: Choice) -> Choice:
     """Return the choice of a microphone with the names of its strongest lines at their peaks."""
     frequency, levels = microphones.spectra
     total = levels["total"]
     top = float(total[:, (frequency >= 20.0) & (frequency <= 20_000.0)].max())
     options = [
-        replace(option, layout={
-            "annotations": _labels(_lines(subject, frequency, total[int(option.value)]), top),
-        })
+        replace(option, layout={"annotations": _labels(microphones.lines[int(option.value)], top)})
         for option in choice.options
-    ]  # fmt: skip
+    ]
     return replace(choice, options=options)
 
 
@@ -234,19 +230,12 @@ def _labels(lines: list[Line], top: float) -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def _lines(subject: Subject, frequency: NDArray[np.float64], values: NDArray[np.float64]) -> list[Line]:
-    """Return the strongest lines of a spectrum, explained where the bearing is known."""
-    if subject.recording.scene is None:
-        return strongest_lines(frequency, values, _LINES)
-    return strongest(subject.recording, frequency, values, _LINES)
-
-
 def _line_table(subject: Subject, microphones: Microphones) -> Table:
     place = max(
         range(len(microphones.shown)), key=lambda k: microphones.levels["A"]["total"][microphones.shown[k]]
     )
     frequency, levels = microphones.spectra
-    lines = _lines(subject, frequency, levels["total"][place])
+    lines = microphones.lines[place]
     columns, rows = lines_table(lines)
     end = subject.recording.excitation_end
     for row, line in zip(rows, lines, strict=True):

@@ -16,7 +16,6 @@ from fmu_bearing.reports.page.blocks import Absent, Block, Chart, Section, Words
 from fmu_bearing.reports.sections.kinematic_marks import END
 from fmu_bearing.results.levels import RANGE, mapped
 
-_HIGHEST = 8000.0  # Hz
 _STEP = 1.0 / 16.0  # dB: of the colours
 _ROWS = 160  # at most
 _LINES = ("f_r", "f_c", "f_i", "f_o")
@@ -26,7 +25,7 @@ def fall(microphones: Microphones, run_up: Subject | None = None) -> Section:
     """Waterfall of a run-up, or, without one, of the recording over time."""
     blocks: list[Block] = []
     if run_up is None:
-        blocks.append(_map(microphones, over_speed=False))
+        blocks.append(_map(microphones, microphones.reach, over_speed=False))
         blocks.append(
             Words(
                 "The speed is steady, so lines keep their frequency; changes over time are beating and "
@@ -36,7 +35,7 @@ def fall(microphones: Microphones, run_up: Subject | None = None) -> Section:
         )
         return Section("waterfall", "Waterfall", blocks)
     other = at_microphones(run_up)
-    blocks += [_map(other, over_speed=True), _over_speed(other)]
+    blocks += [_map(other, microphones.reach, over_speed=True), _over_speed(other)]
     blocks.append(
         Words(
             f"A run of its own: {run_up.source}. Ramps this fast smear high orders; slower ones show more.",
@@ -51,7 +50,7 @@ def _microphone(microphones: Microphones) -> tuple[str, NDArray[np.float64]]:
     return microphones.names[microphones.loudest], microphones.pressure[microphones.loudest]
 
 
-def _waterfall(microphones: Microphones) -> Waterfall:
+def _waterfall(microphones: Microphones, highest: float) -> Waterfall:
     recording = microphones.subject.recording
     duration = recording.size / recording.rate
     resolution = max(20.0, 8.0 / duration)
@@ -63,11 +62,12 @@ def _waterfall(microphones: Microphones) -> Waterfall:
         if resolution * duration * 4.0 > _ROWS
         else 0.75
     )
-    return waterfall(pressure, recording.angle, recording.rate, _HIGHEST, resolution, overlap)
+    return waterfall(pressure, recording.angle, recording.rate, highest, resolution, overlap)
 
 
-def _map(microphones: Microphones, over_speed: bool) -> Chart:
-    blocks = _waterfall(microphones)
+def _map(microphones: Microphones, highest: float, over_speed: bool) -> Chart:
+    """Return the levels up to ``highest`` (Hz), over speed or time."""
+    blocks = _waterfall(microphones, highest)
     name, _ = _microphone(microphones)
     start = microphones.subject.recording.start
     y = blocks.speed / RPM if over_speed else blocks.time + start
@@ -81,17 +81,17 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
         hovertemplate="%{x:.0f} Hz, %{y:.5g} " + unit + ": %{z:.1f} dB<extra></extra>",
     )  # fmt: skip
     if over_speed:
-        _order_lines(figure, microphones.subject, y[order])
+        _order_lines(figure, microphones.subject, y[order], highest)
     recording = microphones.subject.recording
     if recording.excitation_end is not None:
         ends = recording.excitation_end * blocks.speed[order] / float(np.mean(recording.speed))
         figure.add_scatter(
-            x=small(np.where(ends < _HIGHEST, ends, np.nan)), y=small(y[order]), mode="lines", name=END,
+            x=small(np.where(ends < highest, ends, np.nan)), y=small(y[order]), mode="lines", name=END,
             line={"color": "#FFFFFF", "width": 1.5, "dash": "dash"}, showlegend=False,
             hovertemplate=END + "<extra></extra>",
         )  # fmt: skip
     figure.update_layout(
-        xaxis=look.axis("frequency, Hz", range=[0.0, _HIGHEST], constrain="domain"),
+        xaxis=look.axis("frequency, Hz", range=[0.0, highest], constrain="domain"),
         yaxis=look.axis(
             "shaft speed, r/min" if over_speed else "time after initialisation, s",
             range=[float(y.min()), float(y.max())],
@@ -108,7 +108,7 @@ def _map(microphones: Microphones, over_speed: bool) -> Chart:
     )  # fmt: skip
 
 
-def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
+def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64], highest: float) -> None:
     """Kinematic frequencies rise with speed: one line each."""
     if subject.recording.scene is None:
         return
@@ -121,9 +121,9 @@ def _order_lines(figure, subject: Subject, rpm: NDArray[np.float64]) -> None:
                 line={"color": "#FFFFFF", "width": 1, "dash": "dot"}, showlegend=False,
                 hovertemplate=words + "<extra></extra>",
             )  # fmt: skip
-            inside = getattr(base, name) * ends[1] < _HIGHEST
+            inside = getattr(base, name) * ends[1] < highest
             figure.add_annotation(
-                x=float(getattr(base, name) * ends[1]) if inside else _HIGHEST, y=float(ends[1]), text=words,
+                x=float(getattr(base, name) * ends[1]) if inside else highest, y=float(ends[1]), text=words,
                 showarrow=False, yanchor="bottom", font={"size": 12},
             )  # fmt: skip
 

@@ -145,6 +145,14 @@ def test_verdicts_are_read_at_390_pixels_without_scrolling(shown):
         assert [cell[4] for cell in cells] == ["", "value", "verdict", "limit", "source of the limit"]
         assert all(right <= 390 for _, right, *_ in cells)
         assert all(upper[3] <= lower[2] + 0.5 for upper, lower in zip(cells, cells[1:], strict=False))
+        # every table is as wide as its frame but long ones, which scroll
+        tables = shown.eval_on_selector_all(
+            "table", "nodes => nodes.map(t => { const d = t.closest('details'); const was = d?.open; if (d) d.open = true; "
+            "const found = [t.caption.innerText, t.scrollWidth - t.closest('.scroll').clientWidth]; "
+            "if (d) d.open = was; return found; })",
+        )  # fmt: skip
+        cut = [caption for caption, beyond in tables if beyond > 0]
+        assert len(tables) > 10 and [caption for caption in cut if not caption.startswith("Crossings")] == []
         # captions of tables that scroll sideways are as wide as the page
         captions = shown.eval_on_selector_all(
             ".block caption span", "nodes => nodes.map(n => n.getBoundingClientRect().right)"

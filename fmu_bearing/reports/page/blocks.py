@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 #: dB: step of levels in charts.
 DECIBELS = 1.0 / 64.0
+#: Pixels of a table on a page of 390 pixels; of a letter in it, and between its columns.
+_NARROW, _LETTER, _GAP = 310.0, 7.4, 11.2
+_LONG = 60  # rows up to which a table is stacked
 #: Half of the last of the 15 binary digits that `small` keeps: five decimal ones.
 _HALF = np.uint32(1 << 7)
 
@@ -30,18 +33,30 @@ class Words:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of texts under a caption; cells that look like numbers have digits of one width.
-
-    ``stacked``: on a narrow page each row is a block, its cells under each other with their columns' names.
-    """
+    """Rows of texts under a caption; cells that look like numbers have digits of one width."""
 
     caption: str
     columns: Sequence[str]
     rows: Sequence[Sequence[str]]
     note: str = ""
     folded: bool = False
-    stacked: bool = False
     sort: str = "table"
+
+    @property
+    def stacked(self) -> bool:
+        """Whether on a narrow page each row is a block, its cells under each other with their columns' names.
+
+        So is a table whose longest words have no room beside each other there; a long one is scrolled.
+        """
+        columns = list(zip(self.columns, *self.rows, strict=True))
+        words = sum(max(len(word) for cell in column for word in cell.split() or [""]) for column in columns)
+        wide = _LETTER * words + _GAP * len(columns) > _NARROW
+        return wide and any(self.columns) and not self.long
+
+    @property
+    def long(self) -> bool:
+        """Whether it has too many rows to be stacked."""
+        return len(self.rows) > _LONG
 
 
 @dataclass(frozen=True)

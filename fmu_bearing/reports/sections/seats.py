@@ -19,7 +19,7 @@ def seats(subject: Subject) -> Section:
     for bearing in study.column(take).bearings:
         name = f"bearing {bearing.number}: " if subject.several else ""
         words = f"{name}{study.words(bearing.number)}"
-        blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(bearing), stacked=True))
+        blocks.append(Table(f"Fits at {take}, {words}", STATE_COLUMNS, state_rows(bearing)))
         note = " ".join(f"{line[0].upper()}{line[1:]}." for line in study.remarks)
         caption = f"Fits over their tolerances, {words}; each column is computed in full"
         blocks.append(Table(caption, head(study), fit_rows(study, bearing.number), note=note, folded=True))

@@ -59,7 +59,7 @@ def judged(subject: Subject) -> Judged | None:
     caption = f"Verdicts at {subject.speed / RPM:,.0f} r/min: {ran}{state}"
     names = list(subject.prefixes)
     shown = _side_by_side(judgements, names, point.scene) if several else table(Verdict, judgements)
-    return Judged(judgements, Table(caption, *shown, note=_note(point, judgements), stacked=True))
+    return Judged(judgements, Table(caption, *shown, note=_note(point, judgements)))
 
 
 def _side_by_side(

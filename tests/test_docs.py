@@ -1,7 +1,9 @@
 """The documentation builds without a warning, its code runs, its links hold, it names everything there is."""
 
+import ast
 import contextlib
 import importlib.util
+import pathlib
 import re
 import shutil
 import subprocess
@@ -203,6 +205,27 @@ def leaves(command, path):
         yield from leaves(child, f"{path} {name}")
     if not children:
         yield path
+
+
+def test_messages_name_a_page_by_its_title():
+    """Who installed a wheel has no folder docs: no string has a path there, each page named is there."""
+    package, named = pathlib.Path(fmu_bearing.__file__).parent, set()
+    for file in package.rglob("*.py"):
+        tree = ast.parse(file.read_text("utf-8"))
+        own = {
+            id(node.body[0].value)
+            for node in ast.walk(tree)
+            if hasattr(node, "body")
+            and isinstance(node.body, list)
+            and node.body
+            and isinstance(node.body[0], ast.Expr)
+        }
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in own:
+                assert not re.search(r"docs/[\w-]+\.md", node.value), file
+                named |= set(re.findall(r'page "([^"]+)" of the\sdocumentation', node.value))
+    titles = {path.read_text("utf-8").split("\n", 1)[0].removeprefix("# ") for path in DOCS.glob("*.md")}
+    assert len(named) >= 4 and named <= titles
 
 
 def test_every_command_is_described(site):

@@ -149,7 +149,8 @@ _PAGE = """# Accuracy and cost: {scene}, {rpm:,.0f} r/min
 
 {machine}
 
-Made by `fmu-bearing tradeoff`, which `docs/tradeoff.md` explains. Figures over {window:g} ms after a warm-up
+Made by `fmu-bearing tradeoff`: page "What accuracy costs, and how fidelity `auto` chooses" of the
+documentation. Figures over {window:g} ms after a warm-up
 of {warm_up:g} ms. Errors of trajectory, rms ring velocity, contact load and friction torque are relative;
 those of sound are in dB(A) at the worst microphone. Speeds are simulated s per CPU s without sound, in steps
 of 1 ms: with constant inputs (sim/CPU), with a speed that falls and rises by 1,000 rad/s2 (ramp), with all

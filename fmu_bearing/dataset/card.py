@@ -18,7 +18,8 @@ _ASSUMED = (
     "A defect has a fixed shape. Plastic rims, debris, growth under load and lubricant in the pit are left "
     "out.",
     "What the seat, the housing and the path to a sensor do is what the scene says of them; levels of "
-    "another machine differ. Limits of the model: docs/limits.md of fmu-bearing.",
+    "another machine differ. Limits of the model: page "
+    '"What it does not do" of the documentation.',
 )
 
 

@@ -6,8 +6,8 @@ tables; a test holds them beside docs/results/measured.csv.
 
 from typing import NamedTuple
 
-#: Where the page is, from the root of the repository and of the documentation.
-PAGE = "docs/measured.md"
+#: The page by its title: who installed a wheel has no folder docs.
+PAGE = 'page "Measured by others" of the documentation'
 
 
 class Range(NamedTuple):
@@ -37,10 +37,11 @@ def measured_elsewhere() -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        ``torque``, ``stiffness``, ``life and level``; each ends with the page that has the values.
+        ``torque``, ``stiffness``, ``life and level``, and ``all values``: the page that has them.
     """
     return {
-        "torque": f"{TORQUE.words} of SKF's, heat {HEAT.words} of NASA's: {PAGE}",
-        "stiffness": f"{STIFFNESS.words} of NSK's and TPI's pairs: {PAGE}",
-        "life and level": f"no measured values are known: {PAGE}",
+        "torque": f"{TORQUE.words} of SKF's, heat {HEAT.words} of NASA's",
+        "stiffness": f"{STIFFNESS.words} of NSK's and TPI's pairs",
+        "life and level": "no measured values are known",
+        "all values": PAGE,
     }

@@ -129,8 +129,7 @@ def at_microphones(subject: Subject) -> Microphones:
     if not places:
         raise Absent(
             "the scene has no microphones: add [[sound.microphone]] to it, or give places to `measure` "
-            "(see the "
-            "page on analysis)"
+            '(page "Listening to a run: analysis of the sound" of the documentation)'
         )
     names, positions = [name for name, _ in places], [place for _, place in places]
     return Microphones(subject, names, positions, signals_at(recording, names, subject.radiation_model))

@@ -138,7 +138,7 @@ def _fit(
 def _origin(key: str, value: Any, found: tuple[str, str] | None) -> Origin:
     table = key.split(".")[0]
     place, remark = found or ("default", _MARK if table not in _CHOICES else "")
-    words = remark.removeprefix(_MARK).removesuffix(_MARK).strip(":, ")
+    words = remark.removeprefix(_MARK).removesuffix(_MARK).strip(":;, ")
     location = tuple(part.split("[")[0] for part in key.split("."))
     unit = symbol(location[-1]) if isinstance(value, float) else ""
     return Origin(key, value, unit, place, _MARK in remark, words, allowed(location))

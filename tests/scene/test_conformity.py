@@ -135,3 +135,13 @@ def test_a_path_serves_as_a_scene():
     assert conformity_from_stiffness(path, 25.0, 40.0) == conformity_from_stiffness(
         read_scene(path), 25.0, 40.0
     )
+
+
+@pytest.mark.parametrize("part, other", [("inner", "0.52"), ("outer", "0.526")])
+def test_a_remark_loses_its_mark_and_the_sign_after_it(part, other, tmp_path):
+    """`scene show` and the report print "assumed: " before it: no ": ;" between."""
+    path = tmp_path / "own.toml"
+    path.write_text(new_scene("own", "7003C", kind="hybrid", speed_rpm=15e3, preload_N=100.0), "utf-8")
+    found = {one.key: one for one in origins(path)}
+    one = found[f"bearing.{part}_conformity"]
+    assert one.assumed and one.remark == f"makers' printed stiffness agrees with {other}"

@@ -1,6 +1,7 @@
 """Measurements on recordings: against what the same sound gives by another way."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -234,6 +235,11 @@ def test_pictures_and_tables(bare, run_up, tmp_path):
         write_csv(tmp_path / f"{name}.csv", columns, rows)
         assert markdown(columns, rows).count("\n") == len(rows) + 2
     assert [row[0] for row in written["directivity"][0][1]] == ["YZ", "XY", "XZ"]
+    # heads have the unit of the weighting
+    assert written["directivity"][0][0][-2:] == ["highest, dB", "mean, dB"]
+    loud = {name: replace(each, weighting="A") for name, each in three.items()}
+    assert tables.directivity_table(loud)[0][-2:] == ["highest, dB(A)", "mean, dB(A)"]
+    assert tables.round_table(loud, " at 100 mm")[0][1] == "YZ at 100 mm, dB(A)"
 
 
 @pytest.mark.heavy
@@ -246,4 +252,4 @@ def test_directivity_keeps_out_of_the_housing(example, tmp_path):
     assert "planes.csv" in {path.name for path in files}
     assert any("no directivity at 80 mm: " in text and "lies inside the housing" in text for text in said)
     with (tmp_path / "planes.csv").open(encoding="utf-8", newline="") as file:
-        assert all(np.isfinite(float(row["XY, dB"])) for row in csv.DictReader(file))
+        assert all(np.isfinite(float(row["XY at 1000 mm, dB(A)"])) for row in csv.DictReader(file))

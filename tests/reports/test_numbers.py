@@ -60,7 +60,9 @@ def test_pictures_open_with_every_line_that_the_page_names(full_page):
     (trace,) = full_page.figures["waterfall"]["data"][:1]
     reached = trace["x0"] + trace["dx"] * (len(trace["z"][0]) - 1)
     assert end - trace["dx"] <= reached <= end
-    assert f'<option value="{end:g}"' in full_page.text.split('data-chart="spectrum" data-key="reach"')[1][:60]
+    assert (
+        f'<option value="{end:g}"' in full_page.text.split('data-chart="spectrum" data-key="reach"')[1][:60]
+    )
 
 
 def test_orbits_have_the_extent_of_the_motion(full, full_page):

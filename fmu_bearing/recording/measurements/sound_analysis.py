@@ -341,6 +341,7 @@ def _directivity(made: _Made) -> None:
         except ValueError as problem:
             made.tell(f"no directivity at {1e3 * radius:.0f} mm: {problem}")
             continue
-        made.table("planes.csv", tables.round_table(planes))
-        made.picture("planes.png", partial(pictures.planes_picture, planes, f"at {1e3 * radius:.0f} mm"))
+        where = f"at {1e3 * radius:.0f} mm"
+        made.table("planes.csv", tables.round_table(planes, f" {where}"))
+        made.picture("planes.png", partial(pictures.planes_picture, planes, where))
         return

@@ -74,8 +74,8 @@ def order_table(found: OrderMap) -> Table:
     return columns, rows
 
 
-def round_table(found: Round | Mapping[str, Round]) -> Table:
-    """Levels (dB) over angle, one column per circle or plane."""
+def round_table(found: Round | Mapping[str, Round], where: str = "") -> Table:
+    """Levels over angle, one column per circle or plane, in its unit; ``where``: words on its place."""
     named = {"level": found} if isinstance(found, Round) else dict(found)
     first = next(iter(named.values()))
     levels = np.column_stack([each.levels for each in named.values()])
@@ -83,7 +83,7 @@ def round_table(found: Round | Mapping[str, Round]) -> Table:
         [f"{math.degrees(angle):g}", *(f"{value:.2f}" for value in row)]
         for angle, row in zip(first.angles, levels, strict=True)
     ]
-    return ["angle, deg", *(f"{name}, dB" for name in named)], rows
+    return ["angle, deg", *(f"{name}{where}, {each.unit}" for name, each in named.items())], rows
 
 
 def directivity_table(found: Mapping[str, Round]) -> Table:
@@ -101,17 +101,18 @@ def directivity_table(found: Mapping[str, Round]) -> Table:
                 f"{d.mean:.2f}",
             ]
         )
-    return ["", "DA, deg", "DL", "DV, dB", "highest, dB", "mean, dB"], rows
+    unit = " / ".join(dict.fromkeys(each.unit for each in found.values()))
+    return ["", "DA, deg", "DL", "DV, dB", f"highest, {unit}", f"mean, {unit}"], rows
 
 
 def sweep_table(found: Sweep) -> Table:
     """Directivity figures over radial and axial distance."""
-    rows = []
+    rows, head = [], [""]
     for r, row in zip(found.radii, found.circles, strict=True):
         for x, each in zip(found.axials, row, strict=True):
-            named = directivity_table({"": each})[1][0]
-            rows.append([f"{1e3 * r:g}", f"{1e3 * x:g}", *named[1:]])
-    return ["r, mm", "l, mm", *directivity_table({})[0][1:]], rows
+            head, (figures,) = directivity_table({"": each})
+            rows.append([f"{1e3 * r:g}", f"{1e3 * x:g}", *figures[1:]])
+    return ["r, mm", "l, mm", *head[1:]], rows
 
 
 def attenuation_table(found: Sweep) -> Table:

@@ -139,8 +139,7 @@ def _show(found: "Envelope") -> None:
     from fmu_bearing.recording.measurements.envelope_lines import FAR
 
     kurtogram = found.kurtogram
-    how = "" if kurtogram is None else f" by the kurtogram ({kurtogram.best.kurtosis:.2g})"
-    title = f"{found.heading}{how}, rms {found.rms:.3g} {found.unit}, kurtosis {found.kurtosis:.2f}"
+    title = f"{found.name}, {found.strength}" + ("" if kurtogram is None else ", band by the kurtogram")
     columns, rows = lines_table(found)
     if rows:
         base.show(title, columns, rows)

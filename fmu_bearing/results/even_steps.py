@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 #: Of a step: how far a value may be from an even grid. Loggers round times to six decimals, which is up to
-#: 2.6 % of a step at 51.2 kHz, the fastest of the usual rates. If the samples were really that far off, within
-#: 3 % at random, a tone at a quarter of the rate would have an error of 2.7 % (0.03 / sqrt(3) of a step is
-#: 0.027 rad there), 31 dB below it.
+#: 2.6 % of a step at 51.2 kHz, the fastest of the usual rates. Were the samples themselves off by up to 3 %,
+#: at random, a tone at a quarter of the rate would have an error 31 dB below it: 0.03 / sqrt(3) of a step is
+#: 0.027 rad there.
 ALLOWED = 0.03
 
 

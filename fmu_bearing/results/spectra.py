@@ -134,8 +134,8 @@ def of_variables(
     found = spacing(time)
     if not found.even:
         raise ValueError(
-            f"times are {found.words('s')}, and a spectrum needs even steps: take a step that divides the time, "
-            "and inputs without jumps between"
+            f"times are {found.words('s')}, and a spectrum needs even steps: take a step that divides the "
+            "time, and inputs without jumps between"
         )
     rate = 1.0 / found.step
     spectra = [amplitude_spectrum(values, rate, resolution) for values in columns.values()]

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shlex
 import subprocess
 from dataclasses import replace
@@ -157,6 +158,50 @@ def test_a_band_that_only_rounding_fills_is_never_the_best():
     found = measure.kurtogram(signal, RATE, narrowest=1000.0)
     assert found.best.low < 20_000.0
     assert max(found.bands, key=lambda band: band.kurtosis).low >= 20_000.0
+
+
+def within(low, high, values):
+    """Values between two frequencies (Hz) alone, of rms 1."""
+    spectrum = np.fft.rfft(values)
+    frequency = np.fft.rfftfreq(values.size, 1.0 / RATE)
+    spectrum[(frequency < low) | (frequency > high)] = 0.0
+    kept = np.fft.irfft(spectrum)
+    return kept / kept.std()
+
+
+@pytest.mark.parametrize(("strength", "taken"), [(0.05, False), (0.2, True)])
+def test_sharp_strokes_in_a_band_that_holds_next_to_nothing_are_not_taken(strength, taken):
+    rng = np.random.default_rng(6)
+    noise = rng.normal(size=51_200)
+    sharp = within(18_000.0, 20_800.0, np.repeat(rng.normal(size=100) ** 3, 512) * noise)
+    # below: strokes of a defect, in all of 3 kHz; 0.05 of the rms is 0.25 % of the mean square, 0.2 is 4 %
+    below = within(1000.0, 4000.0, (1.0 + 3.0 * (np.arange(51_200) % 640 < 60)) * noise)
+    signal = below + strength * sharp + 1e-3 * rng.normal(size=51_200)
+    found = measure.kurtogram(signal, RATE, lowest=200.0, narrowest=1000.0)
+    sharpest = max((band for band in found.bands if found.counts(band)), key=lambda band: band.kurtosis)
+    assert sharpest.low > 15_000.0 and sharpest.kurtosis > 2.0 * found.bands[0].kurtosis
+    assert (found.best.low > 15_000.0) is taken and found.within == pytest.approx(1.0, abs=1e-6)
+    # what is slow and strong takes nothing from the bands above
+    slow = signal + 300.0 * np.sin(2.0 * np.pi * 30.0 * np.arange(51_200) / RATE)
+    moved = measure.kurtogram(slow, RATE, lowest=200.0, narrowest=1000.0)
+    assert moved.within == pytest.approx(1.0 / (0.5 * 300.0**2), rel=0.05)
+    assert (moved.best.low > 15_000.0) is taken
+
+
+def test_text_and_pictures_name_the_same_band():
+    noise = np.random.default_rng(2).normal(size=51_200)
+    strong = within(17_200.0, 21_200.0, np.repeat(np.arange(100) % 10 == 0, 512) * noise)
+    signal = 0.5 * strong + within(200.0, 16_000.0, np.random.default_rng(7).normal(size=51_200))
+    found = measure.envelope(signal, RATE, name="a", unit="m/s2", highest=20_000.0, narrowest=4000.0)
+    assert found.kurtogram.best.high > 20_000.0 == found.high
+    words = re.search(r"between (\S+) and (\S+) kHz", found.strength).groups()
+    assert words[1] == "20.0" and f"{words[0]} to {words[1]} kHz" in found.heading
+    (ax, *_) = found.kurtogram.picture("a").axes
+    assert f"best: {words[0]} to {words[1]} kHz" in ax.get_title(loc="left") + ax.get_title()
+    frame = ax.lines[-1].get_xdata()
+    assert [frame.min(), frame.max()] == pytest.approx([1e-3 * found.low, 1e-3 * found.high])
+    assert f"of the signal's {signal.std():.3g} m/s2)" in found.strength
+    assert found.whole == pytest.approx(signal.std()) and found.rms < found.whole
 
 
 @pytest.mark.parametrize(

@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import recorded_signal
+from fmu_bearing.recording.channels.recorded_signals import RecordedSignal, recorded_signal
 from fmu_bearing.recording.measurements.envelope_lines import FAR, EnvelopeLine, lines_of, turning_of
-from fmu_bearing.recording.measurements.kurtogram import Kurtogram, checked, kurtogram
+from fmu_bearing.recording.measurements.kurtogram import Kurtogram, checked, kilohertz, kurtogram
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.picture_parts import BEHIND, OTHERS, label, name_lines, single
 from fmu_bearing.results.table import Table
@@ -45,7 +45,8 @@ class Envelope(Result):
     """Spectrum of the squared envelope of a band of a signal."""
 
     quantities = (
-        "signal = name", "unit", "low_Hz", "high_Hz", "kurtosis [1]", "rms", "resolution_Hz",
+        "signal = name", "unit", "low_Hz", "high_Hz", "kurtosis [1]", "rms", "rms_share [1] = share",
+        "resolution_Hz",
         Quantity("lines", of=lambda found: found.lines),
     )  # fmt: skip
 
@@ -66,6 +67,8 @@ class Envelope(Result):
     amplitude: NDArray[np.float64] = field(repr=False)
     """Of the lines of the squared envelope, in the square of the unit; 0 Hz is taken out. Shape (bins,)."""
     lines: tuple[EnvelopeLine, ...] = field(default=(), repr=False)
+    whole: float = math.nan
+    """Rms of the whole signal without its mean, in its unit."""
     kurtogram: Kurtogram | None = field(default=None, repr=False)
     """By which the band was chosen; None where it was given."""
 
@@ -114,7 +117,22 @@ class Envelope(Result):
     @property
     def heading(self) -> str:
         """Signal and band in words."""
-        return f"{self.name}, {1e-3 * self.low:.3g} to {1e-3 * self.high:.3g} kHz"
+        return f"{self.name}, {kilohertz(self.low)} to {kilohertz(self.high)} kHz"
+
+    @property
+    def share(self) -> float:
+        """Rms of the band over that of the signal."""
+        return self.rms / self.whole
+
+    @property
+    def strength(self) -> str:
+        """Rms and kurtosis in words, with the band that both are of, and what it holds of the signal."""
+        unit = f" {self.unit}" if self.unit else ""
+        return (
+            f"rms {self.rms:.3g}{unit} between {kilohertz(self.low)} and {kilohertz(self.high)} kHz "
+            f"({100.0 * self.share:.2g} % of the signal's {self.whole:.3g}{unit}), "
+            f"kurtosis {self.kurtosis:.1f}"
+        )
 
     @property
     def shown_to(self) -> float:
@@ -276,7 +294,7 @@ def envelope(
     kurtosis = float(np.mean(values**4) / np.mean(values**2) ** 2)
     return Envelope(
         name, unit, float(band[0]), float(band[1]), kurtosis, rms, rate / values.size, frequency[keep],
-        amplitude, kurtogram=chosen,
+        amplitude, whole=float(np.std(np.asarray(signal, dtype=float))), kurtogram=chosen,
     )  # fmt: skip
 
 

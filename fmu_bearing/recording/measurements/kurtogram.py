@@ -24,8 +24,13 @@ if TYPE_CHECKING:
 
 _TAPS, _BETA = 24, 8.0  # of a filter per divisor, Kaiser's window: it stops by 80 dB
 _FEWEST = 128  # samples of a band's envelope: noise then has a kurtosis of 0 to 0.2
-#: Of the largest mean square of a band: with less a band holds what filters let through, or rounding.
-_FAINT = 1e-6
+#: Of the mean square between ``lowest`` and ``highest``: a band that is chosen holds that or more, a tenth of
+#: the rms. Kurtosis is without scale, and largest where all else is quiet: balls that tap the cage of a sound
+#: bearing are sharp strokes at 17 kHz with 3 % of the rms. 20 dB below the vibration are also a sensor's
+#: distortion and a converter's steps. Of 21 records of races by the CWRU (1,797 r/min, drive end) the line of
+#: the race was 28 dB over the median in the mean without this rule, and is 34 dB with it: higher in 12, lower
+#: in 3 by 5 dB at most; of the MFPT's 14 records it changes one, from 13 to 37 dB.
+_FAINT = 0.01
 _INSIDE = 2.0 / 3.0  # of a band that counts
 
 
@@ -60,6 +65,8 @@ class Kurtogram(Result):
     highest: float
     narrowest: float
     """Bands that count are to two thirds between the first two (Hz), and as wide as the last."""
+    within: float = 1.0
+    """Share of the signal's mean square between the first two."""
 
     def records(self) -> tuple[Band, ...]:
         """Return the bands."""
@@ -67,10 +74,10 @@ class Kurtogram(Result):
 
     @property
     def best(self) -> Band:
-        """The band with the largest kurtosis among those that count, and that hold more than rounding."""
-        densest = max(band.share for band in self.bands)
-        counted = [band for band in self.bands if self.counts(band) and band.share > _FAINT * densest]
-        return max(counted or self.bands[:1], key=lambda band: band.kurtosis)
+        """The band with the largest kurtosis among those that count, and that hold 1 % of what is there."""
+        counted = [band for band in self.bands if self.counts(band)] or self.bands[:1]
+        loud = [band for band in counted if band.share >= _FAINT * self.within]
+        return max(loud or counted, key=lambda band: band.kurtosis)
 
     @property
     def chosen(self) -> tuple[float, float]:
@@ -100,11 +107,12 @@ class Kurtogram(Result):
             )
         figure.colorbar(drawn, ax=ax, label="kurtosis of the envelope")
         best, row = self.best, levels.index(self.best.level)
-        x = 1e-3 * np.array([best.low, best.high, best.high, best.low, best.low])
+        low, high = self.chosen
+        x = 1e-3 * np.array([low, high, high, low, low])
         ax.plot(x, row + 0.5 * np.array([-1.0, -1.0, 1.0, 1.0, -1.0]), color=OTHERS[1], linewidth=2.0)
         ax.set_yticks(range(len(levels)), widths)
         ax.invert_yaxis()
-        words = f"best: {1e-3 * best.low:.3g} to {1e-3 * best.high:.3g} kHz, kurtosis {best.kurtosis:.2g}"
+        words = f"best: {kilohertz(low)} to {kilohertz(high)} kHz, kurtosis {best.kurtosis:.2g}"
         head = ", ".join(filter(None, (title, words)))
         label(ax, "frequency, kHz", "width of the bands, kHz", head, grid=False)
         return figure
@@ -149,7 +157,16 @@ def kurtogram(
         for count, parts in _tree(scipy.signal.hilbert(values), nyquist, width)
         for k, part in enumerate(parts)
     ]
-    return Kurtogram(tuple(sorted(found, key=lambda band: (band.level, band.low))), lowest, top, narrowest)
+    bands = tuple(sorted(found, key=lambda band: (band.level, band.low)))
+    powers = np.abs(scipy.fft.rfft(values)) ** 2
+    frequency = np.arange(powers.size) * (rate / values.size)
+    within = float(powers[(frequency >= lowest) & (frequency <= top)].sum() / powers.sum())
+    return Kurtogram(bands, lowest, top, narrowest, within)
+
+
+def kilohertz(frequency: float) -> str:
+    """Return a frequency (Hz) in kHz with three digits, as texts and pictures name the ends of a band."""
+    return f"{1e-3 * frequency:#.3g}".rstrip(".")
 
 
 def checked(signal: ArrayLike, fewest: int) -> NDArray[np.float64]:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 Result = TypeVar("Result")
 FOUND, REFUSED, ENDED_EARLY, INTERRUPTED = 1, 2, 3, 130
 #: A number with a decimal comma, which no option takes.
+FINISHED = (".npz", ".csv", ".nc")  # endings of recordings and results
 DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]+)?")
 #: What Typer raises for words that are no command, option or value; it names only the kind for values.
 _Usage: Any = typer.BadParameter.__base__
@@ -175,12 +176,15 @@ def shaft_speed(rpm: float | None, source: "Path | Scene", option: str = "--spee
     Raises
     ------
     Refusal
-        For a speed outside the range of a scene's, in the unit in which it was given.
+        For a speed outside the range of a scene's, in the unit in which it was given, and for one of a run
+        that is finished.
     """
     if rpm is None:
         return None
     from fmu_bearing.scene.read import read_scene
 
+    if isinstance(source, Path) and source.suffix in FINISHED:
+        raise Refusal(f"{option} {rpm:g} r/min is refused: {source} is finished, and turned as it did")
     if isinstance(source, Path) and source.suffix == ".toml":
         source = read_scene(source)
     bearing = getattr(source, "bearing", None)

@@ -26,7 +26,7 @@ def envelope(
         Path,
         typer.Argument(
             metavar="SCENE|RECORDING|RESULT",
-            help="Scene (.toml), recording (.npz), or result of a run at even steps (.csv, .nc).",
+            help="Scene (.toml), recording (.npz), or result or measured record at even steps (.csv, .nc).",
         ),
     ],
     signal: Annotated[
@@ -49,7 +49,8 @@ def envelope(
     fidelity: options.Fidelity = None,
     radiation_model: options.RadiationModel = None,
     scene: Annotated[
-        Path | None, typer.Option(help="With a result (.csv): the scene that was run, for its lines.")
+        Path | None,
+        typer.Option(help="With a result or record (.csv): the scene that was run, for its lines."),
     ] = None,
     plot: options.Plot = None,
     output: Annotated[
@@ -74,15 +75,16 @@ def envelope(
             base.check_new_in(force, output, _RECORDING, *FILES)
         base.check_new(force, plot)
         chosen = source_of(source, settings, fidelity)
-        turning, ends, code = base.shaft_speed(speed, chosen), _ends(band), 0
+        ends, code = _ends(band), 0
         files = base.Writing()
-        if source.suffix == ".npz":
+        if source.suffix in (".csv", ".nc"):
+            recording = _measured(source, scene, settle, speed)
+        elif source.suffix == ".npz":
+            base.shaft_speed(speed, source)
             recording = Recording.load(source)
-        elif source.suffix in (".csv", ".nc"):
-            recording = Recording.from_run(source, scene, settle)
         else:
             recording, code = _recorded(
-                chosen, signal, duration=duration, settle=settle, speed=turning,
+                chosen, signal, duration=duration, settle=settle, speed=base.shaft_speed(speed, chosen),
                 radiation_model=radiation_model,
             )  # fmt: skip
             if output is not None:
@@ -103,6 +105,20 @@ def envelope(
         _show(one)
     _caution(recording, found[0])
     base.end(code, files, named=True)
+
+
+def _measured(source: Path, scene: Path | None, settle: float, speed: float | None) -> "Recording":
+    """Return the signals of a result or a measured record; ``speed`` (r/min) is that of its shaft."""
+    from fmu_bearing.recording.recording import Recording
+    from fmu_bearing.results.result import Run
+    from fmu_bearing.scene import scene_of
+
+    run = Run.load(source)
+    known = run.scene if scene is None else scene_of(scene)
+    if speed is not None and known is None:
+        raise base.Refusal(f"--speed {speed:g} r/min is refused: without --scene there are no lines to move")
+    turning = None if known is None else base.shaft_speed(speed, known)
+    return Recording.from_run(run, known, settle, turning)
 
 
 def _recorded(source: Any, signals: list[str] | None, **more: Any) -> "tuple[Recording, int]":

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_bearing.cautions import largest_of
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.engine.layout import SD
 from fmu_bearing.extras import need
 from fmu_bearing.file_words import RECORDING, instead, trouble
@@ -135,9 +136,10 @@ class Recording(ChannelHistory):
 
     @classmethod
     def from_run(
-        cls, result: Run | str | os.PathLike[str], scene: SceneSource | None = None, settle: float = 0.0
-    ) -> "Recording":
-        """Take the variables of a run, or of its file, as signals; see `signal`.
+        cls, result: Run | str | os.PathLike[str], scene: SceneSource | None = None, settle: float = 0.0,
+        speed: float | None = None,
+    ) -> "Recording":  # fmt: skip
+        """Take the variables of a run, or of its file, or of a measured record, as signals; see `signal`.
 
         Parameters
         ----------
@@ -146,12 +148,15 @@ class Recording(ChannelHistory):
             Default: the one that the result knows.
         settle : float
             Time (s) left out at the beginning.
+        speed : float, optional
+            Of the shaft (rad/s), of a result that does not hold it as ``shaft_speed``; default: the scene's.
 
         Raises
         ------
         ResultError
             For a file that is no result.
         ValueError
+            For a speed of a result that holds it.
             For times that rounding does not explain (3 % of a step), and where too little is left after
             ``settle``.
         """
@@ -162,16 +167,26 @@ class Recording(ChannelHistory):
         step = even_step(after)
         if not step:
             raise ValueError(f"{run.name}: the times after settle = {settle:g} s are {why_uneven(after)}")
-        speed = run["shaft_speed"] if "shaft_speed" in run.names else _speed_of(known, len(time))
+        if "shaft_speed" in run.names:
+            if speed is not None:
+                raise ValueError(
+                    f"{run.name}: a speed ({speed / RPM:g} r/min) is refused: it has a column shaft_speed"
+                )
+            speeds = run["shaft_speed"]
+        else:
+            speeds = _speed_of(known, len(time)) if speed is None else np.full(len(time), float(speed))
         columns = {name: run[name] for name in run.names}
-        return cls(known, "recorded", 1.0 / step, float(after[0]), len(after), time, speed, columns)
+        return cls(
+            known, "recorded", 1.0 / step, float(after[0]), len(after), time, speeds, columns,
+            units=dict(run.units),
+        )  # fmt: skip
 
     def _repr_html_(self) -> str:
         """Return microphones and means of the variables; levels are left out, as they take time."""
         places = [
             [name, f"{1e3 * x:g}, {1e3 * y:g}, {1e3 * z:g}", "mm"] for name, (x, y, z) in self.microphones
         ]
-        means = [[name, number(float(np.mean(v))), unit_of(name)] for name, v in self.within().items()]
+        means = [[name, number(float(np.mean(v))), self._unit(name)] for name, v in self.within().items()]
         return html_table(repr(self), ["microphone", "place", ""], places) + html_table(
             "means", ["variable", "mean", "unit"], means
         )
@@ -189,6 +204,10 @@ class Recording(ChannelHistory):
         """Speed and variables at the communication points of the recording, its start left out."""
         speed, outputs = self._kept()
         return {"shaft_speed": speed} | outputs
+
+    def _unit(self, name: str) -> str:
+        """Return the unit of a variable."""
+        return self.units.get(name) or unit_of(name)
 
     @property
     def signal_names(self) -> list[str]:
@@ -314,7 +333,7 @@ class Recording(ChannelHistory):
         xr = need("xarray", "a dataset")
         named = self.named(positions) if positions is not None or self.microphones else []
         data: dict[str, Any] = {
-            name: ("output_time", values, {"units": unit_of(name)})
+            name: ("output_time", values, {"units": self._unit(name)})
             for name, values in ({"shaft_speed": self.speed_points} | self.outputs).items()
         }
         coords: dict[str, Any] = {"output_time": ("output_time", self.output_time, {"units": "s"})}
@@ -374,6 +393,7 @@ class Recording(ChannelHistory):
             "size": self.size,
             "microphones": self.microphones,
             "harmonics": self.harmonics,
+            "units": self.units,
         }
         arrays: dict[str, Any] = {f"output:{name}": values for name, values in self.outputs.items()}
         with whole(target) as file:
@@ -405,7 +425,7 @@ class Recording(ChannelHistory):
                 {name[7:]: values for name, values in data.items() if name.startswith("output:")},
                 data["history"], data["recorded"],
                 tuple((name, tuple(place)) for name, place in head["microphones"]), head["harmonics"],
-                data.get("sensed", np.zeros((0, 0))),
+                data.get("sensed", np.zeros((0, 0))), head.get("units", {}),
             )  # fmt: skip
         except SceneError:
             raise

@@ -72,7 +72,7 @@ def test_results_of_runs_are_taken(run, tmp_path):
     known = run("envelope", result, "--signal", "outer_ring.velocity.z", "--settle", "0.02", "--scene", SCENE)
     assert "f_o" in known.stdout or "no line of the bearing" in known.stdout
     refused = run("envelope", result, "--settle", "0.02")
-    assert refused.exit_code == 2 and "name signals, as outer_ring.velocity.z" in refused.stderr
+    assert refused.exit_code == 2 and "there are outer_ring.velocity.z, cage" in refused.stderr
 
 
 @pytest.mark.parametrize(

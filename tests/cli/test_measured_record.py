@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 
+from fmu_bearing import Recording, Run
+
 RATE, COUNT = 12_000.0, 24_000
 TIME = np.arange(COUNT) / RATE
-#: m/s2: strokes of 105 Hz through a resonance of 3 kHz, in noise.
-STROKES = 107.0
+#: Hz: as balls pass the outer race of a 6205 at 1,750 r/min, 9/2 (1 - 7.94/39.04) times a turn.
+STROKES = 3.585 * 1750.0 / 60.0
 
 
 def values():
-    """Acceleration (m/s2)."""
+    """Acceleration (m/s2): strokes through a resonance of 3 kHz, in noise."""
     since = TIME % (1.0 / STROKES)
     noise = np.random.default_rng(5).normal(size=COUNT)
     return 20.0 * np.exp(-800.0 * since) * np.sin(2.0 * np.pi * 3000.0 * since) + noise
@@ -52,3 +54,87 @@ def test_too_few_times_are_refused_with_their_number(run, record_of):
     few = run("envelope", record_of(), "--signal", "acceleration", "--settle", "1.9999")
     assert few.exit_code == 2 and "too few: 1, and 3 or more are needed" in few.stderr
     assert "uneven" not in few.stderr
+
+
+@pytest.mark.parametrize(
+    "title", ["acceleration", "acceleration (m/s2)", "acceleration [m/s2]", "DE", "a (g)"]
+)
+def test_a_sole_column_is_taken(run, record_of, title):
+    (found,) = run("envelope", record_of(title), "--json").data["envelopes"]
+    assert found["signal"] == title.split()[0]
+    unit = {"(": "m/s2", "[": "m/s2"}.get(title.split()[-1][0], "")
+    assert found["unit"] == unit
+
+
+def test_of_several_columns_those_named_acceleration_are_taken(run, record_of):
+    several = record_of("Acceleration y (m/s2)", torque=values(), shaft_speed=np.full(COUNT, 180.0))
+    (found,) = run("envelope", several, "--json").data["envelopes"]
+    assert found["signal"] == "Acceleration y"
+    neither = run("envelope", record_of("torque", heat=values()))
+    assert neither.exit_code == 2 and "there are torque, heat" in neither.stderr
+
+
+def test_g_is_that_of_an_acceleration(run, record_of):
+    one = run("envelope", record_of("acceleration (g)"), "--band", "2000:4000", "--json").data["envelopes"][0]
+    plain = run("envelope", record_of(), "--band", "2000:4000", "--json").data["envelopes"][0]
+    assert one["unit"] == plain["unit"] == "m/s2"
+    assert one["rms"] / plain["rms"] == pytest.approx(9.80665, rel=1e-9)
+    assert one["rms_share"] == pytest.approx(plain["rms_share"], rel=1e-9) and plain["rms_share"] < 1.0
+
+
+@pytest.fixture(scope="module")
+def scene_6205(run, tmp_path_factory):
+    path = tmp_path_factory.mktemp("scene") / "6205.toml"
+    done = run("scene", "new", path, "--bearing", "6205", "--clearance", "CN", "--radial-load", "300",
+               "--speed", "1797")  # fmt: skip
+    assert done.exit_code == 0
+    return path
+
+
+def test_lines_are_those_of_the_speed_that_is_given(run, record_of, scene_6205, tmp_path):
+    def lines(*more):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        done = run("envelope", record_of(), "--scene", scene_6205, "-o", folder, *more)
+        assert done.exit_code == 0, done.stderr
+        text = (folder / "lines-acceleration.csv").read_text("utf-8").splitlines()
+        columns = text[0].split(",")
+        rows = [dict(zip(columns, line.split(","), strict=True)) for line in text[1:]]
+        return done, {row["name"]: float(row["frequency_Hz"]) for row in rows}
+
+    _, of_scene = lines()
+    done, given = lines("--speed", "1750")
+    assert of_scene["f_r"] == pytest.approx(1797.0 / 60.0) and given["f_r"] == pytest.approx(1750.0 / 60.0)
+    assert given["f_o"] == pytest.approx(STROKES, rel=0.01)
+    for name, frequency in given.items():
+        assert frequency / of_scene[name] == pytest.approx(1750.0 / 1797.0)
+    assert (
+        "outer race" in done.stdout and " m/s2 between " in done.stdout and "of the signal's" in done.stdout
+    )
+
+
+def test_a_speed_that_cannot_act_is_refused(run, record_of, scene_6205):
+    no_scene = run("envelope", record_of(), "--speed", "1750")
+    assert no_scene.exit_code == 2 and "--speed 1750 r/min is refused: without --scene" in no_scene.stderr
+    held = record_of(shaft_speed=np.full(COUNT, 180.0))
+    twice = run("envelope", held, "--scene", scene_6205, "--speed", "1750")
+    assert twice.exit_code == 2 and "it has a column shaft_speed" in twice.stderr
+    fast = run("envelope", record_of(), "--scene", scene_6205, "--speed", "1e6")
+    assert fast.exit_code == 2 and "--speed 1e+06 r/min is refused: allowed are" in fast.stderr
+    for command in ("envelope", "sound"):
+        finished = run(command, "a.npz", "--speed", "1750")
+        assert finished.exit_code == 2 and "a.npz is finished, and turned as it did" in finished.stderr
+
+
+def test_a_recording_of_a_record_keeps_its_units(record_of, tmp_path):
+    found = Recording.from_run(record_of("acceleration (g)"))
+    assert found.signal("acceleration").unit == "m/s2"
+    assert found.signal("acceleration").values.std() == pytest.approx(9.80665 * values().std(), rel=1e-5)
+    found.save(tmp_path / "kept.npz")
+    assert Recording.load(tmp_path / "kept.npz").signal("acceleration").unit == "m/s2"
+
+
+def test_a_mass_in_g_stays_a_mass(record_of):
+    run = Run.load(record_of("mass (g)", **{"weight of oil [g]": values(), "x (g)": values()}))
+    assert run.units == {"mass": "kg", "weight of oil": "kg", "x": "m/s2"}
+    for name, factor in (("mass", 1e-3), ("weight of oil", 1e-3), ("x", 9.80665)):
+        assert run[name].std() == pytest.approx(factor * values().std(), rel=1e-5)

@@ -68,6 +68,8 @@ class ChannelHistory(Turning):
         Highest circumferential order of the balls' sound among the channels.
     sensed : ndarray, shape (rows, channels)
         Channels of the scene's accelerometers, in the rows of `history`; no columns without any.
+    units : dict
+        Units of variables that are none of our FMUs', by name, as the titles of a measured record give them.
     """
 
     scene: Scene | None
@@ -83,6 +85,7 @@ class ChannelHistory(Turning):
     microphones: tuple[tuple[str, Position], ...] = ()
     harmonics: int = 0
     sensed: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 0)))
+    units: dict[str, str] = field(default_factory=dict)
     _spectra: Channels | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:

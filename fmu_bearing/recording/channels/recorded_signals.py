@@ -84,7 +84,8 @@ def recorded_signal(
     step = _step(recording)
     kept = _within(recording)
     times, values = recording.output_time[kept], recording.outputs[name][kept]
-    return RecordedSignal(name, unit_of(name), values, 1.0 / step, float(times[0]), 0.5 / step, number)
+    unit = recording.units.get(name) or unit_of(name)
+    return RecordedSignal(name, unit, values, 1.0 / step, float(times[0]), 0.5 / step, number)
 
 
 def _number(name: str) -> int | None:
@@ -128,10 +129,10 @@ def why_uneven(times: NDArray[np.float64]) -> str:
         return f"too few: {times.size}, and {FEWEST} or more are needed: take less settle, or a longer record"
     found = spacing(times)
     gap, middle = found.gaps[found.worst], float(np.median(found.gaps))
-    far = "repeat or fall" if found.off == np.inf else f"lie up to {100.0 * found.off:.3g} % of a step off it"
+    far = "repeated" if found.off == np.inf else f"up to {100.0 * found.off:.3g} % of a step off an even grid"
     return (
-        f"uneven: rounded to an even grid within {100.0 * ALLOWED:g} % of a step they are taken, and they {far}; "
-        f"at {times[found.worst]:.6g} s the step is {gap:.4g} s, the middle one {middle:.4g} s: resample them"
+        f"uneven: {far}, where rounding explains {100.0 * ALLOWED:g} %; at {times[found.worst]:.6g} s the "
+        f"step is {gap:.4g} s, the middle one {middle:.4g} s: resample them at even times"
     )
 
 

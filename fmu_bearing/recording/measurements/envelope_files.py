@@ -9,7 +9,7 @@ import numpy as np
 from fmu_bearing.extras import available
 from fmu_bearing.progress import Tell, silent
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import recorded_signal, signal_names
+from fmu_bearing.recording.channels.recorded_signals import ACCELERATION, recorded_signal, signal_names
 from fmu_bearing.recording.measurements.envelope import Envelope
 from fmu_bearing.recording.measurements.envelope_lines import EnvelopeLine
 from fmu_bearing.recording.measurements.kurtogram import Band
@@ -30,7 +30,7 @@ FILES = (
 )
 #: Columns that a terminal has room for.
 _COLUMNS = ("line", "of", "Hz", "found at, Hz", "of the mean, %", "over the median, dB")
-_MOST = 12  # lines of a table
+_MOST = 12  # lines of a table, names in a message
 
 
 def usual_signals(recording: ChannelHistory) -> list[str]:
@@ -38,12 +38,13 @@ def usual_signals(recording: ChannelHistory) -> list[str]:
 
     Its accelerometers; without any both radial accelerations of the outer ring of each bearing, as the one
     across the load sees little of a defect; of rings that a rigid housing holds, those of the inner ring. Of
-    a recording of pressures the microphones.
+    a recording of pressures the microphones; of a measured record its sole column beside time and speed, of
+    several those that are named acceleration or have its unit.
 
     Raises
     ------
     ValueError
-        Where there are neither.
+        Where there are none of these.
     """
     found = list(recording.accelerometers)
     if found:
@@ -56,12 +57,22 @@ def usual_signals(recording: ChannelHistory) -> list[str]:
         if found:
             return found
     found = [name for name, _ in recording.microphones]
+    if found:
+        return found
+    columns = [name for name in names if name != "shaft_speed"]
+    found = [name for name in columns if _accelerates(recording, name)] if len(columns) > 1 else columns
     if not found:
+        shown = ", ".join(columns[:_MOST]) + (f" and {len(columns) - _MOST} more" if columns[_MOST:] else "")
         raise ValueError(
-            "there is neither an acceleration nor a microphone here, whose envelope is usual: name signals, "
-            f"as {', '.join(names[:3]) or 'variables that were kept at even times'}"
+            "there is neither an acceleration nor a microphone here, whose envelope is usual: name signals "
+            f"(--signal); there are {shown or 'none, as no variable was kept at even times'}"
         )
     return found
+
+
+def _accelerates(recording: ChannelHistory, name: str) -> bool:
+    """Whether a column is an acceleration by its name or its unit."""
+    return "acceleration" in name.casefold() or recording.units.get(name) == ACCELERATION
 
 
 def lines_table(found: Envelope) -> Table:

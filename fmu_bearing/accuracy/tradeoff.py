@@ -16,10 +16,12 @@ import numpy as np
 
 from fmu_bearing.accuracy.reference import explicit_rings, implicit_rings, relative_error
 from fmu_bearing.arrays import Arrays, EngineError
+from fmu_bearing.engine.constants import RPM
 from fmu_bearing.prepare.sound_block import Sounds
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Quantity, Result, Study
-from fmu_bearing.results.table import machine, markdown, number
+from fmu_bearing.results.table import Table, machine, markdown, number
+from fmu_bearing.run.choose import reason_against, too_far
 from fmu_bearing.run.metrics import SAMPLE, Errors, errors, measure
 from fmu_bearing.run.paces import COMMUNICATION, Paces
 from fmu_bearing.run.settings import TERMS, Setting
@@ -96,6 +98,16 @@ class Row(Result):
     paces: Paces = field(default_factory=Paces)
     remark: str = ""
 
+    @property
+    def whole(self) -> bool:
+        """Whether the setting has all terms and the usual strips: others describe another bearing."""
+        return not self.setting.without and self.setting.strips == _FULL.strips
+
+    @property
+    def steps(self) -> tuple[float | None, float | None]:
+        """Largest step (us) and tolerance; None where nothing is stepped."""
+        return self.stepped(1e6 * self.setting.max_step), self.stepped(self.setting.tolerance)
+
     def stepped(self, value: float) -> float | None:
         """Return a value of the steps; the linear response is a sum of lines: nothing is stepped."""
         return None if self.setting.fidelity == "response" else value
@@ -118,7 +130,7 @@ class Tradeoff(Study):
 
     quantities = (
         "scene", "rpm", "warm_up_s", "window_s", "agreement [1]", "pair [1]", "reference_error [1]",
-        "settings = rows",
+        "settings = rows", "advice",
     )  # fmt: skip
     stem, row = "tradeoff", Row
 
@@ -130,6 +142,23 @@ class Tradeoff(Study):
     pair: float
     reference_error: float
     rows: tuple[Row, ...]
+    advice: str = ""
+    """Which setting to take, in a sentence."""
+
+    def short(self) -> Table:
+        """Return the columns that decide, for a terminal, of the settings that leave nothing out."""
+        rows = [
+            [
+                row.setting.name, *(f"{value:g}" if value else "" for value in row.steps),
+                *(number(None if row.errors is None else value(row.errors)) for value in _DECIDE),
+                number(row.paces.slowest), row.remark,
+            ]
+            for row in self.rows
+            if row.whole
+        ]  # fmt: skip
+        heads = ["fidelity", "max step, us", "tolerance", "rings, dB", "torque", "dB(A)", "sim/CPU", "remark"]
+        kept = [k for k in range(len(heads)) if k < len(heads) - 1 or any(row[k] for row in rows)]
+        return [heads[k] for k in kept], [[row[k] for k in kept] for row in rows]
 
     def records(self) -> tuple[Row, ...]:
         """Return the rows."""
@@ -143,6 +172,36 @@ class Tradeoff(Study):
             pair=self.pair, own=self.reference_error, step=1e6 * REFERENCE.max_step,
             tolerance=REFERENCE.tolerance, table=markdown(*self.table()),
         )  # fmt: skip
+
+
+#: Errors that `Tradeoff.short` has.
+_DECIDE: tuple[Callable[[Errors], float], ...] = (
+    lambda one: one.ring_level, lambda one: one.torque, lambda one: one.level,
+)  # fmt: skip
+
+
+def _advice(rows: Sequence[Row], scene: Scene, against: str) -> str:
+    """Return which row to take: the fastest with moving inputs within the scene's ``fidelity.accuracy``.
+
+    ``against``: why only fidelity full is trusted, as in `run.choose.choose`; "": nothing is against others.
+    """
+    bounds = scene.fidelity.accuracy
+    asked = f"{bounds.level_dB:g} dB and {bounds.relative:g} of loads and torque (fidelity.accuracy)"
+    good = [
+        row for row in rows
+        if row.whole and row.errors is not None and not too_far(row.errors, scene)
+        and not (against and row.setting.fidelity != _FULL.fidelity)
+    ]  # fmt: skip
+    left_out = f"; rings and response are left out: {against}" if against else ""
+    if not good:
+        return f"Nothing that was measured is within {asked}{left_out}: ask for less, or take shorter steps."
+    best = max(good, key=lambda row: row.paces.slowest)
+    step, tolerance = best.steps
+    how = "" if step is None else f", {step:g} us, tolerance {tolerance:g}"
+    return (
+        f"Take {best.setting.name}{how}: the fastest within {asked}, at this speed{left_out}. sim/CPU here "
+        "is the slowest of constant and moving inputs; `fmu-bearing choose` probes other speeds too."
+    )
 
 
 _PAGE = """# Accuracy and cost: {scene}, {rpm:,.0f} r/min
@@ -218,9 +277,11 @@ def tradeoff(
             agreement = relative_error(truth.rings, witness.rings)
     rows: list[Row] = []
     rpm = scene.operation.speed_rpm
+    against = reason_against(scene, rpm * RPM)
 
     def study() -> Tradeoff:
-        return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows))
+        advice = _advice(rows, scene, against)
+        return Tradeoff(scene.name, rpm, warm_up, window, agreement, pair, own, tuple(rows), advice)
 
     with keeping(rows, study):
         for setting in track(settings):

@@ -99,7 +99,9 @@ def tradeoff(
     if as_json:
         base.print_json(study.summary() | {"files": files})
     else:
-        base.show(f"{study.scene}: accuracy and cost", *study.table())
+        base.show(f"{study.scene}: accuracy and cost", *study.short())
+        typer.echo(study.advice)
+        typer.echo("All columns, and settings with fewer strips or terms, are in the file.")
     base.end(code, files, named=not as_json)
 
 

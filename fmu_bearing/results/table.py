@@ -91,7 +91,8 @@ def show(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> N
     console = terminal()
     widths = _widths(columns, rows, console.width - 3 * len(columns) - 1)  # a frame and two spaces each
     if widths is None:
-        print("\n".join(row_by_row(title, columns, rows, console.width)))
+        # an empty line, because what follows is no part of the last row
+        print("\n".join([*row_by_row(title, columns, rows, console.width), ""]))
         return
     table = Table(title=title)
     for k, (name, width) in enumerate(zip(columns, widths, strict=True)):

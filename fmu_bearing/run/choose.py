@@ -344,7 +344,7 @@ def choose(
 def _against(scene: Scene, planned: Sequence[Condition]) -> str:
     """Return why fidelities rings and response are no candidates at one of the speeds; "": they are."""
     for one in planned:
-        if one.first == one.last and (reason := _reason_against(scene, one.last)):
+        if one.first == one.last and (reason := reason_against(scene, one.last)):
             return reason if one is planned[0] else f"at {one.name} {reason}"
     return ""
 
@@ -413,7 +413,7 @@ def _keep(path: pathlib.Path, text: str) -> None:
         pass
 
 
-def _reason_against(scene: Scene, speed: float) -> str:
+def reason_against(scene: Scene, speed: float) -> str:
     """Return why fidelities rings and response are no candidates at a speed (rad/s); "": they are.
 
     A mode of the rings grows by itself or is weakly damped, or no steady state was found: what a window of

@@ -6,6 +6,7 @@ from dataclasses import astuple
 
 import pytest
 
+from fmu_bearing.accuracy import tradeoff as trading
 from fmu_bearing.accuracy.chart import draw, pareto_front
 from fmu_bearing.accuracy.tradeoff import QUICK, REFERENCE, SETTINGS, WITNESS, tradeoff
 from fmu_bearing.run.settings import Setting
@@ -38,6 +39,21 @@ def test_files_hold_every_row_and_the_machine(study, tmp_path):
     assert read[0] == study.table()[0] and len(read) == 1 + len(study.rows)
     page = (tmp_path / "tradeoff.md").read_text("utf-8")
     assert "Numba" in page and page.count("\n| ") == 2 + len(study.rows)
+
+
+def test_a_terminal_has_the_columns_that_decide_and_a_sentence(study, silent):
+    """Response is 3 dB off in this window; at 6 dB it is taken, unless something speaks against it."""
+    columns, rows = study.short()
+    assert columns == ["fidelity", "max step, us", "tolerance", "rings, dB", "torque", "dB(A)", "sim/CPU"]
+    assert [row[:3] for row in rows] == [  # one strip is another bearing
+        ["full / esdirk4", "25", "0.002"], ["full / esdirk4", "5", "0.0001"], ["response", "", ""],
+    ]  # fmt: skip
+    assert study.advice.startswith("Take full / esdirk4, 25 us, tolerance 0.002: the fastest within 1 dB")
+    wide = silent.replace({"fidelity.accuracy.level_dB": 6.0, "fidelity.accuracy.relative": 0.5})
+    assert trading._advice(study.rows, wide, "").startswith("Take response: the fastest within 6 dB")
+    words = trading._advice(study.rows, wide, "a mode grows")
+    assert words.startswith("Take full") and "rings and response are left out: a mode grows" in words
+    assert trading._advice(study.rows[2:], silent, "").startswith("Nothing that was measured is within 1 dB")
 
 
 @pytest.mark.heavy

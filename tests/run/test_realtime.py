@@ -77,7 +77,7 @@ def test_none_keeps_but_at_a_held_speed_or_in_longer_steps(scene):
     )
 
 
-def test_where_none_keeps_the_fastest_on_average_is_named_not_the_one_of_the_shortest_long_step(scene):
+def test_where_none_keeps_the_fastest_on_average_is_named(scene):
     """Full never takes above 9.6 ms, rings and response have steps of 34 and 44 ms, and are far cheaper."""
     timed = []
     for fidelity, run_up, worst, held in (

@@ -103,6 +103,7 @@ def envelope(
         return base.end(code, files)
     for one in found:
         _show(one)
+        _tell(recording, one)
     _caution(recording, found[0])
     base.end(code, files, named=True)
 
@@ -164,6 +165,17 @@ def _show(found: "Envelope") -> None:
     else:
         at = found.frequency[found.amplitude.argmax()]
         typer.echo(f"{title}: highest at {at:.1f} Hz; the bearing is not known, --scene names its lines")
+
+
+def _tell(recording: "Recording", found: "Envelope") -> None:
+    """Print what an envelope says in words, for a bearing that is known."""
+    from fmu_bearing.recording.measurements.envelope_words import doubt, verdict
+
+    if found.lines:
+        rpm = 60.0 * recording.kinematics().f_r
+        for words in (verdict(found), doubt(found, rpm, recording.turning_known)):
+            if words:
+                typer.echo(words)
 
 
 def _caution(recording: "Recording", found: "Envelope") -> None:

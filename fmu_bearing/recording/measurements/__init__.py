@@ -5,6 +5,7 @@
 ``kurtogram``          kurtosis of envelopes in bands: where strokes show best
 ``envelope``           envelope spectra of any signal, with the lines of the bearing
 ``envelope_lines``     where such a spectrum has the lines of a bearing
+``envelope_words``     what such a spectrum says in a sentence
 ``measure``            spectra by component, circles, planes, power, run-ups
 ``tables``             such measurements as tables
 ``pictures``           such measurements as pictures

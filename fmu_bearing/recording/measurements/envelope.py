@@ -34,7 +34,7 @@ _FINER = 4  # bins in place of one: a line between two of them then reads low by
 _AROUND = 25.0  # resolutions to either side, whose median is what a line is held against
 _LOBE, _SKIRT = 2.0, 4.0  # resolutions: of a line under Hann's window, and of one whose frequency trembles
 _BESIDE = 0.1  # of a line, which its skirt may have
-_SLIDING = 0.015  # of a frequency that is not known from the run: rolling at one contact angle
+SLIDING = 0.015  # of a frequency that is not known from the run: rolling at one contact angle
 _SLIP = 3e-4  # of one that is: balls of a bearing spin as fast within that
 _LOWEST = 200.0  # Hz: below it is the shaft's own motion
 _BANDS = 3.0  # times the fastest passing of balls: the width of a band that shows it three times
@@ -145,8 +145,8 @@ class Envelope(Result):
         """Return the lines 10 dB over the median, farthest first: of those at one peak the nearest.
 
         Within two resolutions of a higher one, and within four of one ten times as high, a line may be the
-        skirt of that one: it is left out. A side band needs its carrier, a multiple of f_r or f_c above the
-        second its first line.
+        skirt of that one: it is left out. A side band needs its carrier, a multiple above the third its
+        first line, of f_r and f_c above the second.
         """
         taken: dict[int, EnvelopeLine] = {}
         over = {(line.name, line.of): line.over_median for line in self.lines}
@@ -348,7 +348,7 @@ def envelope_of(
         )  # fmt: skip
     except ValueError as problem:
         raise ValueError(f"{name}: {problem}") from None
-    slip = _SLIP if recording.turning_known else _SLIDING
+    slip = _SLIP if recording.turning_known else SLIDING
     read = [line for place in turning for line in lines_of(found, *place, slip)]
     once = {(line.name, line.of): line for line in read}  # the shaft's own are those of every bearing
     return replace(found, lines=tuple(once.values()))

@@ -62,7 +62,10 @@ class EnvelopeLine(Result):
         if self.is_sum:
             return self.name.replace(" + ", " - ").split(" - ")[0]
         times, _, base = self.name.rpartition(" ")
-        return base if base in _SHAFT and int(times or 1) > 2 else ""
+        if base in _SHAFT:
+            return base if int(times or 1) > 2 else ""
+        first = 2 if base == "f_b" else 1
+        return combination(first, base) if int(times or 1) > 3 * first else ""
 
 
 def turning_of(

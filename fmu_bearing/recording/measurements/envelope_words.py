@@ -53,7 +53,7 @@ def verdict(found: Envelope) -> str:
 
 
 def doubt(found: Envelope, rpm: float, speed_known: bool) -> str:
-    """Return a sentence about a highest line that is not of the bearing, or a speed that is off; else nothing.
+    """Return a sentence about a highest line that is not the bearing's, or a speed that is off; else nothing.
 
     ``rpm``: speed of the shaft (r/min); ``speed_known``: whether it is that of the run.
     """
@@ -61,11 +61,13 @@ def doubt(found: Envelope, rpm: float, speed_known: bool) -> str:
         return ""
     races = [line for line in found.far() if _kind(line).endswith("race") and not line.is_sum]
     last = max(races, key=lambda line: line.frequency, default=None)
-    off = 0.0 if last is None else last.found / last.frequency - 1.0
-    if last is not None and abs(off) > SLIDING and not speed_known:
+    off = 0.0 if last is None else last.found - last.frequency
+    # a short record leaves half of a resolution open
+    if last and not speed_known and abs(off) > SLIDING * last.frequency + 0.5 * found.resolution:
+        way = "above" if off > 0.0 else "below"
         return (
-            f"{last.name} is {100.0 * abs(off):.1f} % {'above' if off > 0.0 else 'below'} that at {rpm:.0f} "
-            "r/min, more than cages slip; is the speed right?"
+            f"{last.name} is {100.0 * abs(off) / last.frequency:.1f} % {way} that at {rpm:.0f} r/min, more than "
+            "cages slip; is the speed right?"
         )
     at, amplitude, ratio = found.at(float(found.frequency[np.argmax(found.amplitude)]))
     named = [line.found for line in found.far()]

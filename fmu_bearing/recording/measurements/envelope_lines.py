@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from fmu_bearing.acoustics.analysis.lines import combination
 from fmu_bearing.acoustics.analysis.spectrum import KinematicFrequencies
@@ -11,9 +11,6 @@ from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.channels.recorded_signals import RecordedSignal
 from fmu_bearing.results.base import Quantity, Result
 from fmu_bearing.results.levels import decibels
-
-if TYPE_CHECKING:
-    from fmu_bearing.recording.measurements.envelope import Envelope
 
 FAR = 10.0  # dB over the median, from which a line is named
 _MULTIPLES = 10  # of what passes races and balls: short strokes have many
@@ -68,6 +65,21 @@ class EnvelopeLine(Result):
         return combination(first, base) if int(times or 1) > 3 * first else ""
 
 
+class Spectrum(Protocol):
+    """What lines are read from: an `Envelope`."""
+
+    @property
+    def resolution(self) -> float:
+        """Hz."""
+
+    @property
+    def mean(self) -> float:
+        """Mean of the squared envelope."""
+
+    def at(self, frequency: float, within: float | None = None) -> tuple[float, float, float]:
+        """Return the highest point about a frequency: Hz, amplitude, and that over the median about it."""
+
+
 def turning_of(
     recording: ChannelHistory, signal: RecordedSignal
 ) -> list[tuple[KinematicFrequencies, str, dict[str, str]]]:
@@ -90,7 +102,7 @@ def turning_of(
 
 
 def lines_of(
-    found: "Envelope", one: KinematicFrequencies, whose: str, struck: Mapping[str, str], slip: float
+    found: Spectrum, one: KinematicFrequencies, whose: str, struck: Mapping[str, str], slip: float
 ) -> Iterator[EnvelopeLine]:
     """Yield the lines of a bearing as the spectrum has them.
 
@@ -131,7 +143,7 @@ def _height(line: EnvelopeLine) -> float:
 
 
 def _read(
-    found: "Envelope", name: str, of: str, frequency: float, sought: float, reach: float = 0.0
+    found: Spectrum, name: str, of: str, frequency: float, sought: float, reach: float = 0.0
 ) -> EnvelopeLine:
     """Return a line as the spectrum has it about ``sought`` (Hz), within a resolution or ``reach`` (Hz).
 

@@ -64,10 +64,10 @@ def doubt(found: Envelope, rpm: float, speed_known: bool) -> str:
     off = 0.0 if last is None else last.found - last.frequency
     # a short record leaves half of a resolution open
     if last and not speed_known and abs(off) > SLIDING * last.frequency + 0.5 * found.resolution:
-        way = "above" if off > 0.0 else "below"
+        way, share = "above" if off > 0.0 else "below", abs(off) / last.frequency
         return (
-            f"{last.name} is {100.0 * abs(off) / last.frequency:.1f} % {way} that at {rpm:.0f} r/min, more than "
-            "cages slip; is the speed right?"
+            f"{last.name} is {100.0 * share:.1f} % {way} that at {rpm:.0f} r/min, more than cages slip; is "
+            "the speed right?"
         )
     at, amplitude, ratio = found.at(float(found.frequency[np.argmax(found.amplitude)]))
     named = [line.found for line in found.far()]

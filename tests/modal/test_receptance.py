@@ -182,3 +182,26 @@ def test_what_is_refused(words, given):
 def test_another_models_shaft_has_none():
     with pytest.raises(SceneError, match="cannot have receptance of the nose and milling stability"):
         receptance(SETS.parent / "port" / "7003C-DB-port.toml", [100.0])
+
+
+def test_neutral_motions_of_the_balls_are_no_needles():
+    """The axes of their spins turn over so slowly that nothing damps them: five times as much at f_c."""
+    pair = new_scene(
+        "pair",
+        "NSK-7010C",
+        arrangement="DB",
+        kind="steel",
+        preload_class="medium",
+        speed_rpm=18e3,
+        sound=False,
+    )
+    scene = read_scene_text(pair).replace({"lubricant.supply": "grease"})
+    hertz = np.concatenate([[20.0], np.arange(120.0, 150.0, 0.25), np.linspace(1e3, 3e3, 101)])
+    found = receptance(scene, hertz).G[0, 0, :, 1, 1]
+    whole = transfer.transfer(linearised(scene), hertz)[:, 1, 1]
+    near = (hertz > 120.0) & (hertz < 150.0)
+    assert np.abs(whole[near]).max() > 4.0 * np.abs(found[near]).max()
+    assert np.abs(found[near]).max() < 1.05 * np.abs(found[near]).min()
+    # neither the static stiffness nor the peaks of shaft and rings are others
+    assert 1.0 / abs(found[0]) == pytest.approx(statics(scene).nose_stiffness, rel=0.01)
+    assert np.abs(found / whole - 1.0)[hertz >= 1e3].max() < 1e-3

@@ -127,6 +127,25 @@ def _is_ringing(system: Linearised, mode: Mode) -> bool:
     return True
 
 
+def without_needles(
+    system: Linearised, values: NDArray[np.complex128], vectors: NDArray[np.complex128]
+) -> NDArray[np.complex128]:
+    """Return eigenvalues; those of nearly undamped motions of `Modes.apart` have a damping of `_DAMPED`.
+
+    They are neutral motions of balls that turn with them: their spins turn over within seconds or never.
+    """
+    found, bodies, scale = values.astype(complex), Bodies(system), _scale(system)
+    orbit = min(abs(bearing.orbit) for bearing in system.bearings)
+    swings = (values.imag > 0.5 * orbit) & (abs(values.real) < max(_SLOW, _NEUTRAL * orbit))
+    for k in np.flatnonzero(swings) if orbit else ():
+        mode = _mode(system, bodies, scale, values[k], vectors[:, k], 0.0)
+        if not _is_ringing(system, mode):
+            calm = abs(values[k]) * complex(-_DAMPED, math.sqrt(1.0 - _DAMPED**2))
+            found[values == values[k].conjugate()] = calm.conjugate()
+            found[values == values[k]] = calm
+    return found
+
+
 def _are_free(system: Linearised, mode: Mode) -> bool:
     """Whether balls that move alone are put apart: all of a set, of a bearing motions along their orbits.
 

@@ -17,7 +17,7 @@ from fmu_bearing.modal.receptance import receptance_files
 from fmu_bearing.modal.receptance.receptance_picture import picture
 from fmu_bearing.modal.receptance.receptance_table import Place, ReceptanceTable
 from fmu_bearing.modal.receptance.tool import at_tip, tool_of
-from fmu_bearing.modal.receptance.transfer import transfer
+from fmu_bearing.modal.receptance.transfer import measurable, transfer
 from fmu_bearing.modal.table_points import above_zero, table_points
 from fmu_bearing.progress import keeping
 from fmu_bearing.results.base import Quantity
@@ -157,10 +157,10 @@ class _Row:
     def add(self, scene: Scene, inputs: dict[int, float]) -> None:
         """Take the numbers of the next preload."""
         system = linearised(scene, inputs)
-        g = transfer(system, self._hertz)
+        g = measurable(system, self._hertz)
         tip = self._at == "tip"
         self.g.append(at_tip(scene, g, self._hertz, system.speed) if tip else g)
-        self.spread.append(_spread(system, g[:1], self._hertz[:1]))
+        self.spread.append(_spread(system, self._hertz[:1]))
         self.steady.append(system.steady)
         growing = self_excited(solved(scene, system)) if may_grow(system.matrix) else None
         self.growing.append(0.0 if growing is None else growing.growth)
@@ -179,11 +179,12 @@ def _table(
     )  # fmt: skip
 
 
-def _spread(system: Linearised, mean: NDArray[np.complex128], hertz: NDArray[np.float64]) -> float:
+def _spread(system: Linearised, hertz: NDArray[np.float64]) -> float:
     """Return the largest distance of a phase from the mean, of y and z, over it; 0 for equal ball loads."""
     if system.equal_loads:
         return 0.0
     across = slice(1, 3)
+    mean = transfer(system, hertz)
     single = np.array([transfer(system, hertz, one) for one in system.phases])
     own, middle = (np.diagonal(part[..., across, across], axis1=-2, axis2=-1) for part in (single, mean))
     return float((np.abs(own - middle) / np.abs(middle)).max())

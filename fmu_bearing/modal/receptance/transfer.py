@@ -4,7 +4,7 @@ N reads the five motions of the nose, of a single bearing those of its inner rin
 force there accelerate what it acts on: inverse mass times N transposed. By the eigenvectors of A all
 frequencies take one product. Eigenvectors of balls that are free along their orbits may be close to parallel;
 so three frequencies are solved directly beside it, and where they differ, all are, which takes some ten times
-as long.
+as long. In `measurable` neutral motions of the balls are damped.
 """
 
 import math
@@ -14,14 +14,49 @@ from numpy.typing import NDArray
 
 from fmu_bearing.modal.equations.coordinates import FREEDOMS
 from fmu_bearing.modal.equations.linearised import Linearised
+from fmu_bearing.modal.modes.solve import without_needles
 
 _EXACT = 1e-6  # of the root of both entries on the diagonal: within this the eigenvectors are taken
 _FEW = 8  # frequencies that are solved directly in the time that eigenvectors take
 
 
+def measurable(system: Linearised, frequencies: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return the receptance at the nose without the needles of neutral motions of the balls.
+
+    The axes of the balls' spins turn over so slowly that a force which turns with the balls, as one part of a
+    force at the cage's frequency does, meets hardly any resistance of theirs. `transfer` has needles at that
+    frequency and its multiples, a fraction of a hertz wide, and as high as a damping of them says that is
+    zero within the accuracy of the steady state. `modes` puts these motions apart; here they have a damping
+    with which nothing rings.
+
+    Parameters
+    ----------
+    system : Linearised
+    frequencies : ndarray
+        Hz, above 0.
+
+    Returns
+    -------
+    ndarray, shape (frequencies, 5, 5)
+    """
+    values, vectors = eigen = np.linalg.eig(system.matrix)
+    found = transfer(system, frequencies, eigen=eigen)
+    calm = without_needles(system, values, vectors)
+    chosen = calm != values
+    out, into = _ports(system)
+    try:
+        of_modes = np.linalg.solve(vectors, into.astype(complex))[chosen]
+    except np.linalg.LinAlgError:  # two eigenvectors are parallel to the last digit
+        return found
+    s = 2j * math.pi * frequencies.astype(complex)
+    needles, instead = (_summed(out @ vectors[:, chosen], one[chosen], of_modes, s) for one in (values, calm))
+    return np.asarray(found - needles + instead)
+
+
 def transfer(
-    system: Linearised, frequencies: NDArray[np.float64], matrix: NDArray[np.float64] | None = None
-) -> NDArray[np.complex128]:
+    system: Linearised, frequencies: NDArray[np.float64], matrix: NDArray[np.float64] | None = None,
+    eigen: tuple[NDArray[np.complex128], NDArray[np.complex128]] | None = None,
+) -> NDArray[np.complex128]:  # fmt: skip
     """Return the receptance at the nose, shape (frequencies, 5, 5), m and rad per N and N m.
 
     Rows are motions x, y, z and tilts about y, z, columns forces and moments; a motion is the real part of
@@ -34,13 +69,15 @@ def transfer(
         Hz, above 0.
     matrix : ndarray, optional
         That of one phase of a ball pitch; default: the mean.
+    eigen : tuple of ndarray, optional
+        Eigenvalues and vectors of the matrix, where they are known.
     """
     a = system.matrix if matrix is None else matrix
     out, into = _ports(system)
     s = 2j * math.pi * frequencies.astype(complex)
     if len(s) <= _FEW:
         return _direct(a, out, into, s)
-    values, vectors = np.linalg.eig(a)
+    values, vectors = np.linalg.eig(a) if eigen is None else eigen
     sample = np.unique([0, len(s) // 2, len(s) - 1])
     direct = _direct(a, out, into, s[sample])
     try:

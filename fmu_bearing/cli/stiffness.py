@@ -171,9 +171,10 @@ def _show(table: "Stiffness") -> None:
     columns = ("bearing", *_COLUMNS) if several else _COLUMNS
     base.show(f"{table.scene.name} at {table.frequencies[at]:.4g} Hz: {units}", columns, rows)
     apart = max(bearing.against_static() for bearing in table.bearings)
+    low = f"{table.frequencies[0]:.4g} Hz"
     typer.echo(
-        f"K for frequency to 0 differs from K at {table.frequencies[0]:.4g} Hz by at most "
-        f"{_PERCENT * apart:.2g} %"
+        f"below {low}, the lowest frequency computed: K for frequency to 0 (static) differs by at most "
+        f"{_PERCENT * apart:.2g} % from K at {low}"
     )
 
 

@@ -231,7 +231,10 @@ def check(
             if not file.is_file():  # nothing to check: a refusal, no finding
                 read_scene(file)
         findings = {str(path): _findings(path) for path in paths}
-    rows = {path: () if scene is None else exclusions_of(scene) for path, (scene, _) in findings.items()}
+    rows = {
+        path: [] if scene is None else [row for row in exclusions_of(scene) if "against" not in row.what]
+        for path, (scene, _) in findings.items()
+    }  # `against` is a value of one study, which says so by itself, and every set has that row
     if as_json:
         print_json({
             path: {"ok": scene is not None, "findings": lines, "cannot": list(map(_cannot, rows[path]))}

@@ -11,7 +11,6 @@ from fmu_bearing.accuracy.changes import point
 from fmu_bearing.design.measured import PAGE, measured_elsewhere
 from fmu_bearing.instance import Instance
 from fmu_bearing.scene import read_scene
-from fmu_bearing.scene.exclusions import exclusions_of
 from tests.conftest import EXAMPLES
 from tests.spindle.sets import scene as bearings
 
@@ -177,16 +176,10 @@ def test_load_and_angle_of_a_ball_are_of_one_race(run):
 def test_a_set_is_checked_shown_and_run(run, tmp_path):
     result = run("scene", "check", SET)
     assert result.exit_code == 0 and "a scene, with an equilibrium" in result.stdout
-    last = result.stdout.partition("at its operating point\n")[2].splitlines()
-    assert last == [row.words() for row in exclusions_of(read_scene(SET))] and len(last) == 1
+    # nobody asked for error motion against an outer ring, which no set has
+    assert result.stdout.partition("at its operating point\n")[2] == ""
     shown = run("scene", "check", SET, EXAMPLES / "7003C-bare.toml", "--json").data
-    pair, single = (shown[str(path)]["cannot"] for path in (SET, EXAMPLES / "7003C-bare.toml"))
-    assert single == [] and len(pair) == 1
-    assert pair[0] == {
-        "what": ["error motion against an outer ring"],
-        "reason": "it has several, and its nose moves against the ground",
-        "way_out": "leave `against` out, or give `ground`",
-    }
+    assert all(shown[str(path)]["cannot"] == [] for path in (SET, EXAMPLES / "7003C-bare.toml"))
     out = tmp_path / "run.csv"
     result = run("simulate", SET, "-t", 1e-3, "-v", "bearing[*].force.x", "-o", out, "--json")
     assert result.exit_code == 0 and result.data["points"] == 2

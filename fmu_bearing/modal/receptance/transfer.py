@@ -39,13 +39,13 @@ def measurable(system: Linearised, frequencies: NDArray[np.float64]) -> NDArray[
     -------
     ndarray, shape (frequencies, 5, 5)
     """
-    values, vectors = eigen = np.linalg.eig(system.matrix)
+    values, vectors = eigen = _eigen(system.matrix)
     found = transfer(system, frequencies, eigen=eigen)
     calm = without_needles(system, values, vectors)
     chosen = calm != values
     out, into = _ports(system)
     try:
-        of_modes = np.linalg.solve(vectors, into.astype(complex))[chosen]
+        of_modes = np.linalg.solve(vectors, into.astype(complex)).astype(complex)[chosen]
     except np.linalg.LinAlgError:  # two eigenvectors are parallel to the last digit
         return found
     s = 2j * math.pi * frequencies.astype(complex)
@@ -77,17 +77,24 @@ def transfer(
     s = 2j * math.pi * frequencies.astype(complex)
     if len(s) <= _FEW:
         return _direct(a, out, into, s)
-    values, vectors = np.linalg.eig(a) if eigen is None else eigen
+    values, vectors = eigen or _eigen(a)
     sample = np.unique([0, len(s) // 2, len(s) - 1])
     direct = _direct(a, out, into, s[sample])
     try:
-        found = _summed(out @ vectors, values, np.linalg.solve(vectors, into.astype(complex)), s)
+        of_modes = np.linalg.solve(vectors, into.astype(complex)).astype(complex)
+        found = _summed(out @ vectors, values, of_modes, s)
     except np.linalg.LinAlgError:  # two eigenvectors are parallel to the last digit
         return _direct(a, out, into, s)
     size = np.sqrt(np.abs(np.diagonal(direct, axis1=1, axis2=2)).max(axis=0))
     if np.all(np.abs(found[sample] - direct).max(axis=0) <= _EXACT * np.outer(size, size)):
         return found
     return _direct(a, out, into, s)
+
+
+def _eigen(a: NDArray[np.float64]) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """Return eigenvalues and vectors, complex also where all are real."""
+    values, vectors = (part.astype(complex) for part in np.linalg.eig(a))
+    return values, vectors
 
 
 def _ports(system: Linearised) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

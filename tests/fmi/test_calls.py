@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -278,11 +279,23 @@ def test_no_step_is_ever_pending(master, expected):
 
 def test_calls_that_are_not_provided(master, expected):
     bearing = master().start()
-    assert (bearing.call("CancelStep"), bearing.step(0.0)) == expected["cancelled step"]
+    assert (bearing.call("CancelStep"), bearing.step(0.0)) == (ERROR, OK)
     bearing, number = master().start(), (ctypes.c_double * 1)(1.0)
     unknown, known = bearing._references(["friction_torque"]), bearing._references(["preload"])
     answer = bearing.call("GetDirectionalDerivative", unknown, 1, known, 1, number, (ctypes.c_double * 1)())
     assert (answer, bearing.step(0.0)) == expected["directional derivative"]
+
+
+def test_cancelling_from_another_thread_leaves_the_step_as_it_is(master):
+    bearing, other, size, answers = master().start(), master().start(), 0.02, []
+    with ThreadPoolExecutor(1) as pool:
+        step = pool.submit(bearing.step, 0.0, size)
+        while not step.done():
+            answers.append(bearing.call("CancelStep"))
+            time.sleep(1e-3)
+    assert set(answers) == {ERROR}
+    assert step.result() == other.step(0.0, size) == OK
+    assert bearing.run(1, size) == other.run(1, size)
 
 
 # --- one process, several instances -----------------------------------------------------------------------

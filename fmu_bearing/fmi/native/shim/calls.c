@@ -21,7 +21,6 @@ const CallRule CALL_RULES[] = {
     {"setRealInputDerivatives", BEFORE_END},
     {"getRealOutputDerivatives", AFTER_START},
     {"doStep", PHASE_STEPPING},
-    {"cancelStep", ANY},
     {"getStatus", AFTER_START},
 };
 

@@ -18,7 +18,6 @@ typedef enum Call {
     CALL_INPUT_DERIVATIVES,
     CALL_OUTPUT_DERIVATIVES,
     CALL_DO_STEP,
-    CALL_CANCEL_STEP,
     CALL_STATUS
 } Call;
 

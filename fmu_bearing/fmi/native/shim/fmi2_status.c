@@ -3,14 +3,15 @@
 
 #include "fmi2Functions.h"
 
-/* Refuse to cancel: steps end before doStep returns. */
+/* Refuse to cancel: steps end before doStep returns. The one call that a host may make from another thread while a
+ * step is running: it reads the log's settings alone, and leaves the instance as it is. */
 fmi2Status fmi2CancelStep(fmi2Component c)
 {
     Instance *it = c;
     Text text = {0};
-    if (!call_allowed(it, CALL_CANCEL_STEP)) return call_refused(it, CALL_CANCEL_STEP);
-    text_add(&text, "cancelStep: no step is running, as doStep returns only when its step has ended", NULL);
-    return instance_fail(it, &text);
+    if (!it) return fmi2Error;
+    text_add(&text, "cancelStep: a step cannot be cancelled: doStep returns only when its step has ended", NULL);
+    return instance_refuse(it, fmi2Error, &text);
 }
 
 /* Say that a status is not to be had. */

@@ -394,10 +394,14 @@ def _lift_off(point: OperatingPoint) -> Iterator[Verdict]:
     )  # fmt: skip
 
 
+#: What `LOOSE` says at length among the cautions.
+_LOOSE = "not judged while loads across the axis leave balls loose"
+
+
 def _whirl(point: OperatingPoint) -> Verdict:
     label, source = "whirl of the ring, 1/s", "the linearised equations: no mode of the rings grows"
     if not point.steady:
-        return unjudged("whirl", label, LOOSE if LOOSE in point.remarks else UNSTEADY)
+        return unjudged("whirl", label, _LOOSE if LOOSE in point.remarks else UNSTEADY)
     if point.whirl is None:
         return Verdict("whirl", label, None, "none", "none", source, "good")
     frequency, growth = point.whirl

@@ -147,7 +147,8 @@ def test_verdicts_are_read_at_390_pixels_without_scrolling(shown):
         assert all(upper[3] <= lower[2] + 0.5 for upper, lower in zip(cells, cells[1:], strict=False))
         # every table is as wide as its frame but long ones, which scroll
         tables = shown.eval_on_selector_all(
-            "table", "nodes => nodes.map(t => { const d = t.closest('details'); const was = d?.open; if (d) d.open = true; "
+            "table", "nodes => nodes.map(t => { const d = t.closest('details'); const was = d?.open; "
+            "if (d) d.open = true; "
             "const found = [t.caption.innerText, t.scrollWidth - t.closest('.scroll').clientWidth]; "
             "if (d) d.open = was; return found; })",
         )  # fmt: skip

@@ -10,10 +10,10 @@ UNSTEADY = (
     "no steady state was found: balls drift from the state that these numbers hold for, in which a run "
     "starts; give more preload or less speed"
 )
-#: The same where loads across the axis leave balls loose: no preload is missing in a deep groove bearing.
+#: A note, no failure: under a load across its axis every deep groove bearing has loose balls.
 LOOSE = (
-    "no steady state was found: loads across the axis leave balls loose, which the cage carries; torque, "
-    "heat and orbit are sums over the balls as they rest under these loads, and growth is not judged"
+    "loads across the axis leave some balls loose, as usual under a radial load, and the cage carries them; "
+    "torque, heat and orbit are sums over the balls at rest under these loads, and growth is not judged"
 )
 _SOFT = (
     0.5e-3  # m: a seat gives way by some hundredths of a millimetre; ten times and more is a slip (chosen)
@@ -26,7 +26,7 @@ def unsteady(system: "Linearised") -> str:
 
 
 def remarks(system: "Linearised") -> Iterator[str]:
-    """Yield that no steady state was found, that the pedestal is soft."""
+    """Yield that the state is not steady, that the pedestal is soft."""
     if not system.steady:
         yield unsteady(system)
     moved, stiffness = system.on_pedestal

@@ -34,6 +34,11 @@ def test_rows_are_those_of_the_run_that_the_table_heads(subject):
     table = judged(subject).table
     assert table.rows == [[v.label, v.text, v.judgement, v.limit, v.source] for v in verdicts(point)]
     assert f"{rpm:,.0f} r/min" in table.caption
+    # the caption names all rows that differ from those of the perfect bearing
+    steady = {one.key: one.text for one in verdicts(point_of(subject))}
+    moved = {one.key for one in verdicts(point) if one.text != steady[one.key]}
+    assert moved <= {"pressure", "static_safety_pressure", "film", "shoulder"}
+    assert "static safety by ball loads" in table.caption
     for one in verdicts(point):
         assert one.advice[1:] in table.note
 

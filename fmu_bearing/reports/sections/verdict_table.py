@@ -47,8 +47,8 @@ def overall_of(every: Iterable[Verdict], several: bool = False) -> Overall:
 def judged(subject: Subject) -> Judged | None:
     """Return the verdicts on the run; None without scene or equilibrium.
 
-    Pressure, film and shoulder are judged by the run's extremes, all else at the scene's loads and the mean
-    speed.
+    Pressure, with the static safety by ball loads, film and shoulder are judged by the run's extremes, all
+    else at the scene's loads and the mean speed.
     """
     try:
         point, ran = _of_run(subject.point, subject)
@@ -91,8 +91,8 @@ def _of_run(point: OperatingPoint, subject: Subject) -> tuple[OperatingPoint, st
         if subject.has(f"{prefix}film.lambda_min"):
             film, kept = float(subject.output(f"{prefix}film.lambda_min").min()), True
         bearings.append(replace(bearing, contacts=contacts, film=film))
-    words = "pressure, film and shoulder at the run's extremes; all else of the " if kept else ""
-    return replace(point, bearings=tuple(bearings)), words
+    words = "pressure, static safety by ball loads, film and shoulder at the run's extremes; all else of the "
+    return replace(point, bearings=tuple(bearings)), words if kept else ""
 
 
 def _note(point: OperatingPoint, judgements: tuple[Verdict, ...]) -> str:

@@ -39,7 +39,7 @@ _APART = len(OTHERS) * len(DASHES)  # curves that colours and dashes tell apart;
 _ENDS = ("#0072B2", "#E69F00")
 _NAMED = 14  # names in a column of a legend
 _BESIDE, _SAMPLE = 75, 6  # letters beside axes of ten inches, and in place of the sample of a curve
-_NAMES_TO = 0.2  # of the height: the rows of those names, from the top
+NAMES_TO = 0.2  # of the height: the rows of those names, from the top
 _GAP = 2.0  # pixels between texts
 _HEIGHTS = 12  # that are tried for a label, each one line of text above the last
 
@@ -212,17 +212,23 @@ def free_heights(
     return heights
 
 
-def mark_excitation(ax: "Axes", end: float | None, place: float | None = None, whose: str = "") -> None:
+def mark_excitation(
+    ax: "Axes", end: float | None, place: float | None = None, whose: str = "", row: float | None = None
+) -> None:
     """Draw an upright line at the end of the excitation (Hz), where the axis reaches so far.
 
-    ``place``: on the axis, where that is not the frequency itself; ``whose``: said behind the words.
+    ``place``: on the axis, where that is not the frequency itself; ``whose``: said behind the words;
+    ``row``: height of level words, of that of the axis (default: upright ones at the top).
     """
     at = end if place is None else place
     if end is None or at is None or not ax.get_xlim()[0] < at < ax.get_xlim()[1]:
         return
     ax.axvline(at, color="0.35", linestyle="--", linewidth=1.0, gid="excitation-end")
     words = f"end of the excitation{whose}, {1e-3 * end:.3g} kHz "
-    ax.text(at, 0.98, words, rotation=90, fontsize=7, ha="right", va="top", color="0.35",
+    left, right = ax.get_xlim()
+    side = "right" if row is None or at > 0.5 * (left + right) else "left"
+    ax.text(at, row or 0.98, words if side == "right" else f" {words}", rotation=90 if row is None else 0,
+            fontsize=7, ha=side, va="top", color="0.35", gid="excitation-words",
             transform=ax.get_xaxis_transform(), bbox=BEHIND)  # fmt: skip
 
 
@@ -275,11 +281,19 @@ def name_lines(ax: "Axes", lines: Sequence[Line]) -> None:
     high = max(box.height for box in boxes) + _GAP
     inside = ax.get_window_extent()
     # the frequencies' names have their own rows on top
-    top = inside.y1 - (_NAMES_TO * inside.height if any(t.get_gid() == "mark" for t in ax.texts) else 0.0)
+    top = inside.y1 - (NAMES_TO * inside.height if any(t.get_gid() == "mark" for t in ax.texts) else 0.0)
     middles = [
         min(max(x, inside.x0 + 0.5 * box.width), inside.x1 - 0.5 * box.width)
         for (x, _), box in zip(peaks, boxes, strict=True)
     ]
+    # beside the words at the end of the excitation
+    for words in (text.get_window_extent() for text in ax.texts if text.get_gid() == "excitation-words"):
+        middles = [
+            x if abs(x - 0.5 * (words.x0 + words.x1)) >= 0.5 * (box.width + words.width) + _GAP
+            else words.x0 - 0.5 * box.width - _GAP if peak <= words.x1 or words.x1 + box.width > inside.x1
+            else words.x1 + 0.5 * box.width + _GAP
+            for x, (peak, _), box in zip(middles, peaks, boxes, strict=True)
+        ]  # fmt: skip
     curves = np.vstack(
         [ax.transData.transform(line.get_xydata()) for line in ax.lines if line.get_label()[:1] != "_"]  # type: ignore[index]
     )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fmu_bearing import pictures, simulate
+from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.acoustics.analysis.order import OrderMap, Waterfall
 from fmu_bearing.acoustics.analysis.spectrum import kinematic_frequencies, level_spectrum
 from fmu_bearing.acoustics.analysis.third_octave import centre_frequencies
@@ -132,3 +133,21 @@ def test_no_kinematic_line_is_named_beyond(example):
         found = strongest(made, frequency[part], levels[part], 6)
         names = [line.name for line in found]
         assert (set(names) == {BEYOND}) != named, names
+
+
+def test_axes_end_a_little_above_the_highest_level():
+    """Levels to 40 dB: an axis to 70 or 100 dB was empty by half. Words on the end lie above all bars."""
+    bands = centre_frequencies()
+    levels = np.full(len(bands), 40.0)
+    (axes,) = pictures.third_octave_picture(bands, {"total": levels}, excitation_end=1e4).axes
+    assert 40.0 < axes.get_ylim()[1] < 50.0
+    frequency = np.linspace(0.0, 20e3, 2001)
+    total = np.full(2001, -20.0)
+    total[1000] = 38.0  # at 10 kHz
+    line = Line(1e4, 38.0, "3 f_i")
+    (axes,) = pictures.spectrum_picture(frequency, {"total": total}, excitation_end=9.95e3, lines=[line]).axes
+    assert 38.0 + 12.0 <= axes.get_ylim()[1] < 60.0
+    (name,) = [text for text in axes.texts if text.get_gid() == "line-name"]
+    (words,) = [text for text in axes.texts if text.get_gid() == "excitation-words"]
+    axes.get_figure().draw_without_rendering()
+    assert not name.get_window_extent().overlaps(words.get_window_extent())

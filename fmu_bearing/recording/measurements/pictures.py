@@ -23,6 +23,7 @@ from fmu_bearing.results.defect_lines import DefectLine
 from fmu_bearing.results.levels import RANGE, mapped, radial_range, sounding
 from fmu_bearing.results.picture_parts import (
     COLOURS,
+    NAMES_TO,
     OTHERS,
     closed,
     coincident,
@@ -56,7 +57,7 @@ __all__ = [
 _ROOM = 34.0  # dB above the highest level for names of lines
 _NAME_ROOM = 0.035  # of an axis: what the name of a frequency takes
 _ABOVE = 10  # curves whose names have room above the axes
-_LETTER = 0.015  # of the height of third octaves: a letter of the words at the end of the excitation
+_ROW = 0.05  # of the height of third octaves: a row of words at the end of the excitation
 _HATCHES = ("", "///", "...", "xxx")  # of bars, where all colours are taken
 _HARMONICS = 3  # of each kinematic frequency that are marked
 
@@ -112,7 +113,29 @@ def spectrum_picture(
     if kinematics is not None:
         _mark(ax, kinematics, float(f[-1]))
     name_lines(ax, [line for line in lines if line.frequency <= f[-1]])
+    _lower(ax, top + 12.0)
     return figure
+
+
+def _lower(ax: "Axes", least: float) -> None:
+    """Lower the end of an axis to ``least``, or as far as curves and names of lines let it."""
+    low, high = ax.get_ylim()
+    inverse = ax.transData.inverted()
+    boxes = [(text.get_gid(), text.get_window_extent().transformed(inverse)) for text in ax.texts]
+    # names of frequencies have rows on top, and the end of the excitation its words, above what lies there
+    marked = max((box.x1 for kind, box in boxes if kind == "mark"), default=-math.inf)
+    rows = [(-math.inf, marked, NAMES_TO)] + [
+        (box.x0, box.x1, 0.02 + box.height / (high - low))
+        for kind, box in boxes
+        if kind == "excitation-words"
+    ]
+    names = [(box.x0, box.x1, box.y1) for kind, box in boxes if kind == "line-name"]
+    needed = [least, *(low + (y - low) / (1.0 - (NAMES_TO if x <= marked else 0.02)) for x, _, y in names)]
+    curves = np.vstack([line.get_xydata() for line in ax.lines if line.get_label()[:1] != "_"])  # type: ignore[index]
+    for first, last, share in rows:
+        there = curves[(curves[:, 0] >= first) & (curves[:, 0] <= last), 1]
+        needed.append(low + (float(np.nanmax(there, initial=low)) - low) / (1.0 - share))
+    ax.set_ylim(low, min(high, max(needed)))
 
 
 def sides_picture(
@@ -159,14 +182,11 @@ def third_octave_picture(
         ax.bar(bands + (k + 0.5) * width - 0.4, height, width, top - RANGE, color=style["color"],
                hatch=hatch, edgecolor="white", linewidth=0.0, label=_entry(name, values))  # fmt: skip
     ax.set_xlim(-0.6, len(bands) - 0.4)
-    for whose, end in _ends(excitation_end):
-        place = band_place(centres, end)
-        near = [float(np.asarray(values)[np.abs(bands - place) < 1.0].max(initial=0.0))
-                for values in levels.values()]  # fmt: skip
-        low, high = ax.get_ylim()
-        # no bar reaches the words, nor is longer than they let see
-        ax.set_ylim(low, max(high, low + (max(near) - low) / (1.0 - _LETTER * (32 + len(whose)))))
-        mark_excitation(ax, end, place, whose)
+    ends = list(_ends(excitation_end))
+    # words lie in rows above all bars
+    ax.set_ylim(top - RANGE, top - RANGE + RANGE / (1.0 - 0.02 - _ROW * max(1, len(ends))))
+    for row, (whose, end) in enumerate(ends):
+        mark_excitation(ax, end, band_place(centres, end), whose, 0.98 - _ROW * row)
     ax.set_xticks(bands[::3], [f"{nominal_frequency(f):g}" for f in np.asarray(centres)[::3]])
     label(ax, "third-octave band, Hz", "level, dB re 20 uPa", title)
     ax.legend(frameon=False)
@@ -298,7 +318,6 @@ def _styles(names: Mapping[str, object]) -> dict[str, dict[str, Any]]:
 
 def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: str = "black") -> None:
     """Upright lines at the kinematic frequencies and their harmonics, named on top."""
-    low, high = ax.get_ylim()
     left, right = ax.get_xlim()
     for k, (name, base) in enumerate(zip(kinematics._fields, kinematics, strict=True)):
         last = -math.inf
@@ -311,10 +330,20 @@ def _mark(ax: "Axes", kinematics: KinematicFrequencies, highest: float, colour: 
             if n * base - last < _NAME_ROOM * (right - left):
                 continue
             last = n * base
-            height = high - (high - low) * (0.02 + 0.035 * k)
+            height = 0.98 - 0.035 * k
             room = 0.5 * _NAME_ROOM * (right - left)
             side = "left" if n * base < left + room else "right" if n * base > right - room else "center"
-            ax.text(n * base, height, words, fontsize=7, ha=side, va="top", color=colour, gid="mark")
+            ax.text(
+                n * base,
+                height,
+                words,
+                fontsize=7,
+                ha=side,
+                va="top",
+                color=colour,
+                gid="mark",
+                transform=ax.get_xaxis_transform(),
+            )
 
 
 def _mark_defects(ax: "Axes", defects: Sequence[DefectLine], highest: float) -> None:

@@ -13,7 +13,8 @@ from fmu_bearing.recording.record import Recording, record
 from fmu_bearing.reports import make, report
 from fmu_bearing.reports.data.observed_run import observed
 from fmu_bearing.reports.data.subject import Subject
-from fmu_bearing.reports.page.render import POLICY, _code
+from fmu_bearing.reports.page.blocks import Section, Table
+from fmu_bearing.reports.page.render import POLICY, _code, render
 from fmu_bearing.scene.read import with_fidelity
 from tests.conftest import GATES
 from tests.reports.reading import Page
@@ -225,3 +226,14 @@ def test_errors_name_the_way_out(rings, tmp_path, monkeypatch):
     with pytest.raises(MissingExtra, match=r"fmu-bearing\[report\]"):
         make(rings, page)
     assert not page.exists()
+
+
+def test_print_has_the_first_rows_of_a_long_table():
+    """Crossings took 8 of 34 pages: 20 rows are printed, and how many more there are is said."""
+    rows = [[str(k), "a"] for k in range(75)]
+    page = render("a", "b", "c", [Section("s", "S", [Table("long", ["k", "v"], rows)])], [], [], [])
+    assert page.count('<tr class="more">') == 55 and "55 more rows are on screen" in page
+    printed = page[page.index("@media print") :]
+    assert ".more { display: none; }" in printed and ".printed { display: block; }" in printed
+    short = render("a", "b", "c", [Section("s", "S", [Table("short", ["k", "v"], rows[:60])])], [], [], [])
+    assert 'class="more"' not in short and "on screen" not in short

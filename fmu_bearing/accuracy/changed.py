@@ -118,7 +118,8 @@ class Change(Result):
         if figure != "level":
             return size >= math.log1p(LEAST)
         low, high = self.level_range
-        return size >= LEAST_DB and low * high > 0.0
+        # what is printed as 0.1 dB counts as such, in either direction
+        return size >= 0.5 * LEAST_DB and low * high > 0.0
 
     @property
     def depends_on_seed(self) -> bool:
@@ -269,7 +270,9 @@ class Changes(Result):
     def unchanged(self) -> str:
         """Return the figures of the unchanged scene, in words."""
         b = self.before
-        figures = [f"{self.basis.level:.1f} dB(A)"] if "level" in self.figures else []
+        # the level of a run of fidelity full, printed elsewhere, is another one
+        by = f" by fidelity {self.basis.fidelity}" if self.basis.fidelity else ""
+        figures = [f"{self.basis.level:.1f} dB(A){by}"] if "level" in self.figures else []
         figures += [f"L10r {shown_hours(b.life)}"] if "life" in self.figures else []
         figures += [f"torque {b.torque:.3g} N mm"] if "torque" in self.figures else []
         return ", ".join([*figures, f"{self.stiff} {b.stiffness:.3g} N/um"])

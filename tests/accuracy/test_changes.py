@@ -182,6 +182,8 @@ def test_a_sign_that_depends_on_the_seed_is_no_finding():
     assert not one_change([-3.0, 1.0]).acts("level") and one_change([-3.0, 1.0]).depends_on_seed
     assert not one_change([-3.0, -1.0]).depends_on_seed and not one_change([-0.01, 0.01]).depends_on_seed
     assert not one_change([-0.05, -0.04]).acts("level")  # nobody hears it
+    # printed as -0.1, as one that counts
+    assert one_change([-0.09, -0.07]).acts("level")
     assert one_change([], life=2.0).gain("life") == pytest.approx(math.log(2.0))
     assert one_change([], torque=2.0).gain("torque") == pytest.approx(-math.log(2.0))
     assert not one_change([], life=1.005).acts("life")

@@ -152,3 +152,8 @@ def test_a_recording_whose_speed_changes_has_none(rings):
     rising = rings.speed_points * np.linspace(1.0, 1.2, rings.speed_points.size)
     with pytest.raises(Absent, match="speed changes"):
         section(Subject(dataclasses.replace(rings, speed_points=rising), "compact"), silent)
+
+
+def test_the_opening_says_whose_level_it_is(found):
+    """A run of full prints another level of the same scene."""
+    assert f"{found.basis.level:.1f} dB(A) by fidelity {found.basis.fidelity}" in found.unchanged()

@@ -96,7 +96,7 @@ def _mounted(scene: Scene) -> list[list[str]]:
     return [
         ["preload", f"{m.preload_N:g} N along the axis, by "
         f"{'a constant force' if m.preload_mode == 'force' else 'rigid distance'}"],
-        ["radial load on the inner ring", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
+        ["radial load on the inner ring, given", f"y {m.radial_load_y_N:g} N, z {m.radial_load_z_N:g} N"],
         ["misalignment", f"about y {m.misalignment_y_mrad:g} mrad, about z {m.misalignment_z_mrad:g} mrad"],
         ["pedestal stiffness", f"{1e-6 * m.pedestal_stiffness_N_m:.4g} N/um"],
     ]  # fmt: skip
@@ -167,7 +167,8 @@ def _kinematics(subject: Subject) -> Table:
                 turned = subject.mean(f"{prefix}cage.speed_ratio")
                 slip = 100.0 * (turned * one.f_r / one.f_c - 1.0)
                 note += f" The cage{words and f' of {words}'} turned at {turned:.5f} of the shaft's speed, "
-                note += f"{slip:+.2f} % from the balls."
+                # without the sign of a zero
+                note += f"{round(slip, 2) + 0.0:+.2f} % from the balls."
     return Table("Kinematic frequencies", ["", "also called", "counts", *columns, "order"], rows, note=note)
 
 

@@ -103,7 +103,7 @@ def _figures(subject: Subject, number: int) -> list[Figure]:
         ("pressure_GPa", "largest contact pressure", "GPa", ".3g", lambda: 1e-9 * max(map(largest, RACES))),
         ("lambda", "thinnest film / roughness", "", ".3g", lambda: float(subject.output(film).min())),
         ("axial_N", "axial load", "N", ".1f", lambda: subject.point.bearings[number].axial),
-        ("radial_N", "radial load", "N", ".1f", lambda: subject.point.bearings[number].radial),
+        ("radial_N", "radial load, with weight", "N", ".1f", lambda: subject.point.bearings[number].radial),
         ("preload_at_speed_N", "preload at speed, without load", "N", ".1f", preload),
         ("axial_stiffness", "axial stiffness", "N/um", ".1f", lambda: stiffness(0)),
         ("radial_stiffness", "radial stiffness", "N/um", ".1f", lambda: 0.5 * (stiffness(1) + stiffness(2))),

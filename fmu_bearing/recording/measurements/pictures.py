@@ -131,7 +131,8 @@ def _lower(ax: "Axes", least: float) -> None:
     ]
     names = [(box.x0, box.x1, box.y1) for kind, box in boxes if kind == "line-name"]
     needed = [least, *(low + (y - low) / (1.0 - (NAMES_TO if x <= marked else 0.02)) for x, _, y in names)]
-    curves = np.vstack([line.get_xydata() for line in ax.lines if line.get_label()[:1] != "_"])  # type: ignore[index]
+    drawn = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
+    curves = np.vstack([np.asarray(line.get_xydata(), dtype=float) for line in drawn])
     for first, last, share in rows:
         there = curves[(curves[:, 0] >= first) & (curves[:, 0] <= last), 1]
         needed.append(low + (float(np.nanmax(there, initial=low)) - low) / (1.0 - share))

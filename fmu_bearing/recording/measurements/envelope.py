@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fmu_bearing.acoustics.analysis.lines import Line
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
-from fmu_bearing.recording.channels.recorded_signals import RecordedSignal, recorded_signal
+from fmu_bearing.recording.channels.recorded_signals import recorded_signal
 from fmu_bearing.recording.measurements.envelope_lines import FAR, EnvelopeLine, lines_of, turning_of
 from fmu_bearing.recording.measurements.kurtogram import Kurtogram, checked, kilohertz, kurtogram
 from fmu_bearing.results.base import Quantity, Result

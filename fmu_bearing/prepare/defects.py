@@ -17,7 +17,7 @@ from fmu_bearing.files import cache_root, read_arrays, whole
 from fmu_bearing.prepare.defect_contact import CELLS, BallOverDefect
 from fmu_bearing.prepare.defect_shapes import Shape
 from fmu_bearing.progress import work
-from fmu_bearing.threads import cores
+from fmu_bearing.threads import cores, one_thread
 
 Real = NDArray[np.float64]
 
@@ -141,6 +141,7 @@ def _save(path: pathlib.Path, table: Table) -> None:
         np.savez(file, **table._asdict())
 
 
+@one_thread  # its places are computed side by side
 def computed(
     shape: Shape, radius_x: float, radius_y: float, modulus: float, *,
     approaches: int = APPROACHES, places: int = PLACES, tolerance: float = TOLERANCE,

@@ -13,7 +13,6 @@ from benchmarks.cases import CASES, GATES, QUICK, SOLVERS, Case
 from benchmarks.first_order import FirstOrder
 from benchmarks.fmu import calls, whole
 from benchmarks.table import COLUMNS, Row, fill_ratios
-from fmu_bearing.accuracy.reference import Reference
 from fmu_bearing.arrays import Arrays
 from fmu_bearing.results import table
 
@@ -29,7 +28,7 @@ def machine() -> str:
 
 
 def peer_rows(
-    case: Case, start: Arrays, exact: Reference, window: float, seconds: float, repeats: int
+    case: Case, start: Arrays, exact: ours.Reference, window: float, seconds: float, repeats: int
 ) -> list[Row]:
     """Rows of the peers in one case."""
     rows = []

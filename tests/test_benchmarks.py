@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import importlib
 import math
 
 import numpy as np
@@ -73,6 +74,15 @@ def test_every_table_of_the_benchmark_can_be_made():
         (commands.COLUMNS, list(commands.rows(("info S.toml",)))),
     ):
         assert rows and all(len(row) == len(columns) for row in rows)
+
+
+def test_every_table_s_command_is_there():
+    """A module that imports what is no longer there would fail when the tables are made, an hour later."""
+    for arguments in tables.COMMANDS.values():
+        if arguments[0] == "-m":
+            assert arguments[1] == "fmu_bearing" or importlib.import_module(arguments[1])
+        else:
+            assert (tables.ROOT / arguments[0]).is_file()
 
 
 def test_every_command_has_its_time():

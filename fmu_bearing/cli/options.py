@@ -70,7 +70,7 @@ Settings = Annotated[
         metavar="KEY=VALUE",
         help="Key of the scene (mounting.preload_N=300) or input of the model, in SI units or with a unit "
         "(preload=300, oil_temperature_degC=50), speeds in r/min (shaft_speed_rpm=9000); "
-        "a list as in the file, in single quotes: 'KEY=[\"A\",\"B\"]'; once per key.",
+        'a list as in the file, in single quotes: \'KEY=["A","B"]\'; once per key.',
     ),
 ]
 Fidelity = Annotated[

@@ -17,7 +17,7 @@ from fmu_bearing.acoustics.analysis.directivity import (
     directivity,
     plane_points,
 )
-from fmu_bearing.acoustics.analysis.lines import kinematic_lines, strongest_lines, told_apart
+from fmu_bearing.acoustics.analysis.lines import kinematic_lines, separable, strongest_lines
 from fmu_bearing.acoustics.analysis.order import on_angle, order_map, order_spectrum, waterfall
 from fmu_bearing.acoustics.analysis.power import (
     dipoles,
@@ -159,7 +159,7 @@ def test_multiples_have_names_to_the_end_of_the_band_and_come_before_sums():
     # a slow shaft has a multiple of f_o every 7 Hz: those of high order would fit anything within 4 Hz
     slow = KinematicFrequencies(2.0, 0.8, 4.7, 10.8, 7.2)
     high = [line for line in kinematic_lines(slow, 20_000.0) if line.frequency > 250.0]
-    assert high and not told_apart(high, 3.75) and told_apart(high, 0.1)
+    assert high and not separable(high, 3.75) and separable(high, 0.1)
 
 
 def run_up(seconds=2.0):

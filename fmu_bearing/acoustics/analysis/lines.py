@@ -161,7 +161,7 @@ def explain(
     return best, len(near)
 
 
-def told_apart(lines: Sequence[KinematicLine], within: float) -> list[KinematicLine]:
+def separable(lines: Sequence[KinematicLine], within: float) -> list[KinematicLine]:
     """Return the lines but those of high orders that are too close to mean anything ``within`` some Hz."""
     return [line for line in lines if line.apart >= _ALONE * within]
 
@@ -221,7 +221,7 @@ def strongest_lines(
 
 def _explained(line: Line, kinematic: Sequence[KinematicLine], within: float) -> Line:
     """Return a line with what explains it ``within`` some Hz, else with what is nearest."""
-    kinematic = told_apart(kinematic, within)
+    kinematic = separable(kinematic, within)
     best, fits = explain(line.frequency, kinematic, within)
     if best is not None:
         off = line.frequency - best.frequency

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line, told_apart, tolerance
+from fmu_bearing.acoustics.analysis.lines import KinematicLine, Line, nearest_line, separable, tolerance
 from fmu_bearing.acoustics.analysis.third_octave import EDGE, nominal_frequency
 from fmu_bearing.recording.channels.channel_history import ChannelHistory
 from fmu_bearing.recording.measurements.measure import known_lines, strongest
@@ -149,7 +149,7 @@ def noise_at(recording: ChannelHistory, analysis: SoundAnalysis, frequency: floa
         about = frequency if line is None else line.frequency
         known = known_lines(recording, float(analysis.frequency[-1]))
         within = tolerance(about, float(analysis.frequency[1]))
-        nearest = nearest_line(about, told_apart(known, within))
+        nearest = nearest_line(about, separable(known, within))
     return NoiseAt(
         frequency, nominal_frequency(centre), analysis.names, levels, line, nearest,
         recording.excitation_end, most,
